@@ -1,1 +1,94 @@
-//! Runtime.
+//! Symplectic integrators for Hamilton's equations
+//!
+//! ```text
+//! q' = ∂H/∂p(t, q, p)      p' = −∂H/∂q(t, q, p)
+//! ```
+//!
+//! The methods are symplectic partitioned Runge–Kutta methods that a macro derives, proves and emits as Rust
+//! types; this crate is what steps them. With step size `h` and stages `i = 1..s`:
+//!
+//! ```text
+//! Q_i = q0 + h Σ_j a_ij velocity_j      q1 = q0 + h Σ_i b_i velocity_i
+//! P_i = p0 + h Σ_j ã_ij force_j         p1 = p0 + h Σ_i b_i force_i
+//! ```
+//!
+//! | What | Where |
+//! |---|---|
+//! | The system: a trait, or two closures | [`Hamiltonian`], [`SeparableHamiltonian`], [`separable`], [`hamiltonian`] |
+//! | What it computes with | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors) |
+//! | Running it | [`State`], [`Integrator`], [`Error`] |
+//! | The method, as the macro emits it | [`Method`], [`Plan`], [`Stages`], [`combine`], [`relax`] |
+//!
+//! A [`Separable`] system with an [`Explicit`] plan is straight-line code with no solver in it; anything else
+//! goes through the fixed-point iteration of [`Coupled`]. The types of the system and of the method decide
+//! which, not a test at run time.
+//!
+//! ```
+//! # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/common/methods.rs"));
+//! use symplectic::nalgebra::Vector1;
+//! use symplectic::{Error, Integrator, State, separable};
+//!
+//! # fn main() -> Result<(), Error> {
+//! // The pendulum, H = p²/2 − cos q.
+//! let pendulum = separable::<Vector1<f64>, _, _>(
+//!     |_time, p, velocity| velocity[0] = p[0],
+//!     |_time, q, force| force[0] = -q[0].sin(),
+//! )
+//! .with_energy(|_time, q, p| p[0] * p[0] / 2.0 - q[0].cos());
+//!
+//! let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+//! let mut integrator = Integrator::new(StoermerVerlet, pendulum, start, 0.01)?;
+//! let before = integrator.energy().expect("the system has an energy");
+//! integrator.integrate_to(100.0)?;
+//! let after = integrator.energy().expect("the system has an energy");
+//! assert_eq!(integrator.state().time, 100.0);
+//! assert!((after - before).abs() < 1e-5);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Features
+//!
+//! * `std` (default): elementary functions from the standard library; implies `alloc`.
+//! * `alloc`: dynamic vectors, [`nalgebra::DVector`].
+//! * neither: `no_std` without an allocator; static vectors, elementary functions from `libm`.
+
+#![no_std]
+
+// Generated code names everything `::symplectic::…`; with this it compiles inside the crate too.
+extern crate self as symplectic;
+
+mod change;
+mod class;
+mod closures;
+mod coupling;
+mod error;
+mod hamiltonian;
+mod integrator;
+mod kernel;
+mod method;
+mod scalar;
+mod stage;
+mod state;
+mod states;
+mod step;
+mod time;
+mod vector;
+
+pub use change::{Change, PartChange};
+pub use class::{Class, General, Separable};
+pub use closures::{HamiltonianClosures, NoEnergy, SeparableClosures, hamiltonian, separable};
+pub use coupling::{Coupled, Coupling, Explicit, Failure};
+pub use error::{Error, Quantity};
+pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
+pub use integrator::Integrator;
+pub use kernel::{combine, relax};
+pub use method::{Method, Plan};
+pub use nalgebra;
+pub use scalar::Scalar;
+pub use stage::{StageStorage, Stages};
+pub use state::State;
+pub use states::States;
+pub use step::Step;
+// pub use symplectic_macros::tableau;
+pub use vector::Vector;

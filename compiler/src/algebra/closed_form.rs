@@ -1,0 +1,293 @@
+//! Short exact forms of coefficients: rationals and `p + q√d`.
+
+use std::cmp::Ordering;
+use std::fmt;
+
+use num_bigint::BigInt;
+use num_integer::Roots;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::tensor::magnitude_bits;
+use super::{NodeAlgebra, Number, Tensor};
+use crate::arithmetic::interval::Interval;
+use crate::arithmetic::polynomial::Polynomial;
+use crate::arithmetic::rational::{ratio, simplest_between};
+
+/// The number `rational + factor·√radicand`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ClosedForm {
+    rational: BigRational,
+    factor: BigRational,
+    /// No perfect square; 1 where `factor` is zero.
+    radicand: BigInt,
+}
+
+/// Candidates with longer numerators or denominators than this are not called short.
+const SHORT_BITS: u64 = 64;
+
+impl ClosedForm {
+    /// A rational number.
+    pub fn rational(value: BigRational) -> Self {
+        ClosedForm {
+            rational: value,
+            factor: BigRational::zero(),
+            radicand: BigInt::one(),
+        }
+    }
+
+    /// `rational ± √square` for a positive `square`.
+    fn surd(rational: BigRational, square: &BigRational, sign: Ordering) -> Self {
+        // √(n/d) = √(n·d)/d, and square factors leave the root.
+        let mut radicand = square.numer() * square.denom();
+        let mut factor = BigRational::new(BigInt::one(), square.denom().clone());
+        let root = radicand.sqrt();
+        if &root * &root == radicand {
+            let value = factor * BigRational::from_integer(root);
+            let value = if sign == Ordering::Less {
+                -value
+            } else {
+                value
+            };
+            return ClosedForm::rational(rational + value);
+        }
+        for prime in 2u32..2000 {
+            let square = BigInt::from(prime * prime);
+            while (&radicand % &square).is_zero() {
+                radicand /= &square;
+                factor *= BigRational::from_integer(prime.into());
+            }
+        }
+        ClosedForm {
+            rational,
+            factor: if sign == Ordering::Less {
+                -factor
+            } else {
+                factor
+            },
+            radicand,
+        }
+    }
+
+    /// The value, if it is rational.
+    pub fn as_rational(&self) -> Option<&BigRational> {
+        self.factor.is_zero().then_some(&self.rational)
+    }
+
+    /// The radicand of two numbers in one quadratic field.
+    fn common_radicand(&self, other: &Self) -> Option<BigInt> {
+        if self.factor.is_zero() {
+            Some(other.radicand.clone())
+        } else if other.factor.is_zero() || self.radicand == other.radicand {
+            Some(self.radicand.clone())
+        } else {
+            None
+        }
+    }
+
+    fn new(rational: BigRational, factor: BigRational, radicand: BigInt) -> Self {
+        if factor.is_zero() {
+            ClosedForm::rational(rational)
+        } else {
+            ClosedForm {
+                rational,
+                factor,
+                radicand,
+            }
+        }
+    }
+
+    fn add(&self, other: &Self) -> Option<Self> {
+        let radicand = self.common_radicand(other)?;
+        Some(ClosedForm::new(
+            &self.rational + &other.rational,
+            &self.factor + &other.factor,
+            radicand,
+        ))
+    }
+
+    fn multiply(&self, other: &Self) -> Option<Self> {
+        let radicand = self.common_radicand(other)?;
+        let square = BigRational::from_integer(radicand.clone());
+        let rational = &self.rational * &other.rational + &self.factor * &other.factor * square;
+        let factor = &self.rational * &other.factor + &self.factor * &other.rational;
+        Some(ClosedForm::new(rational, factor, radicand))
+    }
+
+    /// The value of a polynomial at this number.
+    fn evaluate(&self, polynomial: &Polynomial) -> Option<Self> {
+        let zero = ClosedForm::rational(BigRational::zero());
+        let mut coefficients = polynomial.coefficients().into_iter().rev();
+        coefficients.try_fold(zero, |value, c| {
+            value.multiply(self)?.add(&ClosedForm::rational(c))
+        })
+    }
+}
+
+impl fmt::Display for ClosedForm {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.factor.is_zero() {
+            return write!(f, "{}", self.rational);
+        }
+        match (self.rational.is_zero(), self.factor.is_negative()) {
+            (true, true) => f.write_str("-")?,
+            (true, false) => {}
+            (false, negative) => {
+                write!(f, "{} {} ", self.rational, if negative { '-' } else { '+' })?
+            }
+        }
+        let (numerator, denominator) = (self.factor.numer().abs(), self.factor.denom());
+        if !numerator.is_one() {
+            write!(f, "{numerator}*")?;
+        }
+        write!(f, "sqrt({})", self.radicand)?;
+        if denominator.is_one() {
+            Ok(())
+        } else {
+            write!(f, "/{denominator}")
+        }
+    }
+}
+
+/// Short exact forms of the values of an element at all nodes, where there are any.
+pub fn of_element(algebra: &NodeAlgebra, element: &Polynomial) -> Vec<Option<ClosedForm>> {
+    let values = algebra.enclose(element, 4 * SHORT_BITS as u32 + 2 * magnitude_bits(element));
+    (0..algebra.dimension())
+        .map(|node| search(algebra, element, &values, node))
+        .collect()
+}
+
+/// Looks for a rational value or a quadratic equation of a value; what is found is proved.
+fn search(
+    algebra: &NodeAlgebra,
+    element: &Polynomial,
+    values: &[Interval],
+    node: usize,
+) -> Option<ClosedForm> {
+    if let Some(rational) = algebra.roots()[node].rational() {
+        return Some(ClosedForm::rational(element.evaluate(rational)));
+    }
+    let vanishes = |f: Polynomial| Number::at(algebra, algebra.reduce(&f), node).is_zero();
+    let value = &values[node];
+    if let Some(candidate) = short_rational(value)
+        && vanishes(element - &Polynomial::constant(candidate.clone()))
+    {
+        return Some(ClosedForm::rational(candidate));
+    }
+    // The conjugate of a quadratic number is the value at another node.
+    values
+        .iter()
+        .enumerate()
+        .filter(|(k, _)| *k != node)
+        .find_map(|(_, other)| {
+            let sum = short_rational(&value.add(other))?;
+            let product = short_rational(&value.multiply(other))?;
+            let discriminant = &sum * &sum - &product * ratio(4, 1);
+            let square = &(element * element) - &element.scale(&sum);
+            if !discriminant.is_positive() || !vanishes(&square + &Polynomial::constant(product)) {
+                return None;
+            }
+            let sign = crate::arithmetic::roots::compare(value, other)?;
+            Some(ClosedForm::surd(
+                sum / ratio(2, 1),
+                &(discriminant / ratio(4, 1)),
+                sign,
+            ))
+        })
+}
+
+/// The simplest rational in an interval, if it is short.
+fn short_rational(interval: &Interval) -> Option<BigRational> {
+    let candidate = simplest_between(&interval.low(), &interval.high());
+    let short = candidate.numer().bits() <= SHORT_BITS && candidate.denom().bits() <= SHORT_BITS;
+    short.then_some(candidate)
+}
+
+/// Short exact forms of the entries of a matrix, where there are any.
+///
+/// Found where both nodes lie in one quadratic field, on the diagonal, and where the nodes are mirror
+/// images, `c_i + c_j = 1`.
+pub fn of_tensor(algebra: &NodeAlgebra, tensor: &Tensor) -> Vec<Vec<Option<ClosedForm>>> {
+    let size = algebra.dimension();
+    let nodes = of_element(algebra, &algebra.variable());
+    let diagonal = of_element(algebra, &tensor.on_graph(algebra, &algebra.variable()));
+    let reflection = Polynomial::from_integers(&[1, -1]);
+    let mirrored = algebra.modulus().compose(&reflection).primitive() == *algebra.modulus();
+    let antidiagonal = if mirrored {
+        of_element(
+            algebra,
+            &tensor.on_graph(algebra, &algebra.reduce(&reflection)),
+        )
+    } else {
+        vec![None; size]
+    };
+    (0..size)
+        .map(|row| {
+            // The row as a polynomial in y over the field of its node.
+            let coefficients: Option<Vec<ClosedForm>> = nodes[row]
+                .as_ref()
+                .and_then(|x| tensor.columns().iter().map(|c| x.evaluate(c)).collect());
+            (0..size)
+                .map(|column| match (&coefficients, &nodes[column]) {
+                    _ if row == column && diagonal[row].is_some() => diagonal[row].clone(),
+                    _ if row + column + 1 == size && antidiagonal[row].is_some() => {
+                        antidiagonal[row].clone()
+                    }
+                    (Some(coefficients), Some(y)) => {
+                        let zero = ClosedForm::rational(BigRational::zero());
+                        coefficients
+                            .iter()
+                            .rev()
+                            .try_fold(zero, |value, c| value.multiply(y)?.add(c))
+                    }
+                    _ => None,
+                })
+                .collect()
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(forms: Vec<Option<ClosedForm>>) -> Vec<String> {
+        forms
+            .into_iter()
+            .map(|f| f.map_or("-".to_owned(), |f| f.to_string()))
+            .collect()
+    }
+
+    #[test]
+    fn quadratic_nodes_and_their_functions_are_recognised() {
+        let m = &Polynomial::from_integers(&[1, -6, 6]) * &Polynomial::from_integers(&[-1, 2]);
+        let k = NodeAlgebra::new(&m).expect("nodes");
+        assert_eq!(
+            shown(of_element(&k, &k.variable())),
+            ["1/2 - sqrt(3)/6", "1/2", "1/2 + sqrt(3)/6"]
+        );
+        let f = Polynomial::from_integers(&[0, -12]);
+        assert_eq!(
+            shown(of_element(&k, &f)),
+            ["-6 + 2*sqrt(3)", "-6", "-6 - 2*sqrt(3)"]
+        );
+        let centred = Polynomial::from_integers(&[-1, 2]);
+        assert_eq!(
+            shown(of_element(&k, &centred)),
+            ["-sqrt(3)/3", "0", "sqrt(3)/3"]
+        );
+    }
+
+    #[test]
+    fn values_of_higher_degree_have_no_short_form_but_their_quadratic_functions_do() {
+        // Gauss(4): z² = (3 ± 2√(6/5))/28 with z = x − 1/2.
+        let m = Polynomial::from_integers(&[1, -20, 90, -140, 70]);
+        let k = NodeAlgebra::new(&m).expect("nodes");
+        assert_eq!(shown(of_element(&k, &k.variable())), ["-"; 4]);
+        let z2 = Polynomial::from_rationals(&[ratio(1, 4), ratio(-1, 1), ratio(1, 1)]);
+        let forms = shown(of_element(&k, &z2));
+        assert_eq!(forms[0], "3/28 + sqrt(30)/70");
+        assert_eq!(forms[1], "3/28 - sqrt(30)/70");
+        assert_eq!(forms[0], forms[3]);
+    }
+}

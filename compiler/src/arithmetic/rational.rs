@@ -1,0 +1,107 @@
+//! Rational numbers as text, and the simplest rational in an interval.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+/// The rational `numerator/denominator`. The denominator must not be zero.
+pub fn ratio(numerator: i64, denominator: i64) -> BigRational {
+    BigRational::new(numerator.into(), denominator.into())
+}
+
+/// Reads `3`, `-3/4`: the form in which rationals are written in files.
+///
+/// Returns `None` for anything else, a zero denominator included.
+pub fn parse(text: &str) -> Option<BigRational> {
+    let integer = |digits: &str, signed: bool| -> Option<BigInt> {
+        let bare = if signed {
+            digits.strip_prefix('-').unwrap_or(digits)
+        } else {
+            digits
+        };
+        let plain = !bare.is_empty() && bare.bytes().all(|b| b.is_ascii_digit());
+        plain.then(|| digits.parse().ok()).flatten()
+    };
+    match text.split_once('/') {
+        None => integer(text, true).map(BigRational::from_integer),
+        Some((numerator, denominator)) => {
+            let denominator = integer(denominator, false)?;
+            if denominator.is_zero() {
+                return None;
+            }
+            Some(BigRational::new(integer(numerator, true)?, denominator))
+        }
+    }
+}
+
+/// The rational with the smallest denominator in the closed interval `[low, high]` (Stern–Brocot).
+pub fn simplest_between(low: &BigRational, high: &BigRational) -> BigRational {
+    debug_assert!(low <= high);
+    if !low.is_positive() && !high.is_negative() {
+        return BigRational::zero();
+    }
+    if high.is_negative() {
+        return -simplest_between(&-high, &-low);
+    }
+    // Continued fractions of both ends agree up to the term where the simplest fraction leaves them.
+    let (mut low, mut high) = (low.clone(), high.clone());
+    let (mut p0, mut q0, mut p1, mut q1) =
+        (BigInt::zero(), BigInt::one(), BigInt::one(), BigInt::zero());
+    loop {
+        let floor = low.numer().div_floor(low.denom());
+        let whole = BigRational::from_integer(floor.clone());
+        let term = if low == whole {
+            floor.clone()
+        } else if BigRational::from_integer(&floor + 1u32) <= high {
+            &floor + 1u32
+        } else {
+            let (p, q) = (&floor * &p1 + &p0, &floor * &q1 + &q0);
+            (p0, q0, p1, q1) = (p1, q1, p, q);
+            let next_low = (high - &whole).recip();
+            high = (low - whole).recip();
+            low = next_low;
+            continue;
+        };
+        return BigRational::new(&term * &p1 + p0, term * q1 + q0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_what_it_writes_and_nothing_else() {
+        for text in ["0", "-3/4", "17", "1000000000000000000000000000000/7"] {
+            assert_eq!(parse(text).expect(text).to_string(), text);
+        }
+        for text in [
+            "", "-", "1/0", "1/-2", "+1", "1/2/3", "0.5", " 1", "1/", "/2", "--1",
+        ] {
+            assert_eq!(parse(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn the_simplest_rational_has_the_smallest_denominator() {
+        for (low, high) in [
+            ((1, 3), (1, 2)),
+            ((314, 100), (315, 100)),
+            ((-5, 7), (-9, 13)),
+            ((2, 7), (2, 7)),
+            ((-1, 5), (1, 9)),
+        ] {
+            let (low, high) = (ratio(low.0, low.1), ratio(high.0, high.1));
+            let found = simplest_between(&low, &high);
+            assert!(low <= found && found <= high);
+            let smaller = (1..)
+                .take_while(|q| BigInt::from(*q) < *found.denom())
+                .any(|q: i64| {
+                    let p = (&low * BigRational::from_integer(q.into())).ceil();
+                    p <= &high * BigRational::from_integer(q.into())
+                });
+            assert!(!smaller, "{found} is not the simplest in [{low}, {high}]");
+        }
+    }
+}

@@ -1,0 +1,357 @@
+//! Real roots of rational polynomials: isolation by Sturm sequences, certified refinement.
+
+use std::cmp::Ordering;
+
+use num_bigint::{BigInt, Sign};
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::interval::Interval;
+use super::polynomial::Polynomial;
+use super::rational::simplest_between;
+
+/// A real root of a squarefree polynomial, exactly.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Root {
+    /// A rational root.
+    Rational(BigRational),
+    /// An irrational root: the only one in an interval, whose ends are not roots.
+    Irrational(Interval),
+}
+
+impl Root {
+    /// The root, if it is rational.
+    pub fn rational(&self) -> Option<&BigRational> {
+        match self {
+            Root::Rational(value) => Some(value),
+            Root::Irrational(_) => None,
+        }
+    }
+
+    /// Whether a divisor of the root's polynomial vanishes at this root.
+    ///
+    /// The divisor has no root in the isolating interval but possibly this one, which is simple:
+    /// it vanishes there iff it changes its sign.
+    pub fn is_root_of_divisor(&self, divisor: &Polynomial) -> bool {
+        match self {
+            Root::Rational(value) => divisor.evaluate(value).is_zero(),
+            Root::Irrational(interval) => {
+                sign_at(divisor, &interval.low, interval.bits)
+                    != sign_at(divisor, &interval.high, interval.bits)
+            }
+        }
+    }
+}
+
+/// The real roots of a squarefree polynomial in ascending order, each isolated and known to be
+/// rational or not.
+pub fn real_roots(polynomial: &Polynomial) -> Vec<Root> {
+    let polynomial = &polynomial.primitive();
+    let chain = SturmChain::new(polynomial);
+    let bound = root_bound(polynomial);
+    let mut roots = Vec::new();
+    // Half-open intervals (low, high]·2⁻ᵇⁱᵗˢ, the leftmost on top.
+    let mut pending = vec![(-&bound, bound, 0u32)];
+    while let Some((low, high, bits)) = pending.pop() {
+        match chain
+            .count(&low, bits)
+            .saturating_sub(chain.count(&high, bits))
+        {
+            0 => {}
+            1 => roots.push(classify(polynomial, low, high, bits)),
+            _ => {
+                let (low, high) = (low << 1, high << 1);
+                let middle: BigInt = (&low + &high) >> 1;
+                pending.push((middle.clone(), high, bits + 1));
+                pending.push((low, middle, bits + 1));
+            }
+        }
+    }
+    roots
+}
+
+/// The number of distinct real roots of a polynomial.
+pub fn count_real_roots(polynomial: &Polynomial) -> usize {
+    let bound = root_bound(polynomial);
+    let chain = SturmChain::new(polynomial);
+    chain
+        .count(&-&bound, 0)
+        .saturating_sub(chain.count(&bound, 0))
+}
+
+/// A whole number that is larger than the modulus of every root (Cauchy).
+fn root_bound(polynomial: &Polynomial) -> BigInt {
+    let Some((leading, rest)) = polynomial.numerators().split_last() else {
+        return BigInt::one();
+    };
+    let largest = rest.iter().map(Signed::abs).max().unwrap_or_default();
+    largest / leading.abs() + 2
+}
+
+/// The sign of a polynomial at `point·2⁻ᵇⁱᵗˢ`.
+fn sign_at(polynomial: &Polynomial, point: &BigInt, bits: u32) -> Sign {
+    let mut scale = 0;
+    let mut value = BigInt::zero();
+    for numerator in polynomial.numerators().iter().rev() {
+        value = value * point + (numerator << scale);
+        scale += bits as usize;
+    }
+    value.sign()
+}
+
+struct SturmChain(Vec<Polynomial>);
+
+impl SturmChain {
+    fn new(polynomial: &Polynomial) -> Self {
+        let mut chain = vec![polynomial.clone(), polynomial.derivative()];
+        while let [.., a, b] = chain.as_slice()
+            && !b.is_zero()
+        {
+            // Positive multiples only: `primitive` makes the leading coefficient positive, which
+            // may flip the sign.
+            let r = a.remainder(b);
+            let next = if r.leading().is_negative() {
+                r.primitive()
+            } else {
+                -&r.primitive()
+            };
+            chain.push(if r.is_zero() { r } else { next });
+        }
+        SturmChain(chain)
+    }
+
+    /// The number of sign changes along the chain at `point·2⁻ᵇⁱᵗˢ`.
+    fn count(&self, point: &BigInt, bits: u32) -> usize {
+        let signs: Vec<Sign> = self
+            .0
+            .iter()
+            .map(|p| sign_at(p, point, bits))
+            .filter(|&s| s != Sign::NoSign)
+            .collect();
+        signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
+    }
+}
+
+/// Decides whether the only root in `(low, high]` is rational.
+fn classify(polynomial: &Polynomial, low: BigInt, high: BigInt, bits: u32) -> Root {
+    let rational = |point: &BigInt, bits: u32| {
+        Root::Rational(BigRational::new(point.clone(), BigInt::one() << bits))
+    };
+    if sign_at(polynomial, &high, bits) == Sign::NoSign {
+        return rational(&high, bits);
+    }
+    // The lower end may be another root, which the half-open interval leaves out.
+    let (mut low, mut high, mut bits) = (low, high, bits);
+    while sign_at(polynomial, &low, bits) == Sign::NoSign {
+        (low, high, bits) = (low << 1, high << 1, bits + 1);
+        let middle: BigInt = (&low + &high) >> 1;
+        match sign_at(polynomial, &middle, bits) {
+            Sign::NoSign => return rational(&middle, bits),
+            sign if sign == sign_at(polynomial, &high, bits) => high = middle,
+            _ => low = middle,
+        }
+    }
+    // A rational root is k/leading for a whole k: in an interval shorter than 1/(2·leading) it is the
+    // simplest rational, or there is none.
+    let leading = polynomial.leading().to_integer();
+    let interval = match refine(
+        polynomial,
+        &Interval { low, high, bits },
+        leading.bits() as u32 + 2,
+    ) {
+        Refined::Exactly(value) => return Root::Rational(value),
+        Refined::Within(interval) => interval,
+    };
+    let scaled = |end: BigRational| end * BigRational::from_integer(leading.clone());
+    let candidate = simplest_between(&scaled(interval.low()), &scaled(interval.high()))
+        / BigRational::from_integer(leading.clone());
+    if polynomial.evaluate(&candidate).is_zero() {
+        Root::Rational(candidate)
+    } else {
+        Root::Irrational(interval)
+    }
+}
+
+/// The outcome of a refinement.
+enum Refined {
+    /// The root was met.
+    Exactly(BigRational),
+    /// An interval with a sign change.
+    Within(Interval),
+}
+
+/// An interval of width at most `2⁻ᵇⁱᵗˢ` around an irrational root, inside its isolating interval.
+///
+/// `polynomial` is the squarefree polynomial that the root was isolated for.
+pub fn enclose(polynomial: &Polynomial, root: &Root, bits: u32) -> Interval {
+    match root {
+        Root::Rational(value) => Interval::enclosing(value, bits),
+        Root::Irrational(interval) => match refine(polynomial, interval, bits) {
+            Refined::Exactly(value) => Interval::enclosing(&value, bits),
+            Refined::Within(fine) => {
+                // Give back exactly the binary places that were asked for, rounded outward.
+                let excess = fine.bits.saturating_sub(bits);
+                let low: BigInt = &fine.low >> excess;
+                let high: BigInt = -((-&fine.high) >> excess);
+                let missing = bits.saturating_sub(fine.bits);
+                Interval {
+                    low: low << missing,
+                    high: high << missing,
+                    bits,
+                }
+            }
+        },
+    }
+}
+
+/// Narrows an interval with a sign change to a width of at most `2⁻ᵗᵃʳᵍᵉᵗ`.
+///
+/// Newton's method proposes a narrower interval with twice the binary places; only a sign change at
+/// its exact ends is believed. Where the proposal fails, the interval is halved.
+fn refine(polynomial: &Polynomial, interval: &Interval, target: u32) -> Refined {
+    let derivative = polynomial.derivative();
+    let Interval {
+        mut low,
+        mut high,
+        mut bits,
+    } = interval.clone();
+    let sign_low = sign_at(polynomial, &low, bits);
+    loop {
+        let width: BigInt = &high - &low;
+        // The interval is narrower than 2⁻ᵍᵒᵒᵈ.
+        let good = i64::from(bits) - width.bits() as i64;
+        if good >= i64::from(target) {
+            return Refined::Within(Interval { low, high, bits });
+        }
+        // From 16 correct places on, a proposal has at least 8 more.
+        if good >= 16
+            && let Some((l, h, b)) = newton(
+                polynomial,
+                &derivative,
+                (&low, &high, bits),
+                good as u32,
+                sign_low,
+            )
+        {
+            (low, high, bits) = (l, h, b);
+            continue;
+        }
+        (low, high, bits) = (low << 1, high << 1, bits + 1);
+        let middle: BigInt = (&low + &high) >> 1;
+        match sign_at(polynomial, &middle, bits) {
+            Sign::NoSign => {
+                return Refined::Exactly(BigRational::new(middle, BigInt::one() << bits));
+            }
+            sign if sign == sign_low => low = middle,
+            _ => high = middle,
+        }
+    }
+}
+
+fn newton(
+    polynomial: &Polynomial,
+    derivative: &Polynomial,
+    (low, high, bits): (&BigInt, &BigInt, u32),
+    good: u32,
+    sign_low: Sign,
+) -> Option<(BigInt, BigInt, u32)> {
+    let fine = (2 * good).max(bits);
+    let (low, high) = (low << (fine - bits), high << (fine - bits));
+    let middle: BigInt = (&low + &high) >> 1;
+    let point = Interval {
+        low: middle.clone(),
+        high: middle.clone(),
+        bits: fine,
+    };
+    let (value, slope) = (
+        point.evaluate(polynomial).low,
+        point.evaluate(derivative).low,
+    );
+    if slope.is_zero() {
+        return None;
+    }
+    let root = &middle - (value << fine) / slope;
+    // The quadratic error of a step from a distance 2⁻ᵍᵒᵒᵈ, with room for the constant.
+    let radius = BigInt::one() << (fine - 2 * good + 6);
+    let (new_low, new_high) = (&root - &radius, root + radius);
+    let inside = low <= new_low && new_high <= high;
+    let opposite = |a: Sign, b: Sign| a != Sign::NoSign && b != Sign::NoSign && a != b;
+    let [at_low, at_high] = [&new_low, &new_high].map(|x| sign_at(polynomial, x, fine));
+    (inside && at_low == sign_low && opposite(at_low, at_high)).then_some((new_low, new_high, fine))
+}
+
+/// Compares two reals given by enclosures, if these decide.
+pub fn compare(a: &Interval, b: &Interval) -> Option<Ordering> {
+    if a.high < b.low {
+        Some(Ordering::Less)
+    } else if b.high < a.low {
+        Some(Ordering::Greater)
+    } else {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::rational::ratio;
+    use proptest::prelude::*;
+
+    #[test]
+    fn known_roots_are_found_and_classified() {
+        // (x − 1/3)(x² − 2)(x + 5)
+        let p = [[-1, 3].as_slice(), &[-2, 0, 1], &[5, 1]]
+            .iter()
+            .fold(Polynomial::one(), |p, c| &p * &Polynomial::from_integers(c));
+        let roots = real_roots(&p);
+        assert_eq!(roots.len(), 4);
+        assert_eq!(roots[0], Root::Rational(ratio(-5, 1)));
+        assert_eq!(roots[2], Root::Rational(ratio(1, 3)));
+        let narrow = enclose(&p, &roots[3], 200);
+        assert!((&narrow.high - &narrow.low) <= BigInt::from(2));
+        let square = narrow.multiply(&narrow);
+        assert!(square.contains(&ratio(2, 1)));
+    }
+
+    #[test]
+    fn roots_at_bisection_points_are_not_lost() {
+        // 0, 1/4, 1/2, 1 and their irrational neighbours.
+        let p = [
+            [0, 1].as_slice(),
+            &[-1, 4],
+            &[-1, 2],
+            &[-1, 1],
+            &[-1, 0, 8],
+            &[-1, 0, 5],
+        ]
+        .iter()
+        .fold(Polynomial::one(), |p, c| &p * &Polynomial::from_integers(c));
+        let roots = real_roots(&p);
+        assert_eq!(roots.len(), 8);
+        assert_eq!(roots.iter().filter(|r| r.rational().is_some()).count(), 4);
+    }
+
+    #[test]
+    fn complex_roots_are_not_counted() {
+        assert_eq!(count_real_roots(&Polynomial::from_integers(&[1, 0, 1])), 0);
+        assert_eq!(
+            count_real_roots(&Polynomial::from_integers(&[-1, 0, 0, 0, 1])),
+            2
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn every_rational_root_is_found(mut fractions in prop::collection::btree_set((-40i64..40, 1i64..30), 1..6)) {
+            let mut values: Vec<BigRational> = fractions.iter().map(|&(n, d)| ratio(n, d)).collect();
+            fractions.clear();
+            values.sort();
+            values.dedup();
+            let p = values.iter().fold(Polynomial::from_integers(&[1, 0, 1]), |p, v| {
+                &p * &Polynomial::from_rationals(&[-v, BigRational::one()])
+            });
+            let found: Vec<BigRational> = real_roots(&p).iter().filter_map(|r| r.rational().cloned()).collect();
+            prop_assert_eq!(found, values);
+        }
+    }
+}

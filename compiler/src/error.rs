@@ -1,0 +1,259 @@
+//! What can be wrong with an input, and where.
+
+use std::fmt;
+use std::ops::Range;
+
+/// An input that cannot be compiled: what is wrong, where it stands, and what to do instead.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Error {
+    /// What is wrong.
+    pub kind: Box<ErrorKind>,
+    /// Where it stands, if the input was text.
+    pub place: Option<Place>,
+}
+
+/// A part of an input text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// Which input: `basis`, `nodes` or a file's name.
+    pub input: String,
+    /// The whole text of that input.
+    pub text: String,
+    /// The offending bytes of `text`.
+    pub span: Range<usize>,
+}
+
+/// The kinds of wrong input.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ErrorKind {
+    /// The text does not follow the grammar of expressions.
+    #[error("{found}, expected {expected}")]
+    Syntax {
+        /// What stands there.
+        found: String,
+        /// What could have stood there.
+        expected: String,
+    },
+    /// A parenthesis or bracket without its partner.
+    #[error("`{bracket}` has no matching `{partner}`")]
+    Unbalanced {
+        /// The lonely bracket.
+        bracket: char,
+        /// What is missing.
+        partner: char,
+    },
+    /// A function or a name that does not exist here.
+    #[error("unknown {what} `{name}`; known here: {known}")]
+    Unknown {
+        /// `function`, `name`, `method`, …
+        what: &'static str,
+        /// What was written.
+        name: String,
+        /// What could be written.
+        known: String,
+    },
+    /// A function with arguments that it does not take.
+    #[error("`{function}` takes {expected}, found {found}")]
+    Arguments {
+        /// The function.
+        function: String,
+        /// The arguments it takes.
+        expected: String,
+        /// What was written.
+        found: String,
+    },
+    /// A division by zero.
+    #[error("division by zero")]
+    DivisionByZero,
+    /// A power that is not a small natural number.
+    #[error("the exponent must be a whole number from 0 to {limit}, found {found}")]
+    Exponent {
+        /// The largest exponent.
+        limit: u32,
+        /// What was written.
+        found: String,
+    },
+    /// A value of the wrong kind.
+    #[error("{found} where {expected} is needed")]
+    Type {
+        /// What stands there.
+        found: String,
+        /// What is needed.
+        expected: String,
+    },
+    /// An expression that would take more work than is allowed.
+    #[error("the expression is too large: {what} {size} exceeds the limit {limit}")]
+    ExpressionSize {
+        /// What is too large.
+        what: &'static str,
+        /// How large it is.
+        size: usize,
+        /// The bound.
+        limit: usize,
+    },
+    /// More stages than the limit.
+    #[error(
+        "{stages} stages exceed the limit of {limit}, beyond which a derivation may run for very long; raise it with `--max-stages {stages}` (library: `Limits::stages`)"
+    )]
+    TooManyStages {
+        /// The stages asked for.
+        stages: String,
+        /// The limit in force.
+        limit: usize,
+    },
+    /// A rule with fewer nodes than it needs.
+    #[error("`{rule}({stages})` does not exist: {rule} needs at least {minimum} node{}", if *minimum == 1 {""} else {"s"})]
+    TooFewStages {
+        /// The rule.
+        rule: &'static str,
+        /// The nodes asked for.
+        stages: String,
+        /// The smallest number of nodes.
+        minimum: usize,
+    },
+    /// A rule some of whose nodes are not real.
+    #[error(
+        "`{rule}({stages})` has only {real} real nodes out of {stages}; real nodes exist only for {exist}"
+    )]
+    ComplexNodes {
+        /// The rule.
+        rule: &'static str,
+        /// Nodes asked for.
+        stages: usize,
+        /// How many of them are real.
+        real: usize,
+        /// The numbers of nodes for which all are real.
+        exist: &'static str,
+    },
+    /// A node polynomial some of whose roots are not real.
+    #[error("the node polynomial has {degree} roots, but only {real} of them are real")]
+    ComplexRoots {
+        /// Its degree.
+        degree: usize,
+        /// The number of its real roots.
+        real: usize,
+    },
+    /// A node polynomial with a repeated root, or constant.
+    #[error(
+        "the node polynomial {polynomial} is not squarefree of degree at least 1, so its roots are not distinct nodes"
+    )]
+    NotSquarefree {
+        /// The polynomial.
+        polynomial: String,
+    },
+    /// Two equal nodes.
+    #[error("the node {node} is listed twice; nodes must be distinct")]
+    EqualNodes {
+        /// The repeated node.
+        node: String,
+    },
+    /// A node outside `[0, 1]`.
+    #[error("the node {node} lies outside [0, 1]; nodes are fractions of a step")]
+    NodeOutside {
+        /// The node.
+        node: String,
+    },
+    /// Basis functions that are linearly dependent.
+    #[error("the basis functions are linearly dependent: {combination} = 0; leave one of them out")]
+    DependentBasis {
+        /// A vanishing combination.
+        combination: String,
+    },
+    /// Basis functions that are dependent on the nodes, though not as functions.
+    #[error(
+        "the matrix of the basis at the nodes is singular: {combination} vanishes at every node; change a node or a basis function"
+    )]
+    SingularBasis {
+        /// A combination of the basis that vanishes at all nodes.
+        combination: String,
+    },
+    /// A different number of basis functions and nodes.
+    #[error("{basis} basis function{} and {nodes} node{}: the collocation construction needs as many of one as of the other", if *basis == 1 {""} else {"s"}, if *nodes == 1 {""} else {"s"})]
+    NotSquare {
+        /// The number of basis functions.
+        basis: usize,
+        /// The number of nodes.
+        nodes: usize,
+    },
+    /// A vanishing weight, by which `ã` would divide.
+    #[error(
+        "the weight b_{index} at the node c_{index} = {node} is zero, and ã_{index}j = (b_{index} b_j − b_j a_j{index})/b_{index} divides by it; choose other nodes or another basis"
+    )]
+    ZeroWeight {
+        /// The stage, counted from 1.
+        index: usize,
+        /// Its node.
+        node: String,
+    },
+    /// A file that cannot be read as a tableau.
+    #[error("{message}")]
+    Document {
+        /// What is wrong with it.
+        message: String,
+    },
+    /// A file whose entry is not what the derivation gives.
+    #[error("`{entry}` does not fit: the file has {found}, the derivation gives {expected}")]
+    Mismatch {
+        /// The first entry that does not fit.
+        entry: String,
+        /// What the file says.
+        found: String,
+        /// What it should say.
+        expected: String,
+    },
+    /// A required property that is refuted.
+    #[error("the method is not `{requirement}`: {witness}")]
+    Requirement {
+        /// The property.
+        requirement: String,
+        /// Why it does not hold.
+        witness: String,
+    },
+}
+
+impl Error {
+    /// An error at a part of an input text.
+    pub fn at(kind: ErrorKind, place: Place) -> Self {
+        Error {
+            kind: Box::new(kind),
+            place: Some(place),
+        }
+    }
+
+    /// The same error with a place, unless it has one.
+    #[must_use]
+    pub fn or_at(mut self, place: impl FnOnce() -> Place) -> Self {
+        if self.place.is_none() {
+            self.place = Some(place());
+        }
+        self
+    }
+}
+
+impl From<ErrorKind> for Error {
+    fn from(kind: ErrorKind) -> Self {
+        Error {
+            kind: Box::new(kind),
+            place: None,
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(place) = &self.place {
+            let before = &place.text[..place.span.start.min(place.text.len())];
+            let line = before.matches('\n').count() + 1;
+            let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
+            if line > 1 {
+                write!(f, "{}, line {line}, column {column}: ", place.input)?;
+            } else {
+                write!(f, "{}, column {column}: ", place.input)?;
+            }
+        }
+        self.kind.fmt(f)
+    }
+}
+
+impl std::error::Error for Error {}

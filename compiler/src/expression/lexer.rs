@@ -1,0 +1,146 @@
+//! Text to tokens.
+
+use std::ops::Range;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+
+use super::{Input, MAX_EXPONENT, MAX_LENGTH};
+use crate::error::{Error, ErrorKind};
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Token {
+    Number(BigRational),
+    Name(String),
+    Symbol(char),
+    End,
+}
+
+impl Token {
+    /// The token as it is named in a message.
+    pub(super) fn describe(&self, text: &str) -> String {
+        match self {
+            Token::End => "the input ends".to_owned(),
+            _ => format!("found `{text}`"),
+        }
+    }
+}
+
+pub(super) fn tokenize(input: Input<'_>) -> Result<Vec<(Token, Range<usize>)>, Error> {
+    let text = input.text;
+    if text.len() > MAX_LENGTH {
+        let kind = ErrorKind::ExpressionSize {
+            what: "its length",
+            size: text.len(),
+            limit: MAX_LENGTH,
+        };
+        return Err(input.error(&(0..1), kind));
+    }
+    let mut tokens = Vec::new();
+    let mut position = 0;
+    while let Some(first) = text[position..].chars().next() {
+        let start = position;
+        let run = |from: usize, accept: fn(char) -> bool| {
+            text[from..]
+                .find(|c| !accept(c))
+                .map_or(text.len(), |length| from + length)
+        };
+        let token = if first.is_whitespace() {
+            position += first.len_utf8();
+            continue;
+        } else if first.is_ascii_digit() || first == '.' {
+            position = number_end(text, position);
+            Token::Number(number(input, start..position)?)
+        } else if first.is_alphabetic() || first == '_' {
+            position = run(position, |c| c.is_alphanumeric() || c == '_');
+            // Names of rules contain hyphens: `radau-left(3)`. A hyphen between two names is part
+            // of the name only where a call follows, so `t-t` remains a difference.
+            let mut end = position;
+            while text[end..].starts_with('-')
+                && text[end + 1..].starts_with(|c: char| c.is_alphabetic())
+            {
+                end = run(end + 1, |c| c.is_alphanumeric() || c == '_');
+            }
+            if end > position
+                && text[end..].trim_start().starts_with('(')
+                && is_hyphenated(&text[start..end])
+            {
+                position = end;
+            }
+            Token::Name(text[start..position].to_owned())
+        } else if "+-*/^(),[]".contains(first) {
+            position += 1;
+            Token::Symbol(first)
+        } else {
+            let kind = ErrorKind::Syntax {
+                found: format!("found `{first}`"),
+                expected: "a number, a name or one of + - * / ^ ( ) [ ] ,".to_owned(),
+            };
+            return Err(input.error(&(start..start + first.len_utf8()), kind));
+        };
+        tokens.push((token, start..position));
+    }
+    tokens.push((Token::End, text.len()..text.len()));
+    Ok(tokens)
+}
+
+/// Whether a word with hyphens is the name of a function rather than a difference of names: no part
+/// of it is a variable or a constant.
+fn is_hyphenated(word: &str) -> bool {
+    word.split('-').all(|part| part.len() > 1)
+}
+
+/// The end of the number that starts at a position: digits, a fraction, an exponent.
+fn number_end(text: &str, start: usize) -> usize {
+    let digits = |from: usize| {
+        text[from..]
+            .find(|c: char| !c.is_ascii_digit())
+            .map_or(text.len(), |n| from + n)
+    };
+    let mut end = digits(start);
+    if text[end..].starts_with('.') {
+        end = digits(end + 1);
+    }
+    if text[end..].starts_with(['e', 'E']) {
+        let sign = usize::from(text[end + 1..].starts_with(['+', '-']));
+        let exponent = digits(end + 1 + sign);
+        if exponent > end + 1 + sign {
+            end = exponent;
+        }
+    }
+    end
+}
+
+fn number(input: Input<'_>, span: Range<usize>) -> Result<BigRational, Error> {
+    let text = &input.text[span.clone()];
+    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits: BigInt = format!("{whole}{fraction}").parse().map_err(|_| {
+        let kind = ErrorKind::Syntax {
+            found: format!("found `{text}`"),
+            expected: "a number".to_owned(),
+        };
+        input.error(&span, kind)
+    })?;
+    let limit = MAX_EXPONENT as i32;
+    let exponent = exponent
+        .parse::<i32>()
+        .ok()
+        .filter(|e| e.abs() <= limit)
+        .ok_or_else(|| {
+            let kind = ErrorKind::ExpressionSize {
+                what: "the exponent of the number",
+                size: exponent.len(),
+                limit: 3,
+            };
+            input.error(&span, kind)
+        })?;
+    let power = |n: usize| BigInt::from(10u32).pow(n as u32);
+    let value = BigRational::new(digits, power(fraction.len()));
+    let scale = BigRational::from_integer(power(exponent.unsigned_abs() as usize));
+    Ok(if exponent < 0 {
+        value / scale
+    } else {
+        value * scale
+    })
+}

@@ -1,0 +1,112 @@
+//! The language in which bases and nodes are written: `polynomial(3)`, `1, t, t^2 - t/3`, `0, 1/3, 1`.
+//!
+//! ```text
+//! list       = "[" items "]" | items            items = expression { "," expression }
+//! expression = term { ("+" | "-") term }        term  = factor { ("*" | "/") factor }
+//! factor     = { "-" | "+" } power              power = atom [ "^" factor ]
+//! atom       = number | name | name "(" items ")" | "(" expression ")"
+//! ```
+//!
+//! Numbers are decimals and exact: `0.1` is 1/10. The command line, table files and the macro share
+//! this grammar; every node of the tree knows the bytes it was read from.
+
+mod lexer;
+mod parser;
+mod value;
+
+use std::ops::Range;
+
+use num_rational::BigRational;
+
+use crate::error::{Error, ErrorKind, Place};
+
+pub use parser::parse_list;
+
+/// The longest text that is read.
+pub const MAX_LENGTH: usize = 100_000;
+/// The deepest nesting of parentheses and signs.
+pub const MAX_DEPTH: usize = 64;
+/// The largest exponent of a power, and of a number such as `1e-300`.
+pub const MAX_EXPONENT: u32 = 400;
+/// The largest degree of a polynomial.
+pub const MAX_DEGREE: usize = 256;
+/// The longest numerator or denominator, in bits.
+pub const MAX_BITS: usize = 100_000;
+
+/// A syntax tree and the bytes of the input that it was read from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expression {
+    /// What it is.
+    pub kind: ExpressionKind,
+    /// Where it stands.
+    pub span: Range<usize>,
+}
+
+/// The kinds of expressions.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ExpressionKind {
+    /// A number, exact.
+    Number(BigRational),
+    /// A name such as `t`.
+    Name(String),
+    /// A function with its arguments.
+    Call {
+        /// The function.
+        function: String,
+        /// Where its name stands.
+        name: Range<usize>,
+        /// The arguments.
+        arguments: Vec<Expression>,
+    },
+    /// A negated expression.
+    Negate(Box<Expression>),
+    /// Two expressions joined by an operator.
+    Binary {
+        /// The operator.
+        operator: Operator,
+        /// What stands before it.
+        left: Box<Expression>,
+        /// What stands after it.
+        right: Box<Expression>,
+    },
+}
+
+/// The binary operators.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Operator {
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `*`
+    Multiply,
+    /// `/`
+    Divide,
+    /// `^`
+    Power,
+}
+
+/// An input text with its name, for messages.
+#[derive(Debug, Clone, Copy)]
+pub struct Input<'a> {
+    /// What the text is, e.g. `basis`.
+    pub name: &'a str,
+    /// The text.
+    pub text: &'a str,
+}
+
+impl Input<'_> {
+    /// A part of the text.
+    pub fn place(&self, span: Range<usize>) -> Place {
+        Place {
+            input: self.name.to_owned(),
+            text: self.text.to_owned(),
+            span,
+        }
+    }
+
+    /// An error at a part of the text.
+    pub fn error(&self, span: &Range<usize>, kind: ErrorKind) -> Error {
+        Error::at(kind, self.place(span.clone()))
+    }
+}

@@ -1,0 +1,289 @@
+//! Syntax trees to values: polynomials in `t`, rationals, counts of stages.
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
+use super::{Expression, ExpressionKind, Input, MAX_BITS, MAX_DEGREE, MAX_EXPONENT, Operator};
+use crate::arithmetic::polynomial::Polynomial;
+use crate::error::{Error, ErrorKind};
+
+impl Expression {
+    /// The value as a polynomial in `t`.
+    ///
+    /// # Errors
+    /// Unknown names and functions, division by zero or by a polynomial in `t`, exponents that are
+    /// not small natural numbers, values beyond the size limits of this module.
+    pub fn polynomial(&self, input: Input<'_>) -> Result<Polynomial, Error> {
+        let value = match &self.kind {
+            ExpressionKind::Number(value) => Polynomial::constant(value.clone()),
+            ExpressionKind::Name(name) if name == "t" => Polynomial::variable(),
+            ExpressionKind::Name(name) => {
+                return Err(self.unknown(input, "name", name, "t, numbers"));
+            }
+            ExpressionKind::Call { function, name, .. } => {
+                let kind = ErrorKind::Unknown {
+                    what: "function",
+                    name: function.clone(),
+                    known: "inside an expression only t, numbers and + - * / ^".to_owned(),
+                };
+                return Err(input.error(name, kind));
+            }
+            ExpressionKind::Negate(inner) => -&inner.polynomial(input)?,
+            ExpressionKind::Binary {
+                operator: Operator::Power,
+                left,
+                right,
+            } => {
+                let base = left.polynomial(input)?;
+                let exponent = right.exponent(input)?;
+                let n = exponent as usize;
+                self.check(
+                    input,
+                    "the degree",
+                    base.degree().unwrap_or(0).saturating_mul(n),
+                    MAX_DEGREE,
+                )?;
+                self.check(
+                    input,
+                    "the size of the coefficients in bits",
+                    bits(&base).saturating_mul(n),
+                    MAX_BITS,
+                )?;
+                base.power(exponent)
+            }
+            ExpressionKind::Binary {
+                operator,
+                left,
+                right,
+            } => {
+                let (a, b) = (left.polynomial(input)?, right.polynomial(input)?);
+                match operator {
+                    Operator::Add => &a + &b,
+                    Operator::Subtract => &a - &b,
+                    Operator::Multiply => {
+                        let degree = a.degree().unwrap_or(0) + b.degree().unwrap_or(0);
+                        self.check(input, "the degree", degree, MAX_DEGREE)?;
+                        &a * &b
+                    }
+                    Operator::Divide | Operator::Power => match b.as_constant() {
+                        Some(divisor) if divisor == BigRational::default() => {
+                            return Err(input.error(&right.span, ErrorKind::DivisionByZero));
+                        }
+                        Some(divisor) => a.scale(&divisor.recip()),
+                        None => {
+                            let kind = ErrorKind::Type {
+                                found: "a divisor that depends on `t`".to_owned(),
+                                expected: "a constant".to_owned(),
+                            };
+                            return Err(input.error(&right.span, kind));
+                        }
+                    },
+                }
+            }
+        };
+        self.check(
+            input,
+            "the size of the coefficients in bits",
+            bits(&value),
+            MAX_BITS,
+        )?;
+        Ok(value)
+    }
+
+    /// The value as a rational number.
+    ///
+    /// # Errors
+    /// As [`Self::polynomial`], and where the value depends on `t`.
+    pub fn rational(&self, input: Input<'_>) -> Result<BigRational, Error> {
+        self.polynomial(input)?.as_constant().ok_or_else(|| {
+            let kind = ErrorKind::Type {
+                found: "an expression that depends on `t`".to_owned(),
+                expected: "a constant".to_owned(),
+            };
+            input.error(&self.span, kind)
+        })
+    }
+
+    /// The value as a whole number; any size, any sign.
+    ///
+    /// # Errors
+    /// As [`Self::rational`], and where the value is not whole.
+    pub fn whole(&self, input: Input<'_>) -> Result<BigInt, Error> {
+        let value = self.rational(input)?;
+        if !value.is_integer() {
+            let kind = ErrorKind::Type {
+                found: format!("{value}"),
+                expected: "a whole number".to_owned(),
+            };
+            return Err(input.error(&self.span, kind));
+        }
+        Ok(value.to_integer())
+    }
+
+    fn exponent(&self, input: Input<'_>) -> Result<u32, Error> {
+        let value = self.rational(input)?;
+        let exponent = value
+            .is_integer()
+            .then(|| value.to_integer().to_u32())
+            .flatten();
+        exponent.filter(|&n| n <= MAX_EXPONENT).ok_or_else(|| {
+            let kind = ErrorKind::Exponent {
+                limit: MAX_EXPONENT,
+                found: shown(&value.to_string()),
+            };
+            input.error(&self.span, kind)
+        })
+    }
+
+    /// An error about a name that is not known.
+    pub(crate) fn unknown(
+        &self,
+        input: Input<'_>,
+        what: &'static str,
+        name: &str,
+        known: &str,
+    ) -> Error {
+        let kind = ErrorKind::Unknown {
+            what,
+            name: shown(name),
+            known: known.to_owned(),
+        };
+        input.error(&self.span, kind)
+    }
+
+    fn check(
+        &self,
+        input: Input<'_>,
+        what: &'static str,
+        size: usize,
+        limit: usize,
+    ) -> Result<(), Error> {
+        if size > limit {
+            return Err(input.error(&self.span, ErrorKind::ExpressionSize { what, size, limit }));
+        }
+        Ok(())
+    }
+}
+
+/// A word of the input as it is repeated in a message: whole if it is short.
+pub(crate) fn shown(text: &str) -> String {
+    const LENGTH: usize = 40;
+    if text.chars().count() <= LENGTH {
+        return text.to_owned();
+    }
+    let start: String = text.chars().take(LENGTH).collect();
+    format!("{start}…")
+}
+
+/// The length of the longest number in a polynomial.
+fn bits(polynomial: &Polynomial) -> usize {
+    let longest = polynomial
+        .numerators()
+        .iter()
+        .map(BigInt::bits)
+        .max()
+        .unwrap_or(0);
+    longest.max(polynomial.denominator().bits()) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parse_list;
+    use super::*;
+
+    fn evaluate(text: &str) -> Result<Vec<String>, String> {
+        let input = Input {
+            name: "basis",
+            text,
+        };
+        let all = parse_list(input).and_then(|list| {
+            list.iter()
+                .map(|e| e.polynomial(input))
+                .collect::<Result<Vec<_>, _>>()
+        });
+        all.map(|list| list.iter().map(|p| p.display("t").to_string()).collect())
+            .map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn expressions_have_the_usual_precedence() {
+        let cases = [
+            ("1, t, t^2 - t/3", vec!["1", "t", "t^2 - 1/3*t"]),
+            ("[0.5, 1e-3, .25e1,]", vec!["1/2", "1/1000", "5/2"]),
+            ("-t^2, (-t)^2, 2^3^0", vec!["-t^2", "t^2", "2"]),
+            ("1 - 2 - 3, 12/2/3, 2*-t", vec!["-4", "2", "-2*t"]),
+            ("(1+t)^3", vec!["t^3 + 3*t^2 + 3*t + 1"]),
+            ("t-t", vec!["0"]),
+        ];
+        for (text, expected) in cases {
+            assert_eq!(
+                evaluate(text).as_deref(),
+                Ok(expected
+                    .iter()
+                    .map(|s| s.to_string())
+                    .collect::<Vec<_>>()
+                    .as_slice()),
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn wrong_expressions_are_named_at_their_place() {
+        let cases = [
+            ("1, 2/0", "basis, column 6: division by zero"),
+            (
+                "(1, t",
+                "basis, column 3: found `,`, expected an operator, `,` or `)`",
+            ),
+            ("(1 + t", "basis, column 1: `(` has no matching `)`"),
+            ("1 + t)", "basis, column 6: `)` has no matching `(`"),
+            ("[1, t", "basis, column 1: `[` has no matching `]`"),
+            ("foo(t)", "basis, column 1: unknown function `foo`"),
+            ("1, y", "basis, column 4: unknown name `y`"),
+            (
+                "t^-1",
+                "basis, column 3: the exponent must be a whole number from 0 to 400, found -1",
+            ),
+            ("t^t", "basis, column 3: an expression that depends on `t`"),
+            ("1/t", "basis, column 3: a divisor that depends on `t`"),
+            ("2t", "basis, column 2: found `t`, expected an operator"),
+            ("1 $ 2", "basis, column 3: found `$`"),
+            ("", "basis, column 1: the input ends, expected a number"),
+            ("1,,2", "basis, column 3: found `,`"),
+            ("1\n+ €", "basis, line 2, column 3: found `€`"),
+            (
+                "t^400",
+                "basis, column 1: the expression is too large: the degree 400 exceeds the limit 256",
+            ),
+            (
+                "((9^400)^400)^400",
+                "basis, column 1: the expression is too large",
+            ),
+            (
+                "1e999999999999",
+                "basis, column 1: the expression is too large",
+            ),
+            (".", "basis, column 1: found `.`, expected a number"),
+        ];
+        for (text, message) in cases {
+            let error = evaluate(text).expect_err(text);
+            assert!(error.starts_with(message), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn nesting_and_length_are_bounded() {
+        for text in [
+            "(".repeat(5000),
+            "-".repeat(5000),
+            "1+".repeat(5000),
+            "t^".repeat(5000),
+            "f(".repeat(5000),
+            "1,".repeat(200_000),
+        ] {
+            assert!(evaluate(&text).is_err());
+        }
+    }
+}

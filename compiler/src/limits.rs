@@ -1,0 +1,16 @@
+//! Bounds on the work that an input can ask for.
+
+/// Bounds on the work that an input can ask for.
+///
+/// The derivation of `s` stages takes time that grows like `s⁵` (the README has measured figures).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// The largest number of stages; 32 unless changed.
+    pub stages: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Limits { stages: 32 }
+    }
+}

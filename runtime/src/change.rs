@@ -1,0 +1,65 @@
+//! How much a sweep changed the stages.
+
+use crate::Scalar;
+
+/// How much one fixed-point sweep changed the stage values, positions and momenta apart, for they have different
+/// units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Change {
+    /// Change of the positions.
+    pub q: PartChange,
+    /// Change of the momenta.
+    pub p: PartChange,
+}
+
+impl Change {
+    /// The larger of the two [relative changes](PartChange::relative); NaN if either is.
+    ///
+    /// ```
+    /// use symplectic::Change;
+    ///
+    /// let mut change = Change::default();
+    /// assert_eq!(change.residual(), 0.0);
+    /// change.q.record(1.0, 3.0, 4.0);
+    /// change.p.record(0.0, 8.0, 8.0);
+    /// assert_eq!(change.residual(), 0.25);
+    /// ```
+    pub fn residual(&self) -> f64 {
+        larger(self.q.relative(), self.p.relative())
+    }
+}
+
+/// How much the positions, or the momenta, of all stages changed in one sweep.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PartChange {
+    difference: f64,
+    scale: f64,
+}
+
+impl PartChange {
+    /// Notes that a component of a stage value, `base` plus an increment, went from `old` to `new`.
+    #[inline(always)]
+    pub fn record<T: Scalar>(&mut self, base: T, old: T, new: T) {
+        self.difference = larger(self.difference, (new - old).magnitude());
+        // The rounding error of `base + increment` goes with the larger of the base and the result: where the
+        // two nearly cancel, the result alone would ask for digits that the sum does not have.
+        self.scale = larger(self.scale, larger(base.magnitude(), new.magnitude()));
+    }
+
+    /// The largest |new − old| divided by the largest of all |base| and |new|.
+    ///
+    /// Nothing recorded, or everything zero: 0. Something not finite: NaN.
+    pub fn relative(&self) -> f64 {
+        if self.difference == 0.0 && self.scale == 0.0 {
+            0.0
+        } else {
+            self.difference / self.scale
+        }
+    }
+}
+
+/// The larger of two numbers; NaN if either is, unlike [`f64::max`].
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
+}

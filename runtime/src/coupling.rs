@@ -1,0 +1,157 @@
+//! How the stages of a step are found: in order, or by iteration.
+
+use crate::{Hamiltonian, Plan, Quantity, Scalar, StageStorage, Step, Vector};
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Explicit {}
+    impl Sealed for super::Coupled {}
+}
+
+/// Whether the stages of a [`Plan`] have to be solved for: [`Explicit`] or [`Coupled`]. Sealed.
+pub trait Coupling: sealed::Sealed + Sized + 'static {
+    /// Takes `step` and writes its result into `q1` and `p1`; returns the number of sweeps made.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`], where the stages cannot be found. That the result is finite is left to the caller to check.
+    fn drive<P, V, S>(
+        step: &Step<'_, V>,
+        system: &S,
+        stages: &mut P::Stages<V>,
+        carried: bool,
+        max_iterations: u32,
+        result: (&mut V, &mut V),
+    ) -> Result<u32, Failure>
+    where
+        P: Plan<Coupling = Self>,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>;
+}
+
+/// Why the stages of a step could not be found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Failure {
+    /// The iteration did not settle: [`Error::NoConvergence`](crate::Error::NoConvergence).
+    NoConvergence {
+        /// Relative change in the last sweep in which it was finite.
+        residual: f64,
+        /// Sweeps made.
+        iterations: u32,
+    },
+    /// An evaluation at the start of the iteration is not finite: [`Error::NonFinite`](crate::Error::NonFinite).
+    NonFinite {
+        /// What is not finite.
+        what: Quantity,
+        /// The stage of the evaluation, from 1.
+        stage: Option<usize>,
+    },
+}
+
+/// Every stage is computed from the ones before it. There is no solver in the code of such a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Explicit;
+
+/// Some stages depend on each other and are found by fixed-point iteration.
+///
+/// The iteration runs until it stagnates, for a tolerance above the rounding errors would let the energy drift (Hairer,
+/// McLachlan & Razakarivony, 2008): until a sweep changes nothing, or changes the stages no less than some sweep
+/// before it and by rounding errors only, at most 64 units of [`Scalar::EPSILON`] relative to the largest
+/// position and the largest momentum.
+#[derive(Clone, Copy, Debug)]
+pub struct Coupled;
+
+/// Changes up to this many units of EPSILON can be rounding errors: one sweep rounds s products, s sums and the
+/// evaluations, s ≤ 20 in practice. The change also has to have stopped shrinking, so that an iteration which still
+/// gains digits below the threshold goes on.
+const ROUNDING: f64 = 64.0;
+
+impl Coupling for Explicit {
+    #[inline(always)]
+    fn drive<P, V, S>(
+        step: &Step<'_, V>,
+        system: &S,
+        stages: &mut P::Stages<V>,
+        carried: bool,
+        _max_iterations: u32,
+        (q1, p1): (&mut V, &mut V),
+    ) -> Result<u32, Failure>
+    where
+        P: Plan<Coupling = Self>,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+    {
+        P::begin(step, system, stages, carried);
+        P::finish(step, system, stages, q1, p1);
+        Ok(0)
+    }
+}
+
+impl Coupling for Coupled {
+    #[inline]
+    fn drive<P, V, S>(
+        step: &Step<'_, V>,
+        system: &S,
+        stages: &mut P::Stages<V>,
+        carried: bool,
+        max_iterations: u32,
+        (q1, p1): (&mut V, &mut V),
+    ) -> Result<u32, Failure>
+    where
+        P: Plan<Coupling = Self>,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+    {
+        P::begin(step, system, stages, carried);
+        if let Some((what, stage)) = stages.non_finite() {
+            return Err(Failure::NonFinite { what, stage: Some(stage) });
+        }
+        let iterations = iterate::<P, V, S>(step, system, stages, max_iterations)?;
+        P::finish(step, system, stages, q1, p1);
+        Ok(iterations)
+    }
+}
+
+/// Sweeps until stagnation; returns the number of sweeps.
+///
+/// A change that grows ends nothing: where the stages are many and their coupling is far from normal, it can
+/// grow for many sweeps and vanish after all. A true divergence ends at the bound or overflows.
+#[inline]
+fn iterate<P, V, S>(
+    step: &Step<'_, V>,
+    system: &S,
+    stages: &mut P::Stages<V>,
+    max_iterations: u32,
+) -> Result<u32, Failure>
+where
+    P: Plan,
+    V: Vector,
+    S: Hamiltonian<V, Class = P::Class>,
+{
+    let rounding = ROUNDING * V::Scalar::EPSILON;
+    let mut smallest = f64::INFINITY;
+    let mut last = f64::INFINITY;
+    for iteration in 1..=max_iterations {
+        let change = P::sweep(step, system, stages);
+        let residual = change.residual();
+        if residual.is_nan() {
+            // In the first sweep the system has been evaluated at the start and next to it: that the state is
+            // out of bounds is likelier than that the iteration is. Later it has run away.
+            if iteration > 1 {
+                return Err(Failure::NoConvergence { residual: last, iterations: iteration });
+            }
+            let part = if change.q.relative().is_nan() { Quantity::Position } else { Quantity::Momentum };
+            let culprit = stages.non_finite();
+            return Err(Failure::NonFinite {
+                what: culprit.map_or(part, |(what, _)| what),
+                stage: culprit.map(|(_, stage)| stage),
+            });
+        }
+        if residual == 0.0 || (residual >= smallest && residual <= rounding) {
+            return Ok(iteration);
+        }
+        smallest = smallest.min(residual);
+        last = residual;
+    }
+    Err(Failure::NoConvergence { residual: last, iterations: max_iterations })
+}

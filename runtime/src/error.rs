@@ -1,0 +1,164 @@
+//! What can go wrong.
+
+use core::fmt;
+
+/// Why a step was not taken, or an integration not begun. The state of the integrator is the last good one.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The fixed-point iteration for the coupled stages did not settle.
+    #[error(
+        "step {step} of size {step_size} at time {time}: the stages did not converge in {iterations} iterations \
+         (relative change {residual:e} in the last one); take a smaller step"
+    )]
+    NoConvergence {
+        /// Time at the start of the step.
+        time: f64,
+        /// Step size.
+        step_size: f64,
+        /// Number of the step, from 1.
+        step: u64,
+        /// Relative change of the stages in the last sweep in which it was finite.
+        residual: f64,
+        /// Sweeps made.
+        iterations: u32,
+    },
+
+    /// An evaluation of the system, or the result of the step, is infinite or not a number.
+    #[error(
+        "step {step} of size {step_size} at time {time}: the {what}{} is not finite; take a smaller step, or keep \
+         the state where the system is defined",
+        AtStage(*.stage)
+    )]
+    NonFinite {
+        /// Time at the start of the step.
+        time: f64,
+        /// Step size.
+        step_size: f64,
+        /// Number of the step, from 1.
+        step: u64,
+        /// What is not finite.
+        what: Quantity,
+        /// For an evaluation the stage it belongs to, from 1, among those that the plan stores; none for the
+        /// result of the step.
+        stage: Option<usize>,
+    },
+
+    /// An evaluation of the system left a vector of another dimension than it was given.
+    #[error(
+        "step {step} of size {step_size} at time {time}: the {what} at stage {stage} has dimension {found} instead \
+         of {expected}; the system has to write into the vector it is given without resizing it"
+    )]
+    EvaluationDimension {
+        /// Time at the start of the step.
+        time: f64,
+        /// Step size.
+        step_size: f64,
+        /// Number of the step, from 1.
+        step: u64,
+        /// What has the wrong dimension.
+        what: Quantity,
+        /// The stage it belongs to, from 1, among those that the plan stores.
+        stage: usize,
+        /// Dimension of the state.
+        expected: usize,
+        /// Dimension of the evaluation.
+        found: usize,
+    },
+
+    /// A state was given whose time, position or momentum is infinite or not a number.
+    #[error("the {what} of the state is not finite; start from finite values")]
+    NonFiniteState {
+        /// What is not finite.
+        what: Quantity,
+    },
+
+    /// A state was given whose position and momentum differ in dimension, or that has another dimension than the
+    /// state it replaces.
+    #[error(
+        "the position has dimension {position} and the momentum {momentum}; both must have the same, \
+         and a new state that of the one it replaces"
+    )]
+    Dimension {
+        /// Dimension of the position.
+        position: usize,
+        /// Dimension of the momentum.
+        momentum: usize,
+    },
+
+    /// The step size is zero, infinite or not a number.
+    #[error("the step size is {value}; it must be finite and not zero")]
+    StepSize {
+        /// The step size given.
+        value: f64,
+    },
+
+    /// The end time is infinite or not a number, or too far away for the span to be finite.
+    #[error("the end time is {value}; it must be finite, and so must its distance from the present time")]
+    EndTime {
+        /// The end time given.
+        value: f64,
+    },
+
+    /// More steps would be needed than can be counted exactly, 2⁵³.
+    #[error(
+        "from time {time} to {end} in steps of size {step_size}: this takes more than 2^53 steps; take larger ones"
+    )]
+    StepCount {
+        /// Time of the state.
+        time: f64,
+        /// End time given.
+        end: f64,
+        /// Step size.
+        step_size: f64,
+    },
+
+    /// The step is so small that it does not change the time.
+    #[error(
+        "a step of size {step_size} does not change the time {time}, which has 53 bits; take a larger step, or \
+         count the time from nearer"
+    )]
+    TimeResolution {
+        /// Time of the state.
+        time: f64,
+        /// Step size.
+        step_size: f64,
+    },
+}
+
+/// The quantity that an [`Error`] is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// Time t.
+    Time,
+    /// Position q.
+    Position,
+    /// Momentum p.
+    Momentum,
+    /// ∂H/∂p.
+    Velocity,
+    /// −∂H/∂q.
+    Force,
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Time => "time",
+            Self::Position => "position",
+            Self::Momentum => "momentum",
+            Self::Velocity => "velocity",
+            Self::Force => "force",
+        })
+    }
+}
+
+/// " at stage i", or nothing.
+struct AtStage(Option<usize>);
+
+impl fmt::Display for AtStage {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.map_or(Ok(()), |stage| write!(formatter, " at stage {stage}"))
+    }
+}

@@ -1,0 +1,121 @@
+//! The systems that are integrated.
+
+use crate::{Class, Separable, Vector};
+
+/// A Hamiltonian system, given by the right-hand sides of Hamilton's equations
+///
+/// ```text
+/// q' = velocity(t, q, p) = ∂H/∂p      p' = force(t, q, p) = −∂H/∂q
+/// ```
+///
+/// Results are written into the last argument, which has the dimension of `q` and `p` and holds some older value:
+/// every component has to be set. A result of another dimension or with a component that is not finite is an
+/// error of the step.
+///
+/// [`Class`](Self::Class) says what may depend on what. A system whose velocity sees only `p` and whose force
+/// sees only `q` implements [`SeparableHamiltonian`] instead and gets this trait from it; any other says
+/// `type Class = General`. [`hamiltonian`](crate::hamiltonian) makes a system of two closures.
+///
+/// # Time
+///
+/// Where H depends on time, a partitioned method reads two clocks: stage `i` asks for the *force* at
+/// `t0 + c_i h`, the time of its position `Q_i`, and for the *velocity* at `t0 + c̃_i h`, the time of its momentum
+/// `P_i`. For a separable H this is the autonomous system in which each half has got a time of its own, so the order of
+/// the method is kept. Where `c = c̃`, as MW 4.9.3 (Marsden & West, 2001) asks, there is one time only.
+///
+/// ```
+/// use symplectic::nalgebra::SVector;
+/// use symplectic::{General, Hamiltonian, Scalar};
+///
+/// /// H = (q² + 1)(p² + 1)/2
+/// struct Coupled;
+///
+/// impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Coupled {
+///     type Class = General;
+///
+///     fn velocity(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+///         velocity[0] = p[0] * (q[0] * q[0] + T::one());
+///     }
+///
+///     fn force(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+///         force[0] = -q[0] * (p[0] * p[0] + T::one());
+///     }
+/// }
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a Hamiltonian system over the vectors `{V}`",
+    label = "implement `SeparableHamiltonian<{V}>`, or `Hamiltonian<{V}>` with `type Class = General`"
+)]
+pub trait Hamiltonian<V: Vector> {
+    /// What the derivatives depend on: [`General`](crate::General) or [`Separable`].
+    type Class: Class;
+
+    /// Writes ∂H/∂p at `(time, q, p)` into `velocity`.
+    fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V);
+
+    /// Writes −∂H/∂q at `(time, q, p)` into `force`.
+    fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V);
+
+    /// H at `(time, q, p)`, where the system knows it. No method needs it.
+    fn energy(&self, _time: V::Scalar, _q: &V, _p: &V) -> Option<V::Scalar> {
+        None
+    }
+}
+
+/// A system with a separable Hamiltonian `H = T(t, p) + U(t, q)`: the velocity sees only `p`, the force only `q`.
+///
+/// Many symplectic methods are explicit for such a system. For results and time see [`Hamiltonian`], which every
+/// separable system is; [`separable`](crate::separable) makes one of two closures.
+///
+/// ```
+/// use symplectic::nalgebra::SVector;
+/// use symplectic::{Scalar, SeparableHamiltonian};
+///
+/// /// H = p²/2 − cos q
+/// struct Pendulum;
+///
+/// impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for Pendulum {
+///     fn velocity(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+///         velocity[0] = p[0];
+///     }
+///
+///     fn force(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+///         force[0] = -q[0].sin();
+///     }
+///
+///     fn energy(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
+///         Some(p[0] * p[0] * T::from_f64(0.5) - q[0].cos())
+///     }
+/// }
+/// ```
+pub trait SeparableHamiltonian<V: Vector> {
+    /// Writes ∂H/∂p at `(time, p)` into `velocity`.
+    fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V);
+
+    /// Writes −∂H/∂q at `(time, q)` into `force`.
+    fn force(&self, time: V::Scalar, q: &V, force: &mut V);
+
+    /// H at `(time, q, p)`, where the system knows it. No method needs it.
+    fn energy(&self, _time: V::Scalar, _q: &V, _p: &V) -> Option<V::Scalar> {
+        None
+    }
+}
+
+impl<V: Vector, S: SeparableHamiltonian<V>> Hamiltonian<V> for S {
+    type Class = Separable;
+
+    #[inline(always)]
+    fn velocity(&self, time: V::Scalar, _q: &V, p: &V, velocity: &mut V) {
+        SeparableHamiltonian::velocity(self, time, p, velocity);
+    }
+
+    #[inline(always)]
+    fn force(&self, time: V::Scalar, q: &V, _p: &V, force: &mut V) {
+        SeparableHamiltonian::force(self, time, q, force);
+    }
+
+    #[inline]
+    fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
+        SeparableHamiltonian::energy(self, time, q, p)
+    }
+}

@@ -1,0 +1,332 @@
+//! Steps, and what holds between them.
+
+use core::fmt;
+use core::marker::PhantomData;
+use core::mem;
+
+use crate::stage::is_finite;
+use crate::time::{Clock, uniform};
+use crate::{
+    Class, Coupling, Error, Failure, Hamiltonian, Method, Plan, Quantity, Scalar, StageStorage, State, States, Step,
+    Vector,
+};
+
+/// The plan of the method `M` for the class of the system `S`.
+type PlanOf<M, S, V> = <<S as Hamiltonian<V>>::Class as Class>::Plan<M>;
+
+/// A method that steps a system from a state.
+///
+/// All memory is made by [`new`](Self::new); a step allocates nothing. A step that fails leaves the state and the
+/// counts as they were.
+///
+/// The time after `k` steps is `start + k h`, computed so and not summed up. It starts again where the step size or
+/// the state is set and where [`integrate_to`](Self::integrate_to) ends.
+///
+/// ```
+/// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/common/methods.rs"));
+/// use symplectic::nalgebra::Vector2;
+/// use symplectic::{Error, Integrator, State, separable};
+///
+/// # fn main() -> Result<(), Error> {
+/// let kepler = separable(
+///     |_time, p: &Vector2<f64>, velocity| *velocity = *p,
+///     |_time, q, force| *force = -q / q.norm().powi(3),
+/// );
+/// let start = State::new(0.0, Vector2::new(1.0, 0.0), Vector2::new(0.0, 1.0));
+/// let mut integrator = Integrator::new(StoermerVerlet, kepler, start, 0.01)?;
+///
+/// let first = integrator.step()?;
+/// assert_eq!(first.time, 0.01);
+/// for state in integrator.states().take(2) {
+///     let state = state?;
+///     assert!((state.q.norm() - 1.0).abs() < 1e-4);
+/// }
+/// let end = integrator.integrate_to(core::f64::consts::TAU)?;
+/// assert_eq!(end.time, core::f64::consts::TAU);
+/// assert_eq!(integrator.steps(), 3 + 626);
+/// # Ok(())
+/// # }
+/// ```
+pub struct Integrator<M: Method, S: Hamiltonian<V>, V: Vector> {
+    system: S,
+    state: State<V>,
+    /// Where a step writes its result; swapped with the state when it is accepted.
+    next: (V, V),
+    stages: <PlanOf<M, S, V> as Plan>::Stages<V>,
+    /// Whether `stages` holds the first evaluation of the next step.
+    carried: bool,
+    clock: Clock,
+    step_size: f64,
+    max_iterations: u32,
+    steps: u64,
+    iterations: u64,
+    method: PhantomData<M>,
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
+    /// A bound on the sweeps of one step, for [`set_max_iterations`](Self::set_max_iterations). An iteration that
+    /// needs more gains less than a factor of 1.2 a sweep.
+    pub const DEFAULT_MAX_ITERATIONS: u32 = 200;
+
+    /// An integrator at `state`, with steps of size `step_size`, negative to go backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`].
+    pub fn new(_method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error> {
+        check_step_size(step_size)?;
+        check_state(&state, state.q.dimension())?;
+        Ok(Self {
+            system,
+            next: (state.q.zeros_like(), state.q.zeros_like()),
+            stages: StageStorage::like(&state.q),
+            carried: false,
+            clock: Clock::new(state.time, step_size),
+            state,
+            step_size,
+            max_iterations: Self::DEFAULT_MAX_ITERATIONS,
+            steps: 0,
+            iterations: 0,
+            method: PhantomData,
+        })
+    }
+
+    /// Takes one step and returns the state after it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoConvergence`], [`Error::NonFinite`], [`Error::EvaluationDimension`], [`Error::TimeResolution`];
+    /// the state is untouched.
+    pub fn step(&mut self) -> Result<&State<V>, Error> {
+        self.advance(self.step_size, self.clock.next())?;
+        self.clock.tick();
+        Ok(&self.state)
+    }
+
+    /// Goes to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size, up
+    /// to rounding; forward or backward, whatever the sign of the step size. At `end` already, it takes no step.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the
+    /// last good step.
+    pub fn integrate_to(&mut self, end: f64) -> Result<&State<V>, Error> {
+        self.integrate_with(end, |_| {})
+    }
+
+    /// [`integrate_to`](Self::integrate_to) that shows `observe` the state after every step.
+    ///
+    /// # Errors
+    ///
+    /// As for [`integrate_to`](Self::integrate_to).
+    ///
+    /// ```
+    /// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/common/methods.rs"));
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, separable};
+    /// # fn main() -> Result<(), Error> {
+    /// let oscillator = separable::<Vector1<f64>, _, _>(|_, p, velocity| *velocity = *p, |_, q, force| *force = -q);
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+    /// let mut integrator = Integrator::new(StoermerVerlet, oscillator, start, 0.1)?;
+    /// let mut times = Vec::new();
+    /// integrator.integrate_with(0.5, |state| times.push(state.time))?;
+    /// assert_eq!(times, [0.1, 0.2, 0.1 * 3.0, 0.4, 0.5]);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn integrate_with<F: FnMut(&State<V>)>(&mut self, end: f64, mut observe: F) -> Result<&State<V>, Error> {
+        let start = self.state.time;
+        let (count, size) = uniform(start, end, self.step_size)?;
+        let mut clock = Clock::new(start, size);
+        let mut outcome = Ok(());
+        for step in 1..=count {
+            outcome = self.advance(size, if step == count { end } else { clock.next() });
+            if outcome.is_err() {
+                break;
+            }
+            clock.tick();
+            observe(&self.state);
+        }
+        self.restart_clock();
+        outcome.map(|()| &self.state)
+    }
+
+    /// An endless iterator over the states after each step. [`Iterator::take`] what is needed.
+    pub const fn states(&mut self) -> States<'_, M, S, V> {
+        States::new(self)
+    }
+
+    /// The present state.
+    pub const fn state(&self) -> &State<V> {
+        &self.state
+    }
+
+    /// Puts another state of the same dimension in place of the present one.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Dimension`], [`Error::NonFiniteState`]; the state is then untouched.
+    pub fn set_state(&mut self, state: State<V>) -> Result<(), Error> {
+        check_state(&state, self.state.q.dimension())?;
+        self.state = state;
+        self.carried = false;
+        self.restart_clock();
+        Ok(())
+    }
+
+    /// The present state, given away.
+    pub fn into_state(self) -> State<V> {
+        self.state
+    }
+
+    /// The step size.
+    pub const fn step_size(&self) -> f64 {
+        self.step_size
+    }
+
+    /// Changes the step size; negative to go backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`]; the step size is then untouched.
+    pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
+        check_step_size(step_size)?;
+        self.step_size = step_size;
+        self.restart_clock();
+        Ok(())
+    }
+
+    /// Sets the bound on the sweeps of one step, beyond which it fails with [`Error::NoConvergence`]; 0 counts as 1.
+    pub const fn set_max_iterations(&mut self, max_iterations: u32) {
+        self.max_iterations = if max_iterations == 0 { 1 } else { max_iterations };
+    }
+
+    /// The system.
+    pub const fn system(&self) -> &S {
+        &self.system
+    }
+
+    /// Number of steps taken.
+    pub const fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Number of fixed-point sweeps in all steps taken; 0 for an explicit method.
+    pub const fn iterations(&self) -> u64 {
+        self.iterations
+    }
+
+    /// The energy of the present state, where the system knows it.
+    pub fn energy(&self) -> Option<V::Scalar> {
+        let State { time, q, p } = &self.state;
+        self.system.energy(V::Scalar::from_f64(*time), q, p)
+    }
+
+    /// One step of size `size`, to the time `time`. The clock is the caller's.
+    #[inline]
+    fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
+        if time == self.state.time {
+            return Err(Error::TimeResolution { time, step_size: size });
+        }
+        match self.attempt(size) {
+            Ok(iterations) => {
+                mem::swap(&mut self.state.q, &mut self.next.0);
+                mem::swap(&mut self.state.p, &mut self.next.1);
+                self.state.time = time;
+                self.steps += 1;
+                self.iterations += u64::from(iterations);
+                self.carried = <PlanOf<M, S, V> as Plan>::carry(&mut self.stages);
+                Ok(())
+            }
+            Err(failure) => Err(self.fail(size, failure)),
+        }
+    }
+
+    /// Computes a step into `next` and checks it; returns the number of sweeps.
+    #[inline]
+    fn attempt(&mut self, size: f64) -> Result<u32, Option<Failure>> {
+        let State { time, q, p } = &self.state;
+        let step = Step { time: *time, size, q, p };
+        let (q1, p1) = &mut self.next;
+        let iterations = <PlanOf<M, S, V> as Plan>::Coupling::drive::<PlanOf<M, S, V>, V, S>(
+            &step,
+            &self.system,
+            &mut self.stages,
+            self.carried,
+            self.max_iterations,
+            (&mut *q1, &mut *p1),
+        )?;
+        let sound = self.stages.mismatch(q.dimension()).is_none() && is_finite(q1) && is_finite(p1);
+        if sound { Ok(iterations) } else { Err(None) }
+    }
+
+    /// Says why a step failed, and forgets everything that it left behind.
+    #[cold]
+    fn fail(&mut self, step_size: f64, failure: Option<Failure>) -> Error {
+        let (time, step) = (self.state.time, self.steps + 1);
+        let expected = self.state.q.dimension();
+        let error = if let Some((what, stage, found)) = self.stages.mismatch(expected) {
+            // First of all: whatever else went wrong may be a consequence.
+            Error::EvaluationDimension { time, step_size, step, what, stage, expected, found }
+        } else {
+            match failure {
+                Some(Failure::NoConvergence { residual, iterations }) => {
+                    Error::NoConvergence { time, step_size, step, residual, iterations }
+                }
+                Some(Failure::NonFinite { what, stage }) => Error::NonFinite { time, step_size, step, what, stage },
+                None => {
+                    let part = if is_finite(&self.next.0) { Quantity::Momentum } else { Quantity::Position };
+                    let culprit = self.stages.non_finite();
+                    Error::NonFinite {
+                        time,
+                        step_size,
+                        step,
+                        what: culprit.map_or(part, |(what, _)| what),
+                        stage: culprit.map(|(_, stage)| stage),
+                    }
+                }
+            }
+        };
+        self.stages = StageStorage::like(&self.state.q);
+        self.carried = false;
+        error
+    }
+
+    const fn restart_clock(&mut self) {
+        self.clock = Clock::new(self.state.time, self.step_size);
+    }
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector> fmt::Debug for Integrator<M, S, V> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("Integrator")
+            .field("method", &M::NAME)
+            .field("state", &self.state)
+            .field("step_size", &self.step_size)
+            .field("steps", &self.steps)
+            .field("iterations", &self.iterations)
+            .finish_non_exhaustive()
+    }
+}
+
+fn check_step_size(value: f64) -> Result<(), Error> {
+    if value.is_finite() && value != 0.0 { Ok(()) } else { Err(Error::StepSize { value }) }
+}
+
+fn check_state<V: Vector>(state: &State<V>, dimension: usize) -> Result<(), Error> {
+    let (position, momentum) = (state.q.dimension(), state.p.dimension());
+    if position != dimension || momentum != dimension {
+        return Err(Error::Dimension { position, momentum });
+    }
+    let what = if !state.time.is_finite() {
+        Quantity::Time
+    } else if !is_finite(&state.q) {
+        Quantity::Position
+    } else if !is_finite(&state.p) {
+        Quantity::Momentum
+    } else {
+        return Ok(());
+    };
+    Err(Error::NonFiniteState { what })
+}

@@ -1,0 +1,148 @@
+//! The numbers that a system computes with.
+
+use core::ops::Neg;
+
+use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
+use num_traits::{Float, One, Zero};
+
+/// A real number, or something that behaves like one: f32, f64, a dual number, a few numbers side by side.
+///
+/// A system written for every `T: Scalar` runs on all of them without a change. The operators come from the
+/// supertraits, which are also what nalgebra asks for `q + p`, `q * s`, `-q` and `q.dot(&p)`. There is no order
+/// among scalars, for side by side numbers have none: code that is generic over them cannot branch on a value.
+///
+/// ```
+/// use symplectic::Scalar;
+/// use symplectic::nalgebra::SVector;
+///
+/// /// The force of a Kepler potential −1/|q|.
+/// fn kepler<T: Scalar>(q: &SVector<T, 2>) -> SVector<T, 2> {
+///     let square = q.dot(q);
+///     -q * (square * square.sqrt()).recip()
+/// }
+///
+/// assert_eq!(kepler(&SVector::<f64, 2>::new(0.0, 2.0))[1], -0.25);
+/// assert_eq!(kepler(&SVector::<f32, 2>::new(0.0, 2.0))[1], -0.25);
+/// ```
+pub trait Scalar:
+    nalgebra::Scalar
+    + Copy
+    + Zero
+    + One
+    + ClosedAddAssign
+    + ClosedSubAssign
+    + ClosedMulAssign
+    + ClosedDivAssign
+    + Neg<Output = Self>
+{
+    /// Distance from 1 to the next larger number: 2⁻⁵² for f64, 2⁻²³ for f32.
+    const EPSILON: f64;
+
+    /// The scalar nearest to `value`; a constant, that is with all derivatives zero and all lanes equal.
+    fn from_f64(value: f64) -> Self;
+
+    /// The largest absolute value among the parts: |x| for a float, the largest over value and derivatives for a
+    /// dual number, the largest over the lanes for side by side numbers.
+    ///
+    /// NaN if any part is NaN, even where another is larger: the solver and the checks for finiteness rest on it.
+    fn magnitude(self) -> f64;
+
+    /// Whether all parts are finite.
+    #[inline]
+    fn is_finite(self) -> bool {
+        self.magnitude().is_finite()
+    }
+
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// 1/x.
+    fn recip(self) -> Self;
+    /// xⁿ.
+    fn powi(self, exponent: i32) -> Self;
+    /// |x|, whose derivative is the sign of x.
+    fn abs(self) -> Self;
+    /// Exponential function.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// Sine of an angle in radians.
+    fn sin(self) -> Self;
+    /// Cosine of an angle in radians.
+    fn cos(self) -> Self;
+    /// Tangent of an angle in radians.
+    fn tan(self) -> Self;
+    /// Inverse sine, in radians.
+    fn asin(self) -> Self;
+    /// Inverse cosine, in radians.
+    fn acos(self) -> Self;
+    /// Inverse tangent, in radians.
+    fn atan(self) -> Self;
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+
+    /// Sine and cosine together.
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        (self.sin(), self.cos())
+    }
+}
+
+macro_rules! forward {
+    ($($function:ident)*) => {
+        $(
+            #[inline]
+            fn $function(self) -> Self {
+                Float::$function(self)
+            }
+        )*
+    };
+}
+
+macro_rules! float {
+    ($float:ident, $from:expr, $into:expr) => {
+        impl Scalar for $float {
+            const EPSILON: f64 = $into($float::EPSILON);
+
+            #[inline]
+            fn from_f64(value: f64) -> Self {
+                $from(value)
+            }
+
+            #[inline]
+            fn magnitude(self) -> f64 {
+                $into(self.abs())
+            }
+
+            #[inline]
+            fn powi(self, exponent: i32) -> Self {
+                Float::powi(self, exponent)
+            }
+
+            #[inline]
+            fn sin_cos(self) -> (Self, Self) {
+                Float::sin_cos(self)
+            }
+
+            forward! { sqrt recip abs exp ln sin cos tan asin acos atan sinh cosh tanh }
+        }
+    };
+}
+
+const fn same(value: f64) -> f64 {
+    value
+}
+
+const fn narrow(value: f64) -> f32 {
+    value as f32
+}
+
+const fn widen(value: f32) -> f64 {
+    value as f64
+}
+
+float!(f64, same, same);
+float!(f32, narrow, widen);

@@ -1,0 +1,77 @@
+//! The memory of a step.
+
+use core::array;
+
+use crate::{Quantity, Vector};
+
+/// Memory for the stages of one [`Plan`](crate::Plan), made once and used for every step.
+pub trait StageStorage<V: Vector>: Sized {
+    /// Storage for vectors of the dimension of `prototype`; every component is zero.
+    fn like(prototype: &V) -> Self;
+
+    /// The first evaluation that is not finite although the stage value that it was made from is: the quantity
+    /// and the number of the stage, from 1.
+    fn non_finite(&self) -> Option<(Quantity, usize)>;
+
+    /// The first evaluation whose dimension is not `dimension`: the quantity, the number of the stage, from 1, and the
+    /// dimension found.
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)>;
+}
+
+/// `Q` positions with a force each, and `P` momenta with a velocity each.
+///
+/// For a separable system equal stages are stored once, so `Q` and `P` may differ and be smaller than the number
+/// of stages; a stage that equals the start or the result of the step is not stored at all, and its place stays
+/// unused.
+#[derive(Clone, Debug)]
+pub struct Stages<V, const Q: usize, const P: usize> {
+    /// Stage positions Q_i.
+    pub q: [V; Q],
+    /// Stage momenta P_i.
+    pub p: [V; P],
+    /// ∂H/∂p at the stage momenta.
+    pub velocity: [V; P],
+    /// −∂H/∂q at the stage positions.
+    pub force: [V; Q],
+}
+
+impl<V: Vector, const Q: usize, const P: usize> StageStorage<V> for Stages<V, Q, P> {
+    fn like(prototype: &V) -> Self {
+        Self {
+            q: array::from_fn(|_| prototype.zeros_like()),
+            p: array::from_fn(|_| prototype.zeros_like()),
+            velocity: array::from_fn(|_| prototype.zeros_like()),
+            force: array::from_fn(|_| prototype.zeros_like()),
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        let first = |values: &[V], evaluations: &[V]| {
+            let mut pairs = values.iter().zip(evaluations);
+            pairs.position(|(value, evaluation)| is_finite(value) && !is_finite(evaluation))
+        };
+        if let Some(i) = first(&self.q, &self.force) {
+            return Some((Quantity::Force, i + 1));
+        }
+        first(&self.p, &self.velocity).map(|i| (Quantity::Velocity, i + 1))
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        let first = |evaluations: &[V]| {
+            let mut dimensions = evaluations.iter().map(V::dimension).enumerate();
+            dimensions.find(|&(_, found)| found != dimension)
+        };
+        if let Some((i, found)) = first(&self.force) {
+            return Some((Quantity::Force, i + 1, found));
+        }
+        first(&self.velocity).map(|(i, found)| (Quantity::Velocity, i + 1, found))
+    }
+}
+
+/// Whether every component is finite.
+#[inline]
+pub(crate) fn is_finite<V: Vector>(vector: &V) -> bool {
+    // Without a branch per component: steps check their result with it.
+    vector.as_slice().iter().fold(true, |finite, x| finite & crate::Scalar::is_finite(*x))
+}

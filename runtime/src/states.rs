@@ -1,0 +1,41 @@
+//! The states of an integration, one after the other.
+
+use core::fmt;
+use core::iter::FusedIterator;
+
+use crate::{Error, Hamiltonian, Integrator, Method, State, Vector};
+
+/// The endless iterator that [`Integrator::states`] returns.
+///
+/// Every item is the state after one more step, cloned. After an error there are no more items.
+pub struct States<'a, M: Method, S: Hamiltonian<V>, V: Vector> {
+    integrator: &'a mut Integrator<M, S, V>,
+    failed: bool,
+}
+
+impl<'a, M: Method, S: Hamiltonian<V>, V: Vector> States<'a, M, S, V> {
+    pub(crate) const fn new(integrator: &'a mut Integrator<M, S, V>) -> Self {
+        Self { integrator, failed: false }
+    }
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector> Iterator for States<'_, M, S, V> {
+    type Item = Result<State<V>, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.failed {
+            return None;
+        }
+        let state = self.integrator.step().cloned();
+        self.failed = state.is_err();
+        Some(state)
+    }
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector> FusedIterator for States<'_, M, S, V> {}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector> fmt::Debug for States<'_, M, S, V> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("States").field("integrator", self.integrator).field("failed", &self.failed).finish()
+    }
+}

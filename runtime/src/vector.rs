@@ -1,0 +1,87 @@
+//! The vectors that positions and momenta are.
+
+use core::fmt::Debug;
+
+use nalgebra::SVector;
+use num_traits::Zero;
+
+use crate::Scalar;
+
+/// A position, a momentum or one of their derivatives: components of one [`Scalar`] type, contiguous in memory.
+///
+/// Implemented by [`nalgebra::SVector`] (static dimension, nothing on the heap) and, with the feature `alloc`, by
+/// [`nalgebra::DVector`] (dimension known at run time).
+///
+/// ```
+/// use symplectic::Vector;
+/// use symplectic::nalgebra::{DVector, Vector3};
+///
+/// assert_eq!(Vector3::new(1.0, 2.0, 3.0).dimension(), 3);
+/// assert_eq!(DVector::from_vec(vec![1.0_f32, 2.0]).zeros_like(), DVector::zeros(2));
+/// ```
+pub trait Vector: Clone + Debug + PartialEq + 'static {
+    /// The type of a component.
+    type Scalar: Scalar;
+    /// The same kind of vector over another scalar, for example over dual numbers.
+    type With<T: Scalar>: Vector<Scalar = T>;
+
+    /// Number of components.
+    fn dimension(&self) -> usize;
+    /// The components.
+    fn as_slice(&self) -> &[Self::Scalar];
+    /// The components, to be written.
+    fn as_mut_slice(&mut self) -> &mut [Self::Scalar];
+    /// The zero vector of the same dimension.
+    fn zeros_like(&self) -> Self;
+}
+
+impl<T: Scalar, const N: usize> Vector for SVector<T, N> {
+    type Scalar = T;
+    type With<U: Scalar> = SVector<U, N>;
+
+    #[inline(always)]
+    fn dimension(&self) -> usize {
+        N
+    }
+
+    #[inline(always)]
+    fn as_slice(&self) -> &[T] {
+        &self.data.0[0]
+    }
+
+    #[inline(always)]
+    fn as_mut_slice(&mut self) -> &mut [T] {
+        &mut self.data.0[0]
+    }
+
+    #[inline]
+    fn zeros_like(&self) -> Self {
+        Self::from_element(T::zero())
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Scalar> Vector for nalgebra::DVector<T> {
+    type Scalar = T;
+    type With<U: Scalar> = nalgebra::DVector<U>;
+
+    #[inline(always)]
+    fn dimension(&self) -> usize {
+        self.len()
+    }
+
+    #[inline(always)]
+    fn as_slice(&self) -> &[T] {
+        self.data.as_slice()
+    }
+
+    #[inline(always)]
+    fn as_mut_slice(&mut self) -> &mut [T] {
+        self.data.as_mut_slice()
+    }
+
+    #[inline]
+    fn zeros_like(&self) -> Self {
+        Self::from_element(self.len(), T::zero())
+    }
+}
