@@ -103,7 +103,7 @@ pub enum ErrorKind {
         limit: usize,
     },
     /// A rule with fewer nodes than it needs.
-    #[error("`{rule}({stages})` does not exist: {rule} needs at least {minimum} node{}", if *minimum == 1 {""} else {"s"})]
+    #[error("`{rule}({stages})` does not exist: `{rule}(s)` needs s ≥ {minimum}")]
     TooFewStages {
         /// The rule.
         rule: &'static str,

@@ -6,52 +6,15 @@ use num_traits::{One, Zero};
 /// The rows of a square rational matrix.
 pub type Rows = Vec<Vec<BigRational>>;
 
-/// The inverse of a square matrix, or a vector `v ≠ 0` with `vᵀ M = 0`.
-pub fn inverse(matrix: &Rows) -> Result<Rows, Vec<BigRational>> {
-    let size = matrix.len();
-    // Gauss–Jordan on [M | 1]: the right half records the row operations, so a row that vanishes on
-    // the left is, on the right, a combination of rows that vanishes.
-    let mut rows: Rows = matrix
-        .iter()
-        .enumerate()
-        .map(|(i, row)| {
-            let mut row = row.clone();
-            row.resize(size, BigRational::zero());
-            row.extend((0..size).map(|j| {
-                if i == j {
-                    BigRational::one()
-                } else {
-                    BigRational::zero()
-                }
-            }));
-            row
-        })
-        .collect();
-    for column in 0..size {
-        let Some(pivot) = (column..size).find(|&i| !rows[i][column].is_zero()) else {
-            return Err(vanishing_combination(rows, column, size));
-        };
-        rows.swap(column, pivot);
-        let scale = rows[column][column].recip();
-        rows[column].iter_mut().for_each(|x| *x *= &scale);
-        let reference = rows[column].clone();
-        for (i, row) in rows.iter_mut().enumerate() {
-            if i != column && !row[column].is_zero() {
-                let factor = row[column].clone();
-                for (x, r) in row.iter_mut().zip(&reference).filter(|(_, r)| !r.is_zero()) {
-                    *x -= &factor * r;
-                }
-            }
-        }
-    }
-    Ok(rows.into_iter().map(|row| row[size..].to_vec()).collect())
-}
-
-/// Goes on eliminating the later columns of a singular matrix until a row has vanished.
-fn vanishing_combination(mut rows: Rows, rank: usize, size: usize) -> Vec<BigRational> {
-    let mut done = rank;
-    for column in rank + 1..size {
-        if let Some(pivot) = (done..size).find(|&i| !rows[i][column].is_zero()) {
+/// A vector `v ≠ 0` with `vᵀ M = 0`, if the rows of `M` are linearly dependent.
+pub fn left_kernel(matrix: &[Vec<BigRational>]) -> Option<Vec<BigRational>> {
+    let width = matrix.iter().map(Vec::len).max().unwrap_or(0);
+    // Elimination on [M | 1]: the right half records the row operations, so where the left half of a
+    // row has vanished, the right half is a combination of rows that vanishes.
+    let mut rows = augmented(matrix, width);
+    let mut done = 0;
+    for column in 0..width {
+        if let Some(pivot) = (done..rows.len()).find(|&i| !rows[i][column].is_zero()) {
             rows.swap(done, pivot);
             let reference = rows[done].clone();
             for row in rows
@@ -60,14 +23,67 @@ fn vanishing_combination(mut rows: Rows, rank: usize, size: usize) -> Vec<BigRat
                 .filter(|row| !row[column].is_zero())
             {
                 let factor = &row[column] / &reference[column];
-                for (x, r) in row.iter_mut().zip(&reference) {
-                    *x -= &factor * r;
-                }
+                subtract(row, &factor, &reference);
             }
             done += 1;
         }
     }
-    rows.swap_remove(done).split_off(size)
+    rows.get_mut(done).map(|row| row.split_off(width))
+}
+
+/// The inverse of a square matrix.
+///
+/// # Errors
+/// For a singular matrix, a vector `v ≠ 0` with `vᵀ M = 0`.
+pub fn inverse(matrix: &[Vec<BigRational>]) -> Result<Rows, Vec<BigRational>> {
+    if let Some(combination) = left_kernel(matrix) {
+        return Err(combination);
+    }
+    let size = matrix.len();
+    let mut rows = augmented(matrix, size);
+    for column in 0..size {
+        // The matrix is regular, so there is a pivot.
+        let pivot = (column..size)
+            .find(|&i| !rows[i][column].is_zero())
+            .unwrap_or(column);
+        rows.swap(column, pivot);
+        let scale = rows[column][column].recip();
+        rows[column].iter_mut().for_each(|x| *x *= &scale);
+        let reference = rows[column].clone();
+        for (i, row) in rows.iter_mut().enumerate() {
+            if i != column && !row[column].is_zero() {
+                let factor = row[column].clone();
+                subtract(row, &factor, &reference);
+            }
+        }
+    }
+    Ok(rows.into_iter().map(|row| row[size..].to_vec()).collect())
+}
+
+/// `[M | 1]` with `M` filled up to a width with zeros.
+fn augmented(matrix: &[Vec<BigRational>], width: usize) -> Rows {
+    let identity = |i: usize| {
+        (0..matrix.len()).map(move |j| {
+            if i == j {
+                BigRational::one()
+            } else {
+                BigRational::zero()
+            }
+        })
+    };
+    let augment = |(i, row): (usize, &Vec<BigRational>)| {
+        let mut row = row.clone();
+        row.resize(width, BigRational::zero());
+        row.extend(identity(i));
+        row
+    };
+    matrix.iter().enumerate().map(augment).collect()
+}
+
+fn subtract(row: &mut [BigRational], factor: &BigRational, reference: &[BigRational]) {
+    for (x, r) in row.iter_mut().zip(reference).filter(|(_, r)| !r.is_zero()) {
+        *x -= factor * r;
+    }
 }
 
 #[cfg(test)]

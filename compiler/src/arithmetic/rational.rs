@@ -45,22 +45,24 @@ pub fn simplest_between(low: &BigRational, high: &BigRational) -> BigRational {
         return -simplest_between(&-high, &-low);
     }
     // Continued fractions of both ends agree up to the term where the simplest fraction leaves them.
-    let (mut low, mut high) = (low.clone(), high.clone());
+    let (mut a, mut b) = (low.numer().clone(), low.denom().clone());
+    let (mut c, mut d) = (high.numer().clone(), high.denom().clone());
     let (mut p0, mut q0, mut p1, mut q1) =
         (BigInt::zero(), BigInt::one(), BigInt::one(), BigInt::zero());
     loop {
-        let floor = low.numer().div_floor(low.denom());
-        let whole = BigRational::from_integer(floor.clone());
-        let term = if low == whole {
-            floor.clone()
-        } else if BigRational::from_integer(&floor + 1u32) <= high {
-            &floor + 1u32
+        // The ends are a/b ≤ c/d, both positive, and the fraction so far ends in one of them.
+        let (floor, remainder) = a.div_rem(&b);
+        let above = &floor + 1u32;
+        let term = if remainder.is_zero() {
+            floor
+        } else if &above * &d <= c {
+            above
         } else {
             let (p, q) = (&floor * &p1 + &p0, &floor * &q1 + &q0);
             (p0, q0, p1, q1) = (p1, q1, p, q);
-            let next_low = (high - &whole).recip();
-            high = (low - whole).recip();
-            low = next_low;
+            let high_remainder = c - floor * &d;
+            // Reciprocals of the fractional parts, which exchanges the ends.
+            (a, b, c, d) = (d, high_remainder, b, remainder);
             continue;
         };
         return BigRational::new(&term * &p1 + p0, term * q1 + q0);

@@ -14,6 +14,8 @@ mod lexer;
 mod parser;
 mod value;
 
+pub(crate) use value::shown;
+
 use std::ops::Range;
 
 use num_rational::BigRational;

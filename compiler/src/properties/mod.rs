@@ -1,0 +1,186 @@
+//! What a tableau is, decided in exact arithmetic and returned with evidence.
+//!
+//! One property a file; each decides itself from the exact coefficients and trusts nothing about how
+//! they were derived.
+
+mod consistent;
+mod end_stages;
+mod equal_matrices;
+mod explicit;
+mod positive_weights;
+mod symmetric;
+mod symplectic;
+
+use std::fmt;
+
+use crate::algebra::{NodeAlgebra, Number, Tensor};
+use crate::arithmetic::polynomial::Polynomial;
+use crate::tableau::{Coefficients, Tableau};
+
+/// How it is known whether a property holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Evidence {
+    /// It holds, by exact arithmetic.
+    Proved,
+    /// It does not hold, by exact arithmetic or by an enclosure that excludes it.
+    Refuted,
+    /// Its equations hold up to `2⁻ᵇⁱᵗˢ`; that is no proof.
+    Verified {
+        /// The width of the enclosures.
+        bits: u32,
+    },
+}
+
+/// Whether a property holds, how that is known, and an example.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Property {
+    /// Whether it holds.
+    pub holds: bool,
+    /// How that is known.
+    pub evidence: Evidence,
+    /// For a refuted property, where it fails; for one that holds, what makes it so where that is of
+    /// use (the order of the stages, say).
+    pub witness: Option<String>,
+}
+
+impl Property {
+    fn proved(witness: Option<String>) -> Self {
+        Property {
+            holds: true,
+            evidence: Evidence::Proved,
+            witness,
+        }
+    }
+
+    fn refuted(witness: String) -> Self {
+        Property {
+            holds: false,
+            evidence: Evidence::Refuted,
+            witness: Some(witness),
+        }
+    }
+}
+
+impl fmt::Display for Property {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(if self.holds { "yes, " } else { "no, " })?;
+        match self.evidence {
+            Evidence::Proved => f.write_str("proved")?,
+            Evidence::Refuted => f.write_str("refuted")?,
+            Evidence::Verified { bits } => write!(f, "verified to 2^-{bits}")?,
+        }
+        self.witness
+            .as_ref()
+            .map_or(Ok(()), |witness| write!(f, ": {witness}"))
+    }
+}
+
+macro_rules! properties {
+    ($($(#[$doc:meta])* $name:ident: $decide:path;)*) => {
+        /// All properties of a tableau.
+        #[derive(Debug, Clone, PartialEq, Eq)]
+        pub struct Properties {
+            $($(#[$doc])* pub $name: Property,)*
+        }
+
+        impl Properties {
+            /// The names of the properties, as in `require: […]` and in the exports.
+            pub const NAMES: &[&str] = &[$(stringify!($name)),*];
+
+            fn decide(examined: &Examined<'_>) -> Self {
+                Properties { $($name: $decide(examined),)* }
+            }
+
+            /// Every property with its name.
+            pub fn all(&self) -> Vec<(&'static str, &Property)> {
+                vec![$((stringify!($name), &self.$name)),*]
+            }
+
+            /// The property of this name.
+            pub fn get(&self, name: &str) -> Option<&Property> {
+                self.all().into_iter().find(|(known, _)| *known == name).map(|(_, property)| property)
+            }
+        }
+    };
+}
+
+properties! {
+    /// `b_i ã_ij + b̃_j a_ji = b_i b̃_j` and `b_i = b̃_i` (MW 2.6.7): symplectic for every Hamiltonian.
+    symplectic: symplectic::decide;
+    /// Equal to its adjoint, for some order of the stages.
+    symmetric: symmetric::decide;
+    /// `Σ_i b_i = Σ_i b̃_i = 1`: order at least 1.
+    consistent: consistent::decide;
+    /// `ã = a` and `b̃ = b`: a Runge–Kutta method, the same for positions and momenta.
+    equal_matrices: equal_matrices::decide;
+    /// For separable `H = T(p) + U(q)` the stages can be computed one after another.
+    explicit: explicit::decide;
+    /// `a_1j = 0`: the first position stage is `q0`.
+    first_row_zero: end_stages::first_row_zero;
+    /// `a_sj = b_j`: the last position stage is `q1`.
+    stiffly_accurate: end_stages::stiffly_accurate;
+    /// The last position stage of a step is the first of the next.
+    first_same_as_last: end_stages::first_same_as_last;
+    /// `b_i > 0` and `b̃_i > 0`.
+    positive_weights: positive_weights::decide;
+}
+
+impl Tableau {
+    /// Decides all properties.
+    ///
+    /// ```
+    /// let verlet = symplectic_compiler::derive("polynomial(2)", "lobatto(2)")?.properties();
+    /// assert!(verlet.symplectic.holds && verlet.explicit.holds);
+    /// assert_eq!(verlet.explicit.witness.as_deref(), Some("Q1, P1 = P2, Q2"));
+    /// assert!(!verlet.equal_matrices.holds);
+    /// assert_eq!(verlet.equal_matrices.witness.as_deref(), Some("a_11 − ã_11 = -1/2"));
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    pub fn properties(&self) -> Properties {
+        self.with_numbers(|numbers| {
+            Properties::decide(&Examined {
+                tableau: self,
+                numbers,
+            })
+        })
+    }
+}
+
+/// A tableau with its coefficients as numbers, which several properties look at.
+struct Examined<'a> {
+    tableau: &'a Tableau,
+    numbers: &'a Coefficients<Number<'a>>,
+}
+
+/// The first entry of a matrix that is not zero, with its value: `(i, j, value)`, counted from 1.
+fn first_nonzero_entry(algebra: &NodeAlgebra, residual: &Tensor) -> Option<(usize, usize, String)> {
+    let numbers = Number::of_tensor(algebra, residual);
+    let position = numbers.iter().enumerate().find_map(|(i, row)| {
+        let column = row.iter().position(|entry| !entry.is_zero())?;
+        Some((i, column))
+    });
+    position.map(|(i, j)| {
+        let exact = crate::algebra::closed_form::of_tensor(algebra, residual)[i].swap_remove(j);
+        (
+            i + 1,
+            j + 1,
+            exact.map_or_else(|| about(&numbers[i][j]), |form| form.to_string()),
+        )
+    })
+}
+
+/// The first value of an element that is not zero, with its node, counted from 1.
+fn first_nonzero_value(algebra: &NodeAlgebra, residual: &Polynomial) -> Option<(usize, String)> {
+    let numbers = Number::of_element(algebra, residual);
+    let index = numbers.iter().position(|value| !value.is_zero())?;
+    let exact = crate::algebra::closed_form::of_element(algebra, residual).swap_remove(index);
+    Some((
+        index + 1,
+        exact.map_or_else(|| about(&numbers[index]), |form| form.to_string()),
+    ))
+}
+
+/// A number that has no short exact form, for a message.
+fn about(number: &Number<'_>) -> String {
+    format!("{}…", number.decimal(12))
+}

@@ -1,0 +1,221 @@
+//! Symmetry: equality with the adjoint.
+
+use super::{Evidence, Examined, Property, first_nonzero_entry, first_nonzero_value};
+use crate::algebra::{NodeAlgebra, Tensor};
+use crate::arithmetic::interval::Interval;
+use crate::arithmetic::matrix;
+use crate::arithmetic::polynomial::Polynomial;
+use crate::arithmetic::rational::ratio;
+use crate::tableau::Tableau;
+use num_rational::BigRational;
+
+/// Decides whether some permutation `σ` of the stages gives `a_σ(i)σ(j) = b_j − a_ij` and
+/// `b_σ(i) = b_i`, and the same for `ã` and `b̃`.
+///
+/// Such a `σ` maps every quantity that is built from the tableau in a known way: `c_σ(i) = Σ b − c_i`,
+/// for example. A quantity that has different values at all stages therefore determines `σ`, as a
+/// polynomial map of `K`, and the equations are decided in `K ⊗ K`.
+pub(super) fn decide(examined: &Examined<'_>) -> Property {
+    let tableau = examined.tableau;
+    let candidates = quantities(tableau);
+    match candidates
+        .iter()
+        .find_map(|(u, image)| permutation(&tableau.algebra, u, image))
+    {
+        Some(Ok(map)) => check(tableau, &map),
+        Some(Err(())) => {
+            let (b, _) = tableau.weight_sums();
+            Property::refuted(format!(
+                "no order of the stages maps every c_i to {b} − c_i"
+            ))
+        }
+        None => search(tableau),
+    }
+}
+
+/// Quantities of the stages, each with the quantity that a symmetry maps it to.
+fn quantities(tableau: &Tableau) -> Vec<(Polynomial, Polynomial)> {
+    let algebra = &tableau.algebra;
+    let constant = |value: BigRational| Polynomial::constant(value);
+    let reflected = |u: &Polynomial, sum: &BigRational| &constant(sum.clone()) - u;
+    let (sum, sum_tilde) = tableau.weight_sums();
+    let (c, c_tilde) = (tableau.c(), tableau.c_tilde());
+    let (image, image_tilde) = (reflected(&c, &sum), reflected(&c_tilde, &sum_tilde));
+    // (A u)_σ(i) = Σ_j (b_j − a_ij) u_σ(j)
+    let moved = |matrix: &Tensor, b: &Polynomial, u: &Polynomial, image: &Polynomial| {
+        let total = algebra.trace(&(b * image));
+        (
+            matrix.apply(algebra, u),
+            &constant(total) - &matrix.apply(algebra, image),
+        )
+    };
+    let second = moved(&tableau.a, &tableau.b, &c, &image);
+    let second_tilde = moved(&tableau.a_tilde, &tableau.b_tilde, &c_tilde, &image_tilde);
+    let third = moved(&tableau.a, &tableau.b, &c_tilde, &image_tilde);
+    let fourth = moved(&tableau.a_tilde, &tableau.b_tilde, &c, &image);
+    let basic = vec![
+        (c, image),
+        (c_tilde, image_tilde),
+        second,
+        second_tilde,
+        third,
+        fourth,
+        (tableau.b.clone(), tableau.b.clone()),
+        (tableau.b_tilde.clone(), tableau.b_tilde.clone()),
+    ];
+    // A mixture separates all stages that any of them separates, unless the factors are unlucky.
+    let mixture = |step: i64| {
+        basic.iter().zip(1..).fold(
+            (Polynomial::zero(), Polynomial::zero()),
+            |(u, image), (next, k)| {
+                let factor = ratio(step.pow(k), 1);
+                (&u + &next.0.scale(&factor), &image + &next.1.scale(&factor))
+            },
+        )
+    };
+    let mixtures: Vec<_> = [2, 3, 5, 7].map(mixture).into();
+    basic.into_iter().chain(mixtures).collect()
+}
+
+/// The map `g` of `K` with `u(g(x)) = image(x)`; `None` if `u` has equal values at two nodes, and an
+/// error if `g` does not map nodes to nodes.
+fn permutation(
+    algebra: &NodeAlgebra,
+    u: &Polynomial,
+    image: &Polynomial,
+) -> Option<Result<Polynomial, ()>> {
+    let size = algebra.dimension();
+    // u separates the nodes iff its powers are a basis of K.
+    let powers = |u: &Polynomial| {
+        let mut powers = vec![Polynomial::one()];
+        for k in 1..size {
+            powers.push(algebra.multiply(&powers[k - 1], u));
+        }
+        powers
+    };
+    let rows: Vec<Vec<BigRational>> = powers(u)
+        .iter()
+        .map(|p| (0..size).map(|k| p.coefficient(k)).collect())
+        .collect();
+    let inverse = matrix::inverse(&rows).ok()?;
+    // x = Σ_k w_k uᵏ, so g = Σ_k w_k imageᵏ.
+    let x = algebra.variable();
+    let weights = (0..size).map(|k| {
+        (0..size)
+            .map(|j| x.coefficient(j) * &inverse[j][k])
+            .sum::<BigRational>()
+    });
+    let map = weights
+        .zip(powers(image))
+        .fold(Polynomial::zero(), |sum, (w, p)| &sum + &p.scale(&w));
+    Some(if compose(algebra, algebra.modulus(), &map).is_zero() {
+        Ok(map)
+    } else {
+        Err(())
+    })
+}
+
+/// Decides the equations for the only permutation that is possible.
+fn check(tableau: &Tableau, map: &Polynomial) -> Property {
+    let algebra = &tableau.algebra;
+    let adjoint = tableau.adjoint();
+    for (name, b) in [("b", &tableau.b), ("b̃", &tableau.b_tilde)] {
+        if let Some((i, value)) = first_nonzero_value(algebra, &(&compose(algebra, b, map) - b)) {
+            return Property::refuted(format!(
+                "{name}_σ({i}) − {name}_{i} = {value} where stage σ(i) is the mirror image of stage i"
+            ));
+        }
+    }
+    for (name, a, reflected) in [
+        ("a", &tableau.a, &adjoint.a),
+        ("ã", &tableau.a_tilde, &adjoint.a_tilde),
+    ] {
+        if let Some((i, j, value)) =
+            first_nonzero_entry(algebra, &a.substitute(algebra, map).subtract(reflected))
+        {
+            let b = if name == "a" { "b" } else { "b̃" };
+            return Property::refuted(format!(
+                "{name}_σ({i})σ({j}) + {name}_{i}{j} − {b}_{j} = {value} where stage σ(i) is the mirror image of stage i"
+            ));
+        }
+    }
+    Property::proved(None)
+}
+
+/// `f(g(x))` in `K`.
+fn compose(algebra: &NodeAlgebra, f: &Polynomial, g: &Polynomial) -> Polynomial {
+    f.coefficients()
+        .iter()
+        .rev()
+        .fold(Polynomial::zero(), |value, c| {
+            &algebra.multiply(&value, g) + &Polynomial::constant(c.clone())
+        })
+}
+
+/// Binary places of the enclosures by which permutations are excluded.
+const SEARCH_BITS: u32 = 512;
+
+/// Tries all permutations of stages that nothing told apart, with enclosures: a permutation that an
+/// enclosure excludes is refuted; one that survives is verified, not proved.
+fn search(tableau: &Tableau) -> Property {
+    let enclosed =
+        tableau.with_numbers(|numbers| numbers.map(|number| number.enclose(SEARCH_BITS + 256)));
+    let bits = enclosed.b[0].bits().max(enclosed.a[0][0].bits());
+    let aligned = enclosed.map(|interval| Interval {
+        low: &interval.low << (bits - interval.bits),
+        high: &interval.high << (bits - interval.bits),
+        bits,
+    });
+    // Entry (i, j) of the matrix and entry (σ(i), σ(j)) must sum to b_j.
+    let fits =
+        |a: &[Vec<Interval>], b: &[Interval], (i, j): (usize, usize), (k, l): (usize, usize)| {
+            a[k][l]
+                .add(&a[i][j])
+                .subtract(&b[j])
+                .sign()
+                .is_none_or(std::cmp::Ordering::is_eq)
+        };
+    let agrees = |from: (usize, usize), to: (usize, usize)| {
+        fits(&aligned.a, &aligned.b, from, to) && fits(&aligned.a_tilde, &aligned.b_tilde, from, to)
+    };
+    let mut images: Vec<usize> = Vec::new();
+    if extend(&mut images, tableau.stages(), &agrees) {
+        let order = images
+            .iter()
+            .map(|i| (i + 1).to_string())
+            .collect::<Vec<_>>()
+            .join(", ");
+        let evidence = Evidence::Verified { bits: SEARCH_BITS };
+        return Property {
+            holds: true,
+            evidence,
+            witness: Some(format!("with the stages in the order {order}")),
+        };
+    }
+    Property::refuted("no order of the stages makes the tableau equal to its adjoint".to_owned())
+}
+
+/// Extends the images of the first stages to a permutation under which all pairs agree.
+fn extend(
+    images: &mut Vec<usize>,
+    size: usize,
+    agrees: &impl Fn((usize, usize), (usize, usize)) -> bool,
+) -> bool {
+    let i = images.len();
+    if i == size {
+        return true;
+    }
+    for image in 0..size {
+        if images.contains(&image) {
+            continue;
+        }
+        images.push(image);
+        let compatible = (0..=i)
+            .all(|j| agrees((i, j), (image, images[j])) && agrees((j, i), (images[j], image)));
+        if compatible && extend(images, size, agrees) {
+            return true;
+        }
+        images.pop();
+    }
+    false
+}
