@@ -23,6 +23,13 @@ impl Change {
     /// change.q.record(1.0, 3.0, 4.0);
     /// change.p.record(0.0, 8.0, 8.0);
     /// assert_eq!(change.residual(), 0.25);
+    ///
+    /// let mut change = Change::default();
+    /// change.q.record(0.0, 3.0, 0.0);
+    /// assert_eq!(change.residual(), 1.0);
+    /// change.p.record(0.0, 1.0, f64::NAN);
+    /// change.p.record(0.0, 1.0, 1.0);
+    /// assert!(change.residual().is_nan());
     /// ```
     pub fn residual(&self) -> f64 {
         larger(self.q.relative(), self.p.relative())
@@ -48,12 +55,14 @@ impl PartChange {
 
     /// The largest |new − old| divided by the largest of all |base| and |new|.
     ///
-    /// Nothing recorded, or everything zero: 0. Something not finite: NaN.
+    /// Nothing recorded, or everything zero: 0. Changed to zero everywhere: 1. Something not finite: NaN.
     pub fn relative(&self) -> f64 {
-        if self.difference == 0.0 && self.scale == 0.0 {
+        if self.difference.is_nan() || self.scale != 0.0 {
+            self.difference / self.scale
+        } else if self.difference == 0.0 {
             0.0
         } else {
-            self.difference / self.scale
+            1.0
         }
     }
 }

@@ -3,7 +3,9 @@
 use core::fmt;
 use core::marker::PhantomData;
 
-use crate::{General, Hamiltonian, SeparableHamiltonian, Vector};
+use nalgebra::SVector;
+
+use crate::{General, Hamiltonian, Scalar, SeparableHamiltonian, Vector};
 
 /// A separable system of two closures, `|time, p, velocity| …` and `|time, q, force| …`, that write their result
 /// into the last argument.
@@ -32,7 +34,12 @@ where
     F: Fn(V::Scalar, &V, &mut V),
     G: Fn(V::Scalar, &V, &mut V),
 {
-    SeparableClosures { velocity, force, energy: NoEnergy, vector: PhantomData }
+    SeparableClosures {
+        velocity,
+        force,
+        energy: NoEnergy,
+        vector: PhantomData,
+    }
 }
 
 /// A system with any Hamiltonian of two closures, `|time, q, p, velocity| …` and `|time, q, p, force| …`, that write
@@ -56,7 +63,12 @@ where
     F: Fn(V::Scalar, &V, &V, &mut V),
     G: Fn(V::Scalar, &V, &V, &mut V),
 {
-    HamiltonianClosures { velocity, force, energy: NoEnergy, vector: PhantomData }
+    HamiltonianClosures {
+        velocity,
+        force,
+        energy: NoEnergy,
+        vector: PhantomData,
+    }
 }
 
 /// What [`separable`] returns.
@@ -68,7 +80,7 @@ pub struct SeparableClosures<V, F, G, E = NoEnergy> {
     vector: PhantomData<fn(V)>,
 }
 
-/// What [`hamiltonian`] returns.
+/// What [`hamiltonian`] returns; a system over [`SVector`] and [`DVector`](nalgebra::DVector).
 #[derive(Clone, Copy)]
 pub struct HamiltonianClosures<V, F, G, E = NoEnergy> {
     velocity: F,
@@ -87,8 +99,18 @@ impl<V: Vector, F, G> SeparableClosures<V, F, G> {
     where
         E: Fn(V::Scalar, &V, &V) -> V::Scalar,
     {
-        let Self { velocity, force, vector, .. } = self;
-        SeparableClosures { velocity, force, energy, vector }
+        let Self {
+            velocity,
+            force,
+            vector,
+            ..
+        } = self;
+        SeparableClosures {
+            velocity,
+            force,
+            energy,
+            vector,
+        }
     }
 }
 
@@ -98,8 +120,18 @@ impl<V: Vector, F, G> HamiltonianClosures<V, F, G> {
     where
         E: Fn(V::Scalar, &V, &V) -> V::Scalar,
     {
-        let Self { velocity, force, vector, .. } = self;
-        HamiltonianClosures { velocity, force, energy, vector }
+        let Self {
+            velocity,
+            force,
+            vector,
+            ..
+        } = self;
+        HamiltonianClosures {
+            velocity,
+            force,
+            energy,
+            vector,
+        }
     }
 }
 
@@ -125,39 +157,52 @@ where
     }
 }
 
-impl<V, F, G, E> Hamiltonian<V> for HamiltonianClosures<V, F, G, E>
-where
-    V: Vector,
-    F: Fn(V::Scalar, &V, &V, &mut V),
-    G: Fn(V::Scalar, &V, &V, &mut V),
-    E: Energy<V>,
-{
-    type Class = General;
+// One implementation a family of vectors, not one for all `V`: elsewhere somebody could make these closures
+// `SeparableHamiltonian` over a vector of their own, and would meet two implementations of `Hamiltonian`.
+macro_rules! general {
+    ($V:ty, $($parameter:tt)*) => {
+        impl<F, G, E, $($parameter)*> Hamiltonian<$V> for HamiltonianClosures<$V, F, G, E>
+        where
+            F: Fn(T, &$V, &$V, &mut $V),
+            G: Fn(T, &$V, &$V, &mut $V),
+            E: Energy<$V>,
+        {
+            type Class = General;
 
-    #[inline(always)]
-    fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
-        (self.velocity)(time, q, p, velocity);
-    }
+            #[inline(always)]
+            fn velocity(&self, time: T, q: &$V, p: &$V, velocity: &mut $V) {
+                (self.velocity)(time, q, p, velocity);
+            }
 
-    #[inline(always)]
-    fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
-        (self.force)(time, q, p, force);
-    }
+            #[inline(always)]
+            fn force(&self, time: T, q: &$V, p: &$V, force: &mut $V) {
+                (self.force)(time, q, p, force);
+            }
 
-    fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
-        self.energy.evaluate(time, q, p)
-    }
+            fn energy(&self, time: T, q: &$V, p: &$V) -> Option<T> {
+                self.energy.evaluate(time, q, p)
+            }
+        }
+    };
 }
+
+general!(SVector<T, N>, T: Scalar, const N: usize);
+#[cfg(feature = "alloc")]
+general!(nalgebra::DVector<T>, T: Scalar);
 
 impl<V, F, G, E> fmt::Debug for SeparableClosures<V, F, G, E> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_struct("SeparableClosures").finish_non_exhaustive()
+        formatter
+            .debug_struct("SeparableClosures")
+            .finish_non_exhaustive()
     }
 }
 
 impl<V, F, G, E> fmt::Debug for HamiltonianClosures<V, F, G, E> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_struct("HamiltonianClosures").finish_non_exhaustive()
+        formatter
+            .debug_struct("HamiltonianClosures")
+            .finish_non_exhaustive()
     }
 }
 

@@ -1,6 +1,6 @@
 //! How the stages of a step are found: in order, or by iteration.
 
-use crate::{Hamiltonian, Plan, Quantity, Scalar, StageStorage, Step, Vector};
+use crate::{Class, Hamiltonian, Plan, Quantity, Scalar, Separable, StageStorage, Step, Vector};
 
 mod sealed {
     pub trait Sealed {}
@@ -54,10 +54,13 @@ pub struct Explicit;
 
 /// Some stages depend on each other and are found by fixed-point iteration.
 ///
-/// The iteration runs until it stagnates, for a tolerance above the rounding errors would let the energy drift (Hairer,
-/// McLachlan & Razakarivony, 2008): until a sweep changes nothing, or changes the stages no less than some sweep
-/// before it and by rounding errors only, at most 64 units of [`Scalar::EPSILON`] relative to the largest
-/// position and the largest momentum.
+/// The iteration runs until it stagnates, for a tolerance above the rounding errors would let the energy drift
+/// (Hairer, McLachlan & Razakarivony, 2008). It has settled when a sweep changes nothing, or when the change has
+/// stopped shrinking and is down to rounding errors, at most 64 units of [`Scalar::EPSILON`] relative to the
+/// largest position and the largest momentum: in either half for a separable system, in both for a general one
+/// (see [`Class::settling`]). For a general one whose evaluations are noisier than that, it is enough that the
+/// change has shrunk a thousandfold, has not shrunk further in ten sweeps, and one half is down to rounding
+/// errors.
 #[derive(Clone, Copy, Debug)]
 pub struct Coupled;
 
@@ -65,6 +68,12 @@ pub struct Coupled;
 /// evaluations, s ≤ 20 in practice. The change also has to have stopped shrinking, so that an iteration which still
 /// gains digits below the threshold goes on.
 const ROUNDING: f64 = 64.0;
+
+/// Sweeps without progress after which a change that has shrunk by [`CONTRACTION`] counts as noise.
+const PATIENCE: u32 = 10;
+
+/// What tells an iteration that came down to its noise from one that never got anywhere.
+const CONTRACTION: f64 = 1.0 / 1024.0;
 
 impl Coupling for Explicit {
     #[inline(always)]
@@ -104,7 +113,10 @@ impl Coupling for Coupled {
     {
         P::begin(step, system, stages, carried);
         if let Some((what, stage)) = stages.non_finite() {
-            return Err(Failure::NonFinite { what, stage: Some(stage) });
+            return Err(Failure::NonFinite {
+                what,
+                stage: Some(stage),
+            });
         }
         let iterations = iterate::<P, V, S>(step, system, stages, max_iterations)?;
         P::finish(step, system, stages, q1, p1);
@@ -130,7 +142,9 @@ where
 {
     let rounding = ROUNDING * V::Scalar::EPSILON;
     let mut smallest = f64::INFINITY;
+    let mut largest = 0.0_f64;
     let mut last = f64::INFINITY;
+    let mut idle = 0;
     for iteration in 1..=max_iterations {
         let change = P::sweep(step, system, stages);
         let residual = change.residual();
@@ -138,20 +152,37 @@ where
             // In the first sweep the system has been evaluated at the start and next to it: that the state is
             // out of bounds is likelier than that the iteration is. Later it has run away.
             if iteration > 1 {
-                return Err(Failure::NoConvergence { residual: last, iterations: iteration });
+                return Err(Failure::NoConvergence {
+                    residual: last,
+                    iterations: iteration,
+                });
             }
-            let part = if change.q.relative().is_nan() { Quantity::Position } else { Quantity::Momentum };
+            let part = if change.q.relative().is_nan() {
+                Quantity::Position
+            } else {
+                Quantity::Momentum
+            };
             let culprit = stages.non_finite();
             return Err(Failure::NonFinite {
                 what: culprit.map_or(part, |(what, _)| what),
                 stage: culprit.map(|(_, stage)| stage),
             });
         }
-        if residual == 0.0 || (residual >= smallest && residual <= rounding) {
+        idle = if residual < smallest { 0 } else { idle + 1 };
+        smallest = smallest.min(residual);
+        largest = largest.max(residual);
+        let exact = residual == 0.0;
+        let rounded = idle > 0 && P::Class::settling(&change) <= rounding;
+        let noisy = idle >= PATIENCE
+            && smallest <= CONTRACTION * largest
+            && Separable::settling(&change) <= rounding;
+        if exact || rounded || noisy {
             return Ok(iteration);
         }
-        smallest = smallest.min(residual);
         last = residual;
     }
-    Err(Failure::NoConvergence { residual: last, iterations: max_iterations })
+    Err(Failure::NoConvergence {
+        residual: last,
+        iterations: max_iterations,
+    })
 }

@@ -94,7 +94,9 @@ pub enum Error {
     },
 
     /// The end time is infinite or not a number, or too far away for the span to be finite.
-    #[error("the end time is {value}; it must be finite, and so must its distance from the present time")]
+    #[error(
+        "the end time is {value}; it must be finite, and so must its distance from the present time"
+    )]
     EndTime {
         /// The end time given.
         value: f64,
@@ -159,6 +161,7 @@ struct AtStage(Option<usize>);
 
 impl fmt::Display for AtStage {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.map_or(Ok(()), |stage| write!(formatter, " at stage {stage}"))
+        self.0
+            .map_or(Ok(()), |stage| write!(formatter, " at stage {stage}"))
     }
 }

@@ -16,6 +16,10 @@ use crate::{Class, Separable, Vector};
 /// sees only `q` implements [`SeparableHamiltonian`] instead and gets this trait from it; any other says
 /// `type Class = General`. [`hamiltonian`](crate::hamiltonian) makes a system of two closures.
 ///
+/// A general system implements this for `SVector<T, N>`, for `DVector<T>`, or for both, over any `T` and `N`; an
+/// implementation for all `V: Vector` at once the compiler refuses, because a crate further down could make the same
+/// type separable over a vector of its own. A separable system has no such limit.
+///
 /// # Time
 ///
 /// Where H depends on time, a partitioned method reads two clocks: stage `i` asks for the *force* at

@@ -7,8 +7,8 @@ use core::mem;
 use crate::stage::is_finite;
 use crate::time::{Clock, uniform};
 use crate::{
-    Class, Coupling, Error, Failure, Hamiltonian, Method, Plan, Quantity, Scalar, StageStorage, State, States, Step,
-    Vector,
+    Class, Coupling, Error, Failure, Hamiltonian, Method, Plan, Quantity, Scalar, StageStorage,
+    State, States, Step, Vector,
 };
 
 /// The plan of the method `M` for the class of the system `S`.
@@ -23,7 +23,7 @@ type PlanOf<M, S, V> = <<S as Hamiltonian<V>>::Class as Class>::Plan<M>;
 /// the state is set and where [`integrate_to`](Self::integrate_to) ends.
 ///
 /// ```
-/// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/common/methods.rs"));
+/// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
 /// use symplectic::nalgebra::Vector2;
 /// use symplectic::{Error, Integrator, State, separable};
 ///
@@ -121,7 +121,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     /// As for [`integrate_to`](Self::integrate_to).
     ///
     /// ```
-    /// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/common/methods.rs"));
+    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
     /// # use symplectic::nalgebra::Vector1;
     /// # use symplectic::{Error, Integrator, State, separable};
     /// # fn main() -> Result<(), Error> {
@@ -134,7 +134,11 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     /// # Ok(())
     /// # }
     /// ```
-    pub fn integrate_with<F: FnMut(&State<V>)>(&mut self, end: f64, mut observe: F) -> Result<&State<V>, Error> {
+    pub fn integrate_with<F: FnMut(&State<V>)>(
+        &mut self,
+        end: f64,
+        mut observe: F,
+    ) -> Result<&State<V>, Error> {
         let start = self.state.time;
         let (count, size) = uniform(start, end, self.step_size)?;
         let mut clock = Clock::new(start, size);
@@ -198,7 +202,11 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
 
     /// Sets the bound on the sweeps of one step, beyond which it fails with [`Error::NoConvergence`]; 0 counts as 1.
     pub const fn set_max_iterations(&mut self, max_iterations: u32) {
-        self.max_iterations = if max_iterations == 0 { 1 } else { max_iterations };
+        self.max_iterations = if max_iterations == 0 {
+            1
+        } else {
+            max_iterations
+        };
     }
 
     /// The system.
@@ -226,7 +234,10 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     #[inline]
     fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
         if time == self.state.time {
-            return Err(Error::TimeResolution { time, step_size: size });
+            return Err(Error::TimeResolution {
+                time,
+                step_size: size,
+            });
         }
         match self.attempt(size) {
             Ok(iterations) => {
@@ -246,7 +257,12 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     #[inline]
     fn attempt(&mut self, size: f64) -> Result<u32, Option<Failure>> {
         let State { time, q, p } = &self.state;
-        let step = Step { time: *time, size, q, p };
+        let step = Step {
+            time: *time,
+            size,
+            q,
+            p,
+        };
         let (q1, p1) = &mut self.next;
         let iterations = <PlanOf<M, S, V> as Plan>::Coupling::drive::<PlanOf<M, S, V>, V, S>(
             &step,
@@ -267,15 +283,40 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
         let expected = self.state.q.dimension();
         let error = if let Some((what, stage, found)) = self.stages.mismatch(expected) {
             // First of all: whatever else went wrong may be a consequence.
-            Error::EvaluationDimension { time, step_size, step, what, stage, expected, found }
+            Error::EvaluationDimension {
+                time,
+                step_size,
+                step,
+                what,
+                stage,
+                expected,
+                found,
+            }
         } else {
             match failure {
-                Some(Failure::NoConvergence { residual, iterations }) => {
-                    Error::NoConvergence { time, step_size, step, residual, iterations }
-                }
-                Some(Failure::NonFinite { what, stage }) => Error::NonFinite { time, step_size, step, what, stage },
+                Some(Failure::NoConvergence {
+                    residual,
+                    iterations,
+                }) => Error::NoConvergence {
+                    time,
+                    step_size,
+                    step,
+                    residual,
+                    iterations,
+                },
+                Some(Failure::NonFinite { what, stage }) => Error::NonFinite {
+                    time,
+                    step_size,
+                    step,
+                    what,
+                    stage,
+                },
                 None => {
-                    let part = if is_finite(&self.next.0) { Quantity::Momentum } else { Quantity::Position };
+                    let part = if is_finite(&self.next.0) {
+                        Quantity::Momentum
+                    } else {
+                        Quantity::Position
+                    };
                     let culprit = self.stages.non_finite();
                     Error::NonFinite {
                         time,
@@ -311,7 +352,11 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> fmt::Debug for Integrator<M, S, V>
 }
 
 fn check_step_size(value: f64) -> Result<(), Error> {
-    if value.is_finite() && value != 0.0 { Ok(()) } else { Err(Error::StepSize { value }) }
+    if value.is_finite() && value != 0.0 {
+        Ok(())
+    } else {
+        Err(Error::StepSize { value })
+    }
 }
 
 fn check_state<V: Vector>(state: &State<V>, dimension: usize) -> Result<(), Error> {

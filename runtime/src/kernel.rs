@@ -56,6 +56,18 @@ pub fn relax<V: Vector, const N: usize>(
     *change = local;
 }
 
+/// Copies one vector of an array to others, which starts an iteration from a single evaluation.
+#[inline]
+pub fn copy_to<V: Vector, const N: usize>(vectors: &mut [V], from: usize, to: [usize; N]) {
+    for index in to {
+        if let Ok([source, target]) = vectors.get_disjoint_mut([from, index]) {
+            // Component by component: `clone_from` of a dynamic vector may allocate.
+            let components = target.as_mut_slice().iter_mut().zip(source.as_slice());
+            components.for_each(|(target, source)| *target = *source);
+        }
+    }
+}
+
 /// All slices cut to the shortest length, so that one comparison bounds every index of the loop.
 #[inline(always)]
 fn common<'a, T, const N: usize>(

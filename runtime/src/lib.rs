@@ -24,7 +24,7 @@
 //! which, not a test at run time.
 //!
 //! ```
-//! # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/common/methods.rs"));
+//! symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
 //! use symplectic::nalgebra::Vector1;
 //! use symplectic::{Error, Integrator, State, separable};
 //!
@@ -56,6 +56,7 @@
 #![no_std]
 
 // Generated code names everything `::symplectic::…`; with this it compiles inside the crate too.
+#[allow(unused_extern_crates)]
 extern crate self as symplectic;
 
 mod change;
@@ -72,6 +73,7 @@ mod stage;
 mod state;
 mod states;
 mod step;
+mod tableau_macro;
 mod time;
 mod vector;
 
@@ -82,13 +84,14 @@ pub use coupling::{Coupled, Coupling, Explicit, Failure};
 pub use error::{Error, Quantity};
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
 pub use integrator::Integrator;
-pub use kernel::{combine, relax};
+pub use kernel::{combine, copy_to, relax};
 pub use method::{Method, Plan};
 pub use nalgebra;
+pub use num_traits;
 pub use scalar::Scalar;
 pub use stage::{StageStorage, Stages};
 pub use state::State;
 pub use states::States;
 pub use step::Step;
-// pub use symplectic_macros::tableau;
+pub use tableau_macro::tableau;
 pub use vector::Vector;

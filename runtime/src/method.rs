@@ -49,6 +49,9 @@ pub trait Plan {
 
     /// One fixed-point sweep over the coupled stages: new stage values from the latest velocities and forces,
     /// then new evaluations there. Returns how much the stage values changed.
+    ///
+    /// For a separable system one half comes after the other and uses its new evaluations: the stopping rule of
+    /// [`Coupled`](crate::Coupled) relies on it.
     fn sweep<V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
         step: &Step<'_, V>,
         system: &S,

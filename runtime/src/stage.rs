@@ -2,7 +2,7 @@
 
 use core::array;
 
-use crate::{Quantity, Vector};
+use crate::{Quantity, Scalar, Vector};
 
 /// Memory for the stages of one [`Plan`](crate::Plan), made once and used for every step.
 pub trait StageStorage<V: Vector>: Sized {
@@ -10,7 +10,7 @@ pub trait StageStorage<V: Vector>: Sized {
     fn like(prototype: &V) -> Self;
 
     /// The first evaluation that is not finite although the stage value that it was made from is: the quantity
-    /// and the number of the stage, from 1.
+    /// and the number of the stage, from 1; of two with the same number, the force.
     fn non_finite(&self) -> Option<(Quantity, usize)>;
 
     /// The first evaluation whose dimension is not `dimension`: the quantity, the number of the stage, from 1, and the
@@ -50,10 +50,12 @@ impl<V: Vector, const Q: usize, const P: usize> StageStorage<V> for Stages<V, Q,
             let mut pairs = values.iter().zip(evaluations);
             pairs.position(|(value, evaluation)| is_finite(value) && !is_finite(evaluation))
         };
-        if let Some(i) = first(&self.q, &self.force) {
-            return Some((Quantity::Force, i + 1));
+        // A stage that is not stored passes for finite: what was computed from it comes later in the order.
+        match (first(&self.q, &self.force), first(&self.p, &self.velocity)) {
+            (Some(i), Some(j)) if j < i => Some((Quantity::Velocity, j + 1)),
+            (Some(i), _) => Some((Quantity::Force, i + 1)),
+            (None, j) => j.map(|j| (Quantity::Velocity, j + 1)),
         }
-        first(&self.p, &self.velocity).map(|i| (Quantity::Velocity, i + 1))
     }
 
     #[inline]
@@ -72,6 +74,7 @@ impl<V: Vector, const Q: usize, const P: usize> StageStorage<V> for Stages<V, Q,
 /// Whether every component is finite.
 #[inline]
 pub(crate) fn is_finite<V: Vector>(vector: &V) -> bool {
-    // Without a branch per component: steps check their result with it.
-    vector.as_slice().iter().fold(true, |finite, x| finite & crate::Scalar::is_finite(*x))
+    // Counted without a branch, so that it vectorises: every step checks its result with it.
+    let components = vector.as_slice().iter();
+    components.map(|x| u64::from(!x.is_finite())).sum::<u64>() == 0
 }

@@ -15,7 +15,10 @@ pub struct States<'a, M: Method, S: Hamiltonian<V>, V: Vector> {
 
 impl<'a, M: Method, S: Hamiltonian<V>, V: Vector> States<'a, M, S, V> {
     pub(crate) const fn new(integrator: &'a mut Integrator<M, S, V>) -> Self {
-        Self { integrator, failed: false }
+        Self {
+            integrator,
+            failed: false,
+        }
     }
 }
 
@@ -36,6 +39,10 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> FusedIterator for States<'_, M, S,
 
 impl<M: Method, S: Hamiltonian<V>, V: Vector> fmt::Debug for States<'_, M, S, V> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_struct("States").field("integrator", self.integrator).field("failed", &self.failed).finish()
+        formatter
+            .debug_struct("States")
+            .field("integrator", self.integrator)
+            .field("failed", &self.failed)
+            .finish()
     }
 }

@@ -13,7 +13,11 @@ pub(crate) struct Clock {
 
 impl Clock {
     pub(crate) const fn new(start: f64, size: f64) -> Self {
-        Self { start, size, count: 0 }
+        Self {
+            start,
+            size,
+            count: 0,
+        }
     }
 
     /// The time after one step more.
@@ -43,6 +47,10 @@ pub(crate) fn uniform(start: f64, end: f64, step_size: f64) -> Result<(u64, f64)
     if count < (1_u64 << 53) as f64 {
         Ok((count as u64, span / count))
     } else {
-        Err(Error::StepCount { time: start, end, step_size })
+        Err(Error::StepCount {
+            time: start,
+            end,
+            step_size,
+        })
     }
 }

@@ -3,7 +3,6 @@
 use core::fmt::Debug;
 
 use nalgebra::SVector;
-use num_traits::Zero;
 
 use crate::Scalar;
 

@@ -1,0 +1,231 @@
+//! The steps are those of the method: order, symmetry, evaluation counts.
+
+mod common;
+
+use common::systems::{Chain, Driven, GeneralChain, Pendulum, Product, point};
+use common::{Midpoint, StoermerVerlet, distance, run, slopes};
+use symplectic::nalgebra::Vector1;
+use symplectic::{Error, Hamiltonian, Integrator, Method, State};
+
+type Point = State<Vector1<f64>>;
+
+/// Every slope over three halvings within 0.1 of 2: neither an understated nor a lost order passes.
+fn assert_order_two(slopes: &[f64]) {
+    assert!(
+        slopes.iter().all(|slope| (slope - 2.0).abs() < 0.1),
+        "{slopes:?}"
+    );
+}
+
+fn assert_converges<M: Method, S: Hamiltonian<Vector1<f64>>>(
+    method: M,
+    system: impl Fn() -> S,
+    start: &Point,
+) -> Result<(), Error> {
+    // 4096 steps of order 2 are 64² times as accurate as the finest of the runs below.
+    let reference = run(method, system(), start.clone(), 2.0, 16 * 4096)?;
+    let slopes = slopes(32, 3, |n| {
+        Ok(distance(
+            &run(method, system(), start.clone(), 2.0, n)?,
+            &reference,
+        ))
+    })?;
+    assert_order_two(&slopes);
+    Ok(())
+}
+
+#[test]
+fn both_plans_of_both_methods_have_order_two() -> Result<(), Error> {
+    assert_converges(StoermerVerlet, Pendulum::default, &point(1.0, 0.5))?;
+    assert_converges(Midpoint, Pendulum::default, &point(1.0, 0.5))?;
+    assert_converges(StoermerVerlet, || Product, &point(0.5, 0.3))?;
+    assert_converges(Midpoint, || Product, &point(0.5, 0.3))
+}
+
+#[test]
+fn different_methods_agree_in_the_limit() -> Result<(), Error> {
+    let verlet = run(StoermerVerlet, Product, point(0.5, 0.3), 2.0, 20_000)?;
+    let midpoint = run(Midpoint, Product, point(0.5, 0.3), 2.0, 20_000)?;
+    // Error constants of order 1 times h² = 1e-8.
+    assert!(distance(&verlet, &midpoint) < 1e-7);
+    Ok(())
+}
+
+#[test]
+fn a_driven_system_keeps_the_order() -> Result<(), Error> {
+    let exact = Driven::exact(2.0);
+    let start = Driven::exact(0.0);
+    let verlet = slopes(32, 3, |n| {
+        Ok(distance(
+            &run(StoermerVerlet, Driven, start.clone(), 2.0, n)?,
+            &exact,
+        ))
+    })?;
+    assert_order_two(&verlet);
+    let midpoint = slopes(32, 3, |n| {
+        Ok(distance(
+            &run(Midpoint, Driven, start.clone(), 2.0, n)?,
+            &exact,
+        ))
+    })?;
+    assert_order_two(&midpoint);
+    Ok(())
+}
+
+#[test]
+fn verlet_on_the_oscillator_is_the_matrix_it_should_be() -> Result<(), Error> {
+    // (q, p) ↦ ((1 − h²/2) q + h p, −h(1 − h²/4) q + (1 − h²/2) p), all exact in f64 for h = 1/2.
+    let oscillator = symplectic::separable::<Vector1<f64>, _, _>(
+        |_, p, velocity| *velocity = *p,
+        |_, q, force| *force = -q,
+    );
+    let mut integrator = Integrator::new(StoermerVerlet, oscillator, point(1.0, 0.25), 0.5)?;
+    let state = integrator.step()?;
+    assert_eq!(
+        (state.q[0], state.p[0]),
+        (0.875 + 0.125, -0.46875 + 0.21875)
+    );
+    Ok(())
+}
+
+#[test]
+fn a_step_back_undoes_a_step() -> Result<(), Error> {
+    fn defect<M: Method, S: Hamiltonian<Vector1<f64>>>(
+        method: M,
+        system: S,
+    ) -> Result<(f64, f64), Error> {
+        let start = point(0.5, 0.3);
+        let mut integrator = Integrator::new(method, system, start.clone(), 0.1)?;
+        integrator.integrate_to(5.0)?;
+        let away = distance(integrator.state(), &start);
+        integrator.set_step_size(-0.1)?;
+        integrator.integrate_to(0.0)?;
+        Ok((distance(integrator.state(), &start), away))
+    }
+    for (back, away) in [
+        defect(StoermerVerlet, Pendulum::default())?,
+        defect(Midpoint, Pendulum::default())?,
+        defect(StoermerVerlet, Product)?,
+        defect(Midpoint, Product)?,
+    ] {
+        // 100 steps, a few roundings each, no growth on these regular orbits; the orbit itself went far.
+        assert!(back < 100.0 * 8.0 * f64::EPSILON, "{back:e}");
+        assert!(away > 0.01);
+    }
+    Ok(())
+}
+
+#[test]
+fn the_energy_oscillates_and_does_not_drift() -> Result<(), Error> {
+    let mut integrator =
+        Integrator::new(StoermerVerlet, Pendulum::default(), point(1.0, 0.0), 0.1)?;
+    let start = integrator.energy().expect("known");
+    let mut worst = [0.0_f64; 2];
+    for half in &mut worst {
+        for _ in 0..50_000 {
+            integrator.step()?;
+            *half = half.max((integrator.energy().expect("known") - start).abs());
+        }
+    }
+    assert!(worst[0] > 1e-5 && worst[1] < 1.001 * worst[0], "{worst:?}");
+    Ok(())
+}
+
+#[test]
+fn verlet_evaluates_the_force_once_a_step_and_once_more() -> Result<(), Error> {
+    let mut integrator =
+        Integrator::new(StoermerVerlet, Pendulum::default(), point(1.0, 0.0), 0.1)?;
+    for _ in 0..10 {
+        integrator.step()?;
+    }
+    assert_eq!(integrator.system().forces.get(), 11);
+    assert_eq!(integrator.system().velocities.get(), 10);
+    assert_eq!((integrator.steps(), integrator.iterations()), (10, 0));
+
+    integrator.set_step_size(0.05)?;
+    integrator.integrate_to(2.0)?;
+    assert_eq!(
+        integrator.system().forces.get(),
+        11 + 20,
+        "another step size keeps the evaluation"
+    );
+
+    integrator.set_state(point(0.5, 0.0))?;
+    integrator.step()?;
+    assert_eq!(
+        integrator.system().forces.get(),
+        31 + 2,
+        "another state does not"
+    );
+    Ok(())
+}
+
+#[test]
+fn the_carried_force_is_the_force() -> Result<(), Error> {
+    // A new integrator a step evaluates everything afresh and has to come to the same numbers.
+    let mut integrator =
+        Integrator::new(StoermerVerlet, Pendulum::default(), point(1.0, 0.0), 0.1)?;
+    let mut state = point(1.0, 0.0);
+    for _ in 0..20 {
+        let mut afresh = Integrator::new(StoermerVerlet, Pendulum::default(), state, 0.1)?;
+        state = afresh.step()?.clone();
+        let carried = integrator.step()?;
+        assert_eq!((carried.q, carried.p), (state.q, state.p));
+    }
+    Ok(())
+}
+
+#[test]
+fn coupled_stages_stagnate_soon() -> Result<(), Error> {
+    let mut integrator = Integrator::new(Midpoint, Product, point(0.5, 0.3), 0.01)?;
+    integrator.integrate_to(10.0)?;
+    // Each sweep gains a factor h/2 times a derivative of order 1: 16 digits need 7 to 9 sweeps.
+    let sweeps = integrator.iterations() as f64 / integrator.steps() as f64;
+    assert!((4.0..12.0).contains(&sweeps), "{sweeps}");
+    Ok(())
+}
+
+#[test]
+fn a_sweep_without_change_is_the_last() -> Result<(), Error> {
+    let free = symplectic::separable::<Vector1<f64>, _, _>(
+        |_, p, velocity| *velocity = *p,
+        |_, _q, force| force[0] = 0.0,
+    );
+    let mut integrator = Integrator::new(Midpoint, free, point(0.0, 1.0), 0.5)?;
+    assert_eq!(integrator.step()?.q[0], 0.5);
+    // One that moves the stage, one that finds it there.
+    assert_eq!(integrator.iterations(), 2);
+    Ok(())
+}
+
+#[test]
+fn equal_runs_are_equal() -> Result<(), Error> {
+    let once = run(Midpoint, Product, point(0.5, 0.3), 3.0, 300)?;
+    let again = run(Midpoint, Product, point(0.5, 0.3), 3.0, 300)?;
+    assert_eq!(once, again);
+    let other = run(Midpoint, Product, point(0.5, 0.3), 3.0, 301)?;
+    assert_ne!(once, other);
+    Ok(())
+}
+
+#[test]
+fn noisy_evaluations_do_not_keep_the_iteration_going() -> Result<(), Error> {
+    // The force rounds by 1e4 · 100 · 2⁻⁵³ = 1e-10, whatever its size: the stage momenta never settle to 64 units
+    // of EPSILON. hω = 1, so that a sweep contracts by 1/4.
+    let step_size = 1.0 / (2.0 * Chain::STIFFNESS.sqrt());
+    for amplitude in [1e-1, 1e-3, 1e-6, 0.0] {
+        let start = Chain::start(amplitude);
+        let mut split = Integrator::new(Midpoint, Chain, start.clone(), step_size)?;
+        let mut whole = Integrator::new(Midpoint, GeneralChain, start.clone(), step_size)?;
+        split.integrate_to(0.5)?;
+        whole.integrate_to(0.5)?;
+        // 100 steps of this noise, h · 1e-10 each in the momenta.
+        let difference = distance(split.state(), whole.state());
+        assert!(difference < 1e-10, "{amplitude:e}: {difference:e}");
+        // Where the positions only round, the separable system is done: 26 sweeps would gain 52 bits.
+        let sweeps = split.iterations() as f64 / split.steps() as f64;
+        assert!(sweeps < 26.0, "{amplitude:e}: {sweeps}");
+        assert!(amplitude == 0.0 || distance(split.state(), &start) > amplitude / 2.0);
+    }
+    Ok(())
+}

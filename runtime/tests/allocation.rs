@@ -1,0 +1,87 @@
+//! Steps allocate nothing.
+//!
+//! The crate is `no_std` and links no allocator: memory can only come from `clone` and `zeros_like` of the vectors
+//! it is generic over. These count here.
+
+mod common;
+
+use std::cell::Cell;
+
+use common::systems::Pendulum;
+use common::{Midpoint, StoermerVerlet};
+use symplectic::{Error, Integrator, Method, Scalar, State, Vector};
+
+thread_local! {
+    static COUNT: Cell<u64> = const { Cell::new(0) };
+}
+
+/// How many vectors `action` makes.
+fn made<R>(action: impl FnOnce() -> R) -> (u64, R) {
+    let before = COUNT.get();
+    let result = action();
+    (COUNT.get() - before, result)
+}
+
+#[derive(Debug, PartialEq)]
+struct Counted<T>(Vec<T>);
+
+impl<T: Scalar> Counted<T> {
+    fn new(components: Vec<T>) -> Self {
+        COUNT.set(COUNT.get() + 1);
+        Self(components)
+    }
+}
+
+impl<T: Scalar> Clone for Counted<T> {
+    fn clone(&self) -> Self {
+        Self::new(self.0.clone())
+    }
+}
+
+impl<T: Scalar> Vector for Counted<T> {
+    type Scalar = T;
+    type With<U: Scalar> = Counted<U>;
+
+    fn dimension(&self) -> usize {
+        self.0.len()
+    }
+
+    fn as_slice(&self) -> &[T] {
+        &self.0
+    }
+
+    fn as_mut_slice(&mut self) -> &mut [T] {
+        &mut self.0
+    }
+
+    fn zeros_like(&self) -> Self {
+        Self::new(vec![T::zero(); self.0.len()])
+    }
+}
+
+#[test]
+fn steps_make_no_vectors() -> Result<(), Error> {
+    fn check<M: Method>(method: M, memory: u64) -> Result<(), Error> {
+        let start = State::new(0.0, Counted::new(vec![1.0; 5]), Counted::new(vec![0.0; 5]));
+        let (count, integrator) = made(|| Integrator::new(method, Pendulum::default(), start, 0.1));
+        assert_eq!(count, memory);
+        let mut integrator = integrator?;
+
+        let (count, outcome) = made(|| {
+            for _ in 0..10 {
+                integrator.step()?;
+            }
+            integrator.integrate_to(10.0)?;
+            integrator.integrate_with(5.0, |_| {}).map(|_| ())
+        });
+        outcome?;
+        assert_eq!(count, 0);
+
+        let (count, _) = made(|| integrator.states().take(3).count());
+        assert_eq!(count, 2 * 3, "an iterator clones q and p");
+        Ok(())
+    }
+    // Two for the result; two positions, two forces, a momentum and a velocity; one of each.
+    check(StoermerVerlet, 2 + 6)?;
+    check(Midpoint, 2 + 4)
+}

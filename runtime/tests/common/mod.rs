@@ -1,0 +1,57 @@
+#![allow(dead_code)]
+
+pub mod dual;
+pub mod methods;
+pub mod systems;
+
+use symplectic::{Error, Hamiltonian, Integrator, Method, State, Vector};
+
+pub use methods::{Midpoint, StoermerVerlet};
+
+/// The state at `end` after `steps` equal steps.
+pub fn run<M, S, V>(
+    method: M,
+    system: S,
+    start: State<V>,
+    end: f64,
+    steps: u32,
+) -> Result<State<V>, Error>
+where
+    M: Method,
+    S: Hamiltonian<V>,
+    V: Vector,
+{
+    let size = (end - start.time) / f64::from(steps);
+    let mut integrator = Integrator::new(method, system, start, size)?;
+    integrator.integrate_to(end)?;
+    assert_eq!(integrator.steps(), u64::from(steps));
+    Ok(integrator.into_state())
+}
+
+/// The largest difference of two states in a component.
+pub fn distance<V: Vector<Scalar = f64>>(a: &State<V>, b: &State<V>) -> f64 {
+    let pairs = |a: &V, b: &V| -> f64 {
+        let differences = a
+            .as_slice()
+            .iter()
+            .zip(b.as_slice())
+            .map(|(a, b)| (a - b).abs());
+        differences.fold(0.0, f64::max)
+    };
+    pairs(&a.q, &b.q).max(pairs(&a.p, &b.p))
+}
+
+/// The slopes log2(error(n)/error(2n)) for n = `coarsest`, 2 `coarsest`, … over `halvings`.
+pub fn slopes(
+    coarsest: u32,
+    halvings: u32,
+    error: impl Fn(u32) -> Result<f64, Error>,
+) -> Result<Vec<f64>, Error> {
+    let errors = (0..=halvings)
+        .map(|i| error(coarsest << i))
+        .collect::<Result<Vec<_>, _>>()?;
+    Ok(errors
+        .windows(2)
+        .map(|pair| (pair[0] / pair[1]).log2())
+        .collect())
+}

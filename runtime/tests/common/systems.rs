@@ -1,0 +1,139 @@
+use std::cell::Cell;
+
+use symplectic::nalgebra::{DVector, SVector, Vector1};
+use symplectic::{General, Hamiltonian, Scalar, SeparableHamiltonian, State, Vector};
+
+/// H = Σ p²/2 − cos q, over every vector, counting its evaluations.
+#[derive(Default)]
+pub struct Pendulum {
+    pub velocities: Cell<u32>,
+    pub forces: Cell<u32>,
+}
+
+impl<V: Vector> SeparableHamiltonian<V> for Pendulum {
+    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
+        self.velocities.set(self.velocities.get() + 1);
+        velocity.as_mut_slice().copy_from_slice(p.as_slice());
+    }
+
+    fn force(&self, _time: V::Scalar, q: &V, force: &mut V) {
+        self.forces.set(self.forces.get() + 1);
+        for (force, q) in force.as_mut_slice().iter_mut().zip(q.as_slice()) {
+            *force = -q.sin();
+        }
+    }
+
+    fn energy(&self, _time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
+        let half = V::Scalar::from_f64(0.5);
+        let terms = q
+            .as_slice()
+            .iter()
+            .zip(p.as_slice())
+            .map(|(q, p)| *p * *p * half - q.cos());
+        terms.reduce(|sum, term| sum + term)
+    }
+}
+
+/// H = (q² + 1)(p² + 1)/2: a local type that implements [`Hamiltonian`] itself, generically over the scalar.
+pub struct Product;
+
+impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Product {
+    type Class = General;
+
+    fn velocity(
+        &self,
+        _time: T,
+        q: &SVector<T, 1>,
+        p: &SVector<T, 1>,
+        velocity: &mut SVector<T, 1>,
+    ) {
+        velocity[0] = p[0] * (q.dot(q) + T::one());
+    }
+
+    fn force(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+        *force = -q * (p.dot(p) + T::one());
+    }
+
+    fn energy(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
+        Some((q.dot(q) + T::one()) * (p.dot(p) + T::one()) * T::from_f64(0.5))
+    }
+}
+
+/// H = p²/2 + q²/2 − q cos 3t.
+pub struct Driven;
+
+impl SeparableHamiltonian<Vector1<f64>> for Driven {
+    fn velocity(&self, _time: f64, p: &Vector1<f64>, velocity: &mut Vector1<f64>) {
+        *velocity = *p;
+    }
+
+    fn force(&self, time: f64, q: &Vector1<f64>, force: &mut Vector1<f64>) {
+        force[0] = (3.0 * time).cos() - q[0];
+    }
+}
+
+impl Driven {
+    /// The solution from q = 1, p = 0 at t = 0: q = (9 cos t − cos 3t)/8.
+    pub fn exact(time: f64) -> State<Vector1<f64>> {
+        let q = (9.0 * time.cos() - (3.0 * time).cos()) / 8.0;
+        let p = (-9.0 * time.sin() + 3.0 * (3.0 * time).sin()) / 8.0;
+        State::new(time, Vector1::new(q), Vector1::new(p))
+    }
+}
+
+pub fn point(q: f64, p: f64) -> State<Vector1<f64>> {
+    State::new(0.0, Vector1::new(q), Vector1::new(p))
+}
+
+/// Masses 1 apart joined by stiff springs: the force is a small difference of large positions, hence noisy.
+#[derive(Clone, Copy)]
+pub struct Chain;
+
+impl Chain {
+    pub const STIFFNESS: f64 = 1e4;
+
+    fn pull(q: &DVector<f64>, force: &mut DVector<f64>) {
+        force.fill(0.0);
+        for i in 1..q.len() {
+            let tension = Self::STIFFNESS * (q[i] - q[i - 1] - 1.0);
+            force[i - 1] += tension;
+            force[i] -= tension;
+        }
+    }
+
+    /// At rest, with every mass off its place by up to `amplitude`.
+    pub fn start(amplitude: f64) -> State<DVector<f64>> {
+        let place = |i: usize| i as f64 + amplitude * (0.7 * (i * i) as f64).sin();
+        State::new(
+            0.0,
+            DVector::from_fn(100, |i, _| place(i)),
+            DVector::zeros(100),
+        )
+    }
+}
+
+impl SeparableHamiltonian<DVector<f64>> for Chain {
+    fn velocity(&self, _time: f64, p: &DVector<f64>, velocity: &mut DVector<f64>) {
+        velocity.copy_from(p);
+    }
+
+    fn force(&self, _time: f64, q: &DVector<f64>, force: &mut DVector<f64>) {
+        Self::pull(q, force);
+    }
+}
+
+/// [`Chain`], not known to be separable.
+#[derive(Clone, Copy)]
+pub struct GeneralChain;
+
+impl Hamiltonian<DVector<f64>> for GeneralChain {
+    type Class = General;
+
+    fn velocity(&self, _t: f64, _q: &DVector<f64>, p: &DVector<f64>, velocity: &mut DVector<f64>) {
+        velocity.copy_from(p);
+    }
+
+    fn force(&self, _t: f64, q: &DVector<f64>, _p: &DVector<f64>, force: &mut DVector<f64>) {
+        Chain::pull(q, force);
+    }
+}

@@ -1,0 +1,135 @@
+//! Times: exact ends, equal steps, no accumulated rounding.
+
+mod common;
+
+use common::systems::{Pendulum, point};
+use common::{Midpoint, StoermerVerlet, distance};
+use symplectic::nalgebra::Vector1;
+use symplectic::{Error, Integrator, State};
+
+type Verlet = Integrator<StoermerVerlet, Pendulum, Vector1<f64>>;
+
+fn verlet(time: f64, step_size: f64) -> Result<Verlet, Error> {
+    let start = State {
+        time,
+        ..point(1.0, 0.0)
+    };
+    Integrator::new(StoermerVerlet, Pendulum::default(), start, step_size)
+}
+
+#[test]
+fn the_end_is_exact_and_the_count_smallest() -> Result<(), Error> {
+    for (start, end, step_size, steps) in [
+        (0.0, 1.0, 0.1, 10),
+        (0.0, 0.1 + 0.2, 0.1, 3),
+        (0.0, 1.2, 0.4, 3),
+        (0.0, 0.7, 0.1, 7),
+        (0.0, 1.0, 0.3, 4),
+        (0.0, 1.0, 0.3334, 3),
+        (0.0, 1.0, 0.3333, 4),
+        (0.0, 1.0, 5.0, 1),
+        // 49 · (1/49) < 1 in f64.
+        (0.0, 1.0, 1.0 / 49.0, 49),
+        (0.0, 100.0, 0.001, 100_000),
+        (1000.1, 1000.4, 0.1, 3),
+        (0.0, -1.0, 0.1, 10),
+        (0.0, -1.0, -0.1, 10),
+        (0.0, 1.0, -0.1, 10),
+        (2.0, 2.0, 0.1, 0),
+    ] {
+        let mut integrator = verlet(start, step_size)?;
+        assert_eq!(integrator.integrate_to(end)?.time, end);
+        assert_eq!(
+            integrator.steps(),
+            steps,
+            "from {start} to {end} by {step_size}"
+        );
+        assert_eq!(integrator.step_size(), step_size);
+    }
+    Ok(())
+}
+
+#[test]
+fn steps_to_the_end_are_uniform() -> Result<(), Error> {
+    let mut to_end = verlet(0.0, 0.3)?;
+    to_end.integrate_to(1.0)?;
+    let mut by_step = verlet(0.0, 0.25)?;
+    for _ in 0..4 {
+        by_step.step()?;
+    }
+    assert_eq!(to_end.state(), by_step.state());
+    Ok(())
+}
+
+#[test]
+fn times_are_not_summed_up() -> Result<(), Error> {
+    let mut integrator = verlet(0.0, 0.1)?;
+    let mut sum = 0.0;
+    for k in 1..=10_000 {
+        sum += 0.1;
+        assert_eq!(integrator.step()?.time, f64::from(k) * 0.1);
+    }
+    assert_ne!(sum, integrator.state().time);
+
+    integrator.set_step_size(0.25)?;
+    assert_eq!(integrator.step()?.time, 1000.25);
+    integrator.set_state(point(0.0, 1.0))?;
+    assert_eq!(integrator.step()?.time, 0.25);
+    integrator.integrate_to(0.4)?;
+    assert_eq!(integrator.step()?.time, 0.4 + 0.25);
+    Ok(())
+}
+
+#[test]
+fn backward_is_the_way_back() -> Result<(), Error> {
+    let mut integrator = Integrator::new(Midpoint, Pendulum::default(), point(1.0, 0.5), 0.1)?;
+    integrator.integrate_to(3.0)?;
+    integrator.integrate_to(0.0)?;
+    assert!(distance(integrator.state(), &point(1.0, 0.5)) < 1e-13);
+    Ok(())
+}
+
+#[test]
+fn observers_see_every_step_and_no_start() -> Result<(), Error> {
+    let mut seen = Vec::new();
+    let mut integrator = verlet(0.0, 0.25)?;
+    integrator.integrate_with(1.0, |state| seen.push(state.clone()))?;
+
+    let mut other = verlet(0.0, 0.25)?;
+    let states = other.states().take(4).collect::<Result<Vec<_>, _>>()?;
+    assert_eq!(seen, states);
+    assert_eq!(
+        states.iter().map(|state| state.time).collect::<Vec<_>>(),
+        [0.25, 0.5, 0.75, 1.0]
+    );
+    Ok(())
+}
+
+#[test]
+fn ends_that_cannot_be_reached() -> Result<(), Error> {
+    let mut integrator = verlet(1.0, 0.1)?;
+    for end in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let error = integrator.integrate_to(end).expect_err("no such time");
+        assert!(matches!(error, Error::EndTime { value } if value.to_bits() == end.to_bits()));
+    }
+    let mut far = verlet(-f64::MAX, 1e300)?;
+    let end = f64::MAX;
+    assert_eq!(far.integrate_to(end), Err(Error::EndTime { value: end }));
+
+    integrator.set_step_size(1e-17)?;
+    let too_many = Error::StepCount {
+        time: 1.0,
+        end: 2.0,
+        step_size: 1e-17,
+    };
+    assert_eq!(integrator.integrate_to(2.0), Err(too_many));
+    assert_eq!(
+        integrator.step(),
+        Err(Error::TimeResolution {
+            time: 1.0,
+            step_size: 1e-17
+        })
+    );
+    assert_eq!((integrator.state().time, integrator.steps()), (1.0, 0));
+    Ok(())
+}
