@@ -94,7 +94,7 @@ pub enum ErrorKind {
     },
     /// More stages than the limit.
     #[error(
-        "{stages} stages exceed the limit of {limit}, beyond which a derivation may run for very long; raise it with `--max-stages {stages}` (library: `Limits::stages`)"
+        "{stages} stages exceed the limit of {limit}, beyond which a derivation may run for very long; raise it with `--max-stages {stages}` (in the macro `max_stages: {stages}`)"
     )]
     TooManyStages {
         /// The stages asked for.
@@ -219,15 +219,6 @@ impl Error {
             kind: Box::new(kind),
             place: Some(place),
         }
-    }
-
-    /// The same error with a place, unless it has one.
-    #[must_use]
-    pub fn or_at(mut self, place: impl FnOnce() -> Place) -> Self {
-        if self.place.is_none() {
-            self.place = Some(place());
-        }
-        self
     }
 }
 

@@ -1,5 +1,30 @@
-//! The exact compiler behind the crate `symplectic`.
-#![allow(missing_docs, dead_code)]
+//! The exact compiler behind the crate `symplectic`: from a basis and nodes to the tableau of a symplectic
+//! partitioned Runge–Kutta method, with proofs, exports and code.
+//!
+//! ```
+//! use symplectic_compiler::{derive, export};
+//!
+//! let lobatto = derive("polynomial(3)", "lobatto(3)")?.named("Lobatto3");
+//! let properties = lobatto.properties();
+//! assert!(properties.symplectic.holds && properties.symmetric.holds);
+//! println!("{}", export::text::write(&lobatto, 16));
+//! # Ok::<(), symplectic_compiler::Error>(())
+//! ```
+//!
+//! | what | where |
+//! |---|---|
+//! | bases, nodes and weights | [`Basis`], [`QuadratureRule`], [`FAMILIES`] |
+//! | the derivation | [`derive`], [`derive_from`] |
+//! | the exact coefficients | [`Tableau`], in the [`algebra`] of its nodes |
+//! | what is proved about them | [`Properties`], each a [`Property`] with its [`Evidence`] |
+//! | text, JSON, TOML; reading and checking files | [`export`], [`check`] |
+//! | known methods | [`catalogue`] |
+//! | Rust code | [`emit`], from the order of computation found in [`schedule`] |
+//!
+//! Statements about a tableau are decided in exact arithmetic (theory: `Q[x]/(m)` for the node polynomial
+//! `m`; no root is approximated to derive or to prove anything). Numbers are rounded from certified
+//! enclosures, ties decided exactly, so every printed digit and every double is the correct one.
+
 pub mod algebra;
 pub mod arithmetic;
 mod basis;
@@ -17,7 +42,7 @@ pub mod schedule;
 mod tableau;
 
 pub use basis::Basis;
-//pub use check::check;
+pub use check::check;
 pub use derive::{derive, derive_from, derive_within};
 pub use error::{Error, ErrorKind, Place};
 pub use limits::Limits;

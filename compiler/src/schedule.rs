@@ -6,113 +6,295 @@ use crate::algebra::{NodeAlgebra, Number, Tensor};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::tableau::{Coefficients, Tableau};
 
-/// A stage of a method for separable Hamiltonians.
+/// What the derivatives of a Hamiltonian depend on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Class {
+    /// Velocity and force see position and momentum.
+    General,
+    /// `H = T(p) + U(q)`: the velocity sees the momentum only, the force the position only.
+    Separable,
+}
+
+/// A value or an evaluation in a step; the index counts within its kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stage {
-    /// The position stage `Q_i` of this index, at which the force is evaluated.
+pub enum Node {
+    /// A position stage `Q_i`.
     Position(usize),
-    /// The momentum stage `P_i` of this index, at which the velocity is evaluated.
+    /// A force `−∂H/∂q`.
+    Force(usize),
+    /// A momentum stage `P_i`.
     Momentum(usize),
+    /// A velocity `∂H/∂p`.
+    Velocity(usize),
 }
 
-/// A tableau in which equal position stages are one, and equal momentum stages are one.
-///
-/// `a` has a row for each position stage and a column for each momentum stage, `ã` the other way
-/// round; the coefficients of stages that have become one are added, exactly.
+/// A distinct stage value: `Q = q0 + h Σ coefficient · velocity`, or `P = p0 + h Σ coefficient · force`.
 #[derive(Debug)]
-pub struct ReducedTableau<'a> {
-    /// The original stages of each position stage.
-    pub positions: Vec<Vec<usize>>,
-    /// The original stages of each momentum stage.
-    pub momenta: Vec<Vec<usize>>,
-    /// `a`, by position and momentum stage.
-    pub a: Vec<Vec<Number<'a>>>,
-    /// `ã`, by momentum and position stage.
-    pub a_tilde: Vec<Vec<Number<'a>>>,
-    /// `b`, by momentum stage.
-    pub b: Vec<Number<'a>>,
-    /// `b̃`, by position stage.
-    pub b_tilde: Vec<Number<'a>>,
-    /// `c`, by position stage.
-    pub c: Vec<Number<'a>>,
-    /// `c̃`, by momentum stage.
-    pub c_tilde: Vec<Number<'a>>,
+pub struct StageValue<'a> {
+    /// The stages of the tableau that have this value.
+    pub stages: Vec<usize>,
+    /// One coefficient for each evaluation.
+    pub coefficients: Vec<Number<'a>>,
+    /// Whether the value is the result of the step: its coefficients are the weights.
+    pub is_end: bool,
 }
 
-impl<'a> ReducedTableau<'a> {
-    /// The reduction for separable Hamiltonians, where the velocity depends on the momentum stage only
-    /// and the force on the position stage only.
-    pub fn separable(tableau: &'a Tableau, numbers: &Coefficients<Number<'a>>) -> Self {
+impl StageValue<'_> {
+    /// Whether the value is the start of the step: all its coefficients are zero.
+    pub fn is_start(&self) -> bool {
+        self.coefficients.iter().all(Number::is_zero)
+    }
+}
+
+/// A distinct evaluation of a velocity or a force.
+#[derive(Debug)]
+pub struct Evaluation<'a> {
+    /// The position stage that it is evaluated at, by index; `None` where it does not depend on it.
+    pub position: Option<usize>,
+    /// The momentum stage that it is evaluated at, by index; `None` where it does not depend on it.
+    pub momentum: Option<usize>,
+    /// Its time as a fraction of the step: `c` for a force, `c̃` for a velocity.
+    pub time: Number<'a>,
+    /// Its weight in the result of the step.
+    pub weight: Number<'a>,
+}
+
+/// The distinct values and evaluations of a step for one class of Hamiltonians.
+///
+/// Stages with equal rows have equal values, and evaluations at equal values are equal; their
+/// coefficients are added, exactly.
+#[derive(Debug)]
+pub struct StepGraph<'a> {
+    /// The class of Hamiltonians.
+    pub class: Class,
+    /// The distinct position stages.
+    pub positions: Vec<StageValue<'a>>,
+    /// The distinct momentum stages.
+    pub momenta: Vec<StageValue<'a>>,
+    /// The distinct velocities.
+    pub velocities: Vec<Evaluation<'a>>,
+    /// The distinct forces.
+    pub forces: Vec<Evaluation<'a>>,
+}
+
+/// An order of computation.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Schedule {
+    /// What can be computed in order from the start of the step.
+    pub before: Vec<Node>,
+    /// What needs itself in the end.
+    pub coupled: Vec<Node>,
+    /// What can be computed in order when the coupled ones are known.
+    pub after: Vec<Node>,
+}
+
+impl<'a> StepGraph<'a> {
+    /// The graph of a tableau.
+    pub fn new(class: Class, tableau: &'a Tableau, numbers: &Coefficients<Number<'a>>) -> Self {
         let algebra = &*tableau.algebra;
-        let positions = equal_rows(algebra, &tableau.a);
-        let momenta = equal_rows(algebra, &tableau.a_tilde);
-        let matrix = |tensor: &Tensor,
-                      entries: &[Vec<Number<'a>>],
-                      rows: &[Vec<usize>],
-                      columns: &[Vec<usize>]| {
-            let entry = |row: usize, column: &[usize]| match column {
-                [single] => entries[row][*single].clone(),
-                // Only stages at rational nodes are joined.
-                _ => Number::at(
-                    algebra,
-                    sum(column, |j| {
-                        rational(algebra, j).map(|node| tensor.column_at(node))
-                    }),
-                    row,
-                ),
-            };
-            rows.iter()
-                .map(|row| columns.iter().map(|column| entry(row[0], column)).collect())
-                .collect()
+        let position_groups = equal_rows(algebra, &tableau.a);
+        let momentum_groups = equal_rows(algebra, &tableau.a_tilde);
+        // For each evaluation, the stages of the tableau that it stands for.
+        let (velocity_groups, force_groups) = match class {
+            Class::Separable => (momentum_groups.clone(), position_groups.clone()),
+            Class::General => {
+                let single: Vec<Vec<usize>> = (0..algebra.dimension()).map(|i| vec![i]).collect();
+                (single.clone(), single)
+            }
         };
-        let vector = |element: &Polynomial, entries: &[Number<'a>], groups: &[Vec<usize>]| {
-            let entry = |group: &Vec<usize>| match group.as_slice() {
-                [single] => entries[*single].clone(),
-                _ => {
-                    let value = |j| {
-                        rational(algebra, j)
-                            .map(|node| Polynomial::constant(element.evaluate(node)))
-                    };
-                    Number::at(algebra, sum(group, value), group[0])
+        let adjoint = tableau.adjoint();
+        let values = |groups: &[Vec<usize>],
+                      evaluations: &[Vec<usize>],
+                      matrix: &'a Tensor,
+                      entries: &[Vec<Number<'a>>],
+                      complement: &Tensor| {
+            let at_end: Vec<bool> = Number::of_tensor(algebra, complement)
+                .iter()
+                .map(|row| row.iter().all(Number::is_zero))
+                .collect();
+            let value = |stages: &Vec<usize>| {
+                let row = stages[0];
+                let coefficients = evaluations.iter().map(|group| match group.as_slice() {
+                    [single] => entries[row][*single].clone(),
+                    // Only stages at rational nodes are ever joined.
+                    _ => Number::at(
+                        algebra,
+                        sum(group, |j| {
+                            rational(algebra, j).map(|node| matrix.column_at(node))
+                        }),
+                        row,
+                    ),
+                });
+                StageValue {
+                    coefficients: coefficients.collect(),
+                    stages: stages.clone(),
+                    is_end: at_end[row],
                 }
             };
-            groups.iter().map(entry).collect()
+            groups.iter().map(value).collect::<Vec<_>>()
         };
-        let first = |entries: &[Number<'a>], groups: &[Vec<usize>]| {
-            groups.iter().map(|g| entries[g[0]].clone()).collect()
+        let evaluations = |groups: &[Vec<usize>],
+                           times: &[Number<'a>],
+                           weights: &[Number<'a>],
+                           element: &Polynomial,
+                           sees: (bool, bool)| {
+            let evaluation = |group: &Vec<usize>| Evaluation {
+                position: sees.0.then(|| index_of(&position_groups, group[0])),
+                momentum: sees.1.then(|| index_of(&momentum_groups, group[0])),
+                time: times[group[0]].clone(),
+                weight: match group.as_slice() {
+                    [single] => weights[*single].clone(),
+                    _ => {
+                        let value = |j| {
+                            rational(algebra, j)
+                                .map(|node| Polynomial::constant(element.evaluate(node)))
+                        };
+                        Number::at(algebra, sum(group, value), group[0])
+                    }
+                },
+            };
+            groups.iter().map(evaluation).collect::<Vec<_>>()
         };
-        ReducedTableau {
-            a: matrix(&tableau.a, &numbers.a, &positions, &momenta),
-            a_tilde: matrix(&tableau.a_tilde, &numbers.a_tilde, &momenta, &positions),
-            b: vector(&tableau.b, &numbers.b, &momenta),
-            b_tilde: vector(&tableau.b_tilde, &numbers.b_tilde, &positions),
-            c: first(&numbers.c, &positions),
-            c_tilde: first(&numbers.c_tilde, &momenta),
-            positions,
-            momenta,
+        let general = class == Class::General;
+        StepGraph {
+            class,
+            velocities: evaluations(
+                &velocity_groups,
+                &numbers.c_tilde,
+                &numbers.b,
+                &tableau.b,
+                (general, true),
+            ),
+            forces: evaluations(
+                &force_groups,
+                &numbers.c,
+                &numbers.b_tilde,
+                &tableau.b_tilde,
+                (true, general),
+            ),
+            positions: values(
+                &position_groups,
+                &velocity_groups,
+                &tableau.a,
+                &numbers.a,
+                &adjoint.a,
+            ),
+            momenta: values(
+                &momentum_groups,
+                &force_groups,
+                &tableau.a_tilde,
+                &numbers.a_tilde,
+                &adjoint.a_tilde,
+            ),
         }
     }
 
-    /// The name of a stage: `Q1`.
-    pub fn name(&self, stage: Stage) -> String {
-        match stage {
-            Stage::Position(index) => format!("Q{}", self.positions[index][0] + 1),
-            Stage::Momentum(index) => format!("P{}", self.momenta[index][0] + 1),
+    /// What a node needs.
+    pub fn needs(&self, node: Node) -> Vec<Node> {
+        let terms = |value: &StageValue<'_>, evaluation: fn(usize) -> Node| {
+            let nonzero = value
+                .coefficients
+                .iter()
+                .enumerate()
+                .filter(|(_, c)| !c.is_zero());
+            nonzero.map(|(j, _)| evaluation(j)).collect()
+        };
+        let arguments = |evaluation: &Evaluation<'_>| {
+            let position = evaluation.position.map(Node::Position);
+            position
+                .into_iter()
+                .chain(evaluation.momentum.map(Node::Momentum))
+                .collect()
+        };
+        match node {
+            Node::Position(i) => terms(&self.positions[i], Node::Velocity),
+            Node::Momentum(i) => terms(&self.momenta[i], Node::Force),
+            Node::Velocity(i) => arguments(&self.velocities[i]),
+            Node::Force(i) => arguments(&self.forces[i]),
         }
     }
 
-    /// The names of all stages that have become one: `P1 = P2`.
-    pub fn all_names(&self, stage: Stage) -> String {
-        let (letter, group) = match stage {
-            Stage::Position(index) => ('Q', &self.positions[index]),
-            Stage::Momentum(index) => ('P', &self.momenta[index]),
-        };
-        group
-            .iter()
-            .map(|i| format!("{letter}{}", i + 1))
-            .collect::<Vec<_>>()
-            .join(" = ")
+    /// Splits the nodes into those before, in and after the coupled ones.
+    pub fn schedule(&self) -> Schedule {
+        let positions = (0..self.positions.len()).map(Node::Position);
+        let forces = (0..self.forces.len()).map(Node::Force);
+        let momenta = (0..self.momenta.len()).map(Node::Momentum);
+        let velocities = (0..self.velocities.len()).map(Node::Velocity);
+        let nodes: Vec<Node> = positions
+            .chain(forces)
+            .chain(momenta)
+            .chain(velocities)
+            .collect();
+        let mut rest: Vec<(Node, Vec<Node>)> = nodes
+            .into_iter()
+            .map(|node| (node, self.needs(node)))
+            .collect();
+        let before = take_while_possible(&mut rest, |(_, needs), rest| {
+            needs
+                .iter()
+                .all(|needed| rest.iter().all(|(other, _)| other != needed))
+        });
+        // The same from the other end: what no remaining node needs comes last.
+        let mut after = take_while_possible(&mut rest, |(node, _), rest| {
+            rest.iter().all(|(_, needs)| !needs.contains(node))
+        });
+        after.reverse();
+        Schedule {
+            before,
+            coupled: rest.into_iter().map(|(node, _)| node).collect(),
+            after,
+        }
     }
+
+    /// The stages in an order in which each can be computed from those before it, by name.
+    ///
+    /// # Errors
+    /// Where there is none: the names of stages each of which needs the next, and the last the first.
+    pub fn order(&self) -> Result<Vec<String>, Vec<String>> {
+        let schedule = self.schedule();
+        let Some(&start) = schedule.coupled.first() else {
+            let order = schedule.before.iter().chain(&schedule.after);
+            return Ok(order.filter_map(|&node| self.names(node)).collect());
+        };
+        // Every coupled node needs a coupled one: walk until one comes again.
+        let mut path = vec![start];
+        let cycle = loop {
+            let needs = self.needs(path[path.len() - 1]);
+            let next = needs
+                .into_iter()
+                .find(|node| schedule.coupled.contains(node))
+                .unwrap_or(start);
+            if let Some(position) = path.iter().position(|&node| node == next) {
+                break path.split_off(position);
+            }
+            path.push(next);
+        };
+        Err(cycle.iter().filter_map(|&node| self.names(node)).collect())
+    }
+
+    /// The names of the stages that a value stands for: `P1 = P2`.
+    fn names(&self, node: Node) -> Option<String> {
+        let (letter, value) = match node {
+            Node::Position(i) => ('Q', &self.positions[i]),
+            Node::Momentum(i) => ('P', &self.momenta[i]),
+            Node::Force(_) | Node::Velocity(_) => return None,
+        };
+        Some(
+            value
+                .stages
+                .iter()
+                .map(|i| format!("{letter}{}", i + 1))
+                .collect::<Vec<_>>()
+                .join(" = "),
+        )
+    }
+}
+
+fn index_of(groups: &[Vec<usize>], stage: usize) -> usize {
+    groups
+        .iter()
+        .position(|group| group.contains(&stage))
+        .unwrap_or_default()
 }
 
 fn rational(algebra: &NodeAlgebra, node: usize) -> Option<&BigRational> {
@@ -142,117 +324,68 @@ fn equal_rows(algebra: &NodeAlgebra, matrix: &Tensor) -> Vec<Vec<usize>> {
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// Which stages need which, for separable Hamiltonians.
-#[derive(Debug)]
-pub struct StageGraph {
-    /// For each position stage, the momentum stages with `a_ij ≠ 0`.
-    positions: Vec<Vec<usize>>,
-    /// For each momentum stage, the position stages with `ã_ij ≠ 0`.
-    momenta: Vec<Vec<usize>>,
-}
+type Entry = (Node, Vec<Node>);
 
-/// An order of computation.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Schedule {
-    /// Stages that can be computed one after another from the start of the step.
-    pub before: Vec<Stage>,
-    /// Stages that need one another, positions before momenta.
-    pub coupled: Vec<Stage>,
-    /// Stages that can be computed one after another when the coupled ones are known.
-    pub after: Vec<Stage>,
-}
-
-impl StageGraph {
-    /// The dependencies of a reduced tableau.
-    pub fn new(reduced: &ReducedTableau<'_>) -> Self {
-        let nonzero = |rows: &[Vec<Number<'_>>]| {
-            let columns =
-                |row: &Vec<Number<'_>>| (0..row.len()).filter(|&j| !row[j].is_zero()).collect();
-            rows.iter().map(columns).collect()
-        };
-        StageGraph {
-            positions: nonzero(&reduced.a),
-            momenta: nonzero(&reduced.a_tilde),
-        }
-    }
-
-    /// The stages that a stage needs.
-    pub fn needs(&self, stage: Stage) -> Vec<Stage> {
-        match stage {
-            Stage::Position(i) => self.positions[i]
-                .iter()
-                .map(|&j| Stage::Momentum(j))
-                .collect(),
-            Stage::Momentum(i) => self.momenta[i]
-                .iter()
-                .map(|&j| Stage::Position(j))
-                .collect(),
-        }
-    }
-
-    fn stages(&self) -> Vec<Stage> {
-        let positions = (0..self.positions.len()).map(Stage::Position);
-        positions
-            .chain((0..self.momenta.len()).map(Stage::Momentum))
-            .collect()
-    }
-
-    /// An order in which every stage comes after those that it needs.
-    ///
-    /// # Errors
-    /// Where there is none: stages each of which needs the next, and the last the first.
-    pub fn order(&self) -> Result<Vec<Stage>, Vec<Stage>> {
-        let schedule = self.schedule();
-        let Some(&start) = schedule.coupled.first() else {
-            return Ok(schedule.before.into_iter().chain(schedule.after).collect());
-        };
-        // Every stage left needs one that is left: walk until one comes again.
-        let rest = [schedule.coupled.as_slice(), &schedule.after].concat();
-        let mut path = vec![start];
-        loop {
-            let last = path[path.len() - 1];
-            let next = self
-                .needs(last)
-                .into_iter()
-                .find(|stage| rest.contains(stage))
-                .unwrap_or(start);
-            if let Some(position) = path.iter().position(|&stage| stage == next) {
-                return Err(path.split_off(position));
-            }
-            path.push(next);
-        }
-    }
-
-    /// Splits the stages into those before, in and after the coupled ones.
-    pub fn schedule(&self) -> Schedule {
-        let mut rest = self.stages();
-        let before = take_while_possible(&mut rest, |stage, rest| {
-            self.needs(stage)
-                .iter()
-                .all(|needed| !rest.contains(needed))
-        });
-        // The same from the other end: what no remaining stage needs comes last.
-        let mut after = take_while_possible(&mut rest, |stage, rest| {
-            rest.iter()
-                .all(|&other| !self.needs(other).contains(&stage))
-        });
-        after.reverse();
-        Schedule {
-            before,
-            coupled: rest,
-            after,
-        }
-    }
-}
-
-/// Moves stages out of `rest`, one at a time, the first that is possible.
+/// Moves nodes out of `rest`, one at a time, the first that is possible.
 fn take_while_possible(
-    rest: &mut Vec<Stage>,
-    possible: impl Fn(Stage, &[Stage]) -> bool,
-) -> Vec<Stage> {
+    rest: &mut Vec<Entry>,
+    possible: impl Fn(&Entry, &[Entry]) -> bool,
+) -> Vec<Node> {
     let mut taken = Vec::new();
-    while let Some(position) = rest.iter().position(|&stage| possible(stage, rest)) {
-        taken.push(rest.remove(position));
+    while let Some(position) = rest.iter().position(|entry| possible(entry, rest)) {
+        taken.push(rest.remove(position).0);
     }
     taken
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn schedule(class: Class, basis: &str, nodes: &str) -> Schedule {
+        let tableau = crate::derive(basis, nodes).expect("derived");
+        tableau.with_numbers(|numbers| StepGraph::new(class, &tableau, numbers).schedule())
+    }
+
+    #[test]
+    fn stoermer_verlet_is_explicit_with_one_momentum_stage() {
+        use Node::*;
+        let schedule = schedule(Class::Separable, "polynomial(2)", "lobatto(2)");
+        assert_eq!(
+            schedule.before,
+            [
+                Position(0),
+                Force(0),
+                Momentum(0),
+                Velocity(0),
+                Position(1),
+                Force(1)
+            ]
+        );
+        assert_eq!((schedule.coupled, schedule.after), (vec![], vec![]));
+    }
+
+    #[test]
+    fn the_ends_of_lobatto_are_not_coupled() {
+        use Node::*;
+        let schedule = schedule(Class::Separable, "polynomial(3)", "lobatto(3)");
+        assert_eq!(schedule.before, [Position(0), Force(0)]);
+        assert_eq!(schedule.coupled.len(), 8);
+        assert_eq!(schedule.after, [Position(2), Force(2)]);
+    }
+
+    #[test]
+    fn gauss_is_coupled_throughout() {
+        for class in [Class::General, Class::Separable] {
+            let schedule = schedule(class, "polynomial(3)", "gauss(3)");
+            assert_eq!(
+                (
+                    schedule.before.len(),
+                    schedule.coupled.len(),
+                    schedule.after.len()
+                ),
+                (0, 12, 0)
+            );
+        }
+    }
 }

@@ -68,11 +68,6 @@ impl ClosedForm {
         }
     }
 
-    /// The value, if it is rational.
-    pub fn as_rational(&self) -> Option<&BigRational> {
-        self.factor.is_zero().then_some(&self.rational)
-    }
-
     /// The radicand of two numbers in one quadratic field.
     fn common_radicand(&self, other: &Self) -> Option<BigInt> {
         if self.factor.is_zero() {

@@ -186,11 +186,7 @@ impl Tensor {
 
     /// The number of bits of the largest coefficient, a measure of cancellation in the entries.
     pub(crate) fn bits(&self) -> u32 {
-        self.columns
-            .iter()
-            .map(|c| magnitude_bits(c))
-            .max()
-            .unwrap_or(0)
+        self.columns.iter().map(magnitude_bits).max().unwrap_or(0)
     }
 }
 

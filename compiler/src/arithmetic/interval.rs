@@ -75,11 +75,6 @@ impl Interval {
             && scaled <= BigRational::from_integer(self.high.clone())
     }
 
-    /// Whether the two intervals have no number in common.
-    pub fn is_disjoint(&self, other: &Interval) -> bool {
-        self.high < other.low || other.high < self.low
-    }
-
     /// The sum.
     #[must_use]
     pub fn add(&self, other: &Interval) -> Interval {

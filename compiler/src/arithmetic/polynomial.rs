@@ -313,13 +313,6 @@ impl Polynomial {
         }
     }
 
-    /// The polynomial with the same roots, each once, primitive.
-    pub fn squarefree(&self) -> Self {
-        let repeated = self.gcd(&self.derivative());
-        self.div_rem(&repeated)
-            .map_or_else(Polynomial::zero, |(q, _)| q.primitive())
-    }
-
     /// The polynomial written with a given name of the variable, highest degree first.
     pub fn display<'a>(&'a self, variable: &'a str) -> impl fmt::Display + 'a {
         struct Display<'a>(&'a Polynomial, &'a str);
@@ -478,11 +471,5 @@ mod tests {
         let p = Polynomial::from_rationals(&[ratio(-1, 2), ratio(1, 1), ratio(0, 1), ratio(-7, 3)]);
         assert_eq!(p.display("t").to_string(), "-7/3*t^3 + t - 1/2");
         assert_eq!(Polynomial::zero().display("t").to_string(), "0");
-    }
-
-    #[test]
-    fn the_squarefree_part_has_every_root_once() {
-        let p = &Polynomial::from_integers(&[-1, 2]).power(3) * &Polynomial::from_integers(&[5, 1]);
-        assert_eq!(p.squarefree(), Polynomial::from_integers(&[-5, 9, 2]));
     }
 }

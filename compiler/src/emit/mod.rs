@@ -1,1 +1,145 @@
-//! Emission.
+//! From an exact tableau to Rust code.
+//!
+//! The generated code names everything as `::symplectic::…`. It contains the correctly rounded
+//! coefficients as constants, and for each class of Hamiltonians a plan of the step in which every
+//! stage is a line of its own (theory.md §7): no product with zero, equal stages computed once, stages
+//! in order where they are explicit, no evaluation that the previous step has made already.
+
+mod literal;
+mod plan;
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use crate::schedule::Class;
+use crate::tableau::Tableau;
+
+/// What the user writes before the braces: attributes, visibility and the name of the type.
+#[derive(Debug, Clone)]
+pub struct Header {
+    /// Attributes, doc comments among them.
+    pub attributes: TokenStream,
+    /// The visibility.
+    pub visibility: TokenStream,
+    /// The name of the type.
+    pub name: Ident,
+}
+
+/// The type of a method with its coefficients and its plans.
+pub fn method(tableau: &Tableau, header: &Header) -> TokenStream {
+    let Header {
+        attributes,
+        visibility,
+        name,
+    } = header;
+    let constants = constants(tableau);
+    let documentation = documentation(tableau);
+    let stages = literal::count(tableau.stages());
+    let text = name.to_string();
+    let provenance = tableau.provenance();
+    let (basis, nodes) = (&provenance.basis, &provenance.nodes);
+    let (general, separable) = tableau.with_numbers(|numbers| {
+        let plan = |class, name: &str| plan::implementation(class, tableau, numbers, name);
+        (
+            plan(Class::General, "GeneralPlan"),
+            plan(Class::Separable, "SeparablePlan"),
+        )
+    });
+    quote! {
+        #attributes
+        #[doc = #documentation]
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        #visibility struct #name;
+
+        impl #name {
+            #constants
+        }
+
+        const _: () = {
+            impl ::symplectic::Method for #name {
+                const NAME: &'static str = #text;
+                const STAGES: usize = #stages;
+                const BASIS: &'static str = #basis;
+                const NODES: &'static str = #nodes;
+                type General = GeneralPlan;
+                type Separable = SeparablePlan;
+            }
+
+            #general
+
+            #separable
+        };
+    }
+}
+
+/// The coefficients as constants, each the double nearest to the exact value.
+fn constants(tableau: &Tableau) -> TokenStream {
+    let values = tableau.to_f64();
+    let stages = literal::count(tableau.stages());
+    // Where both halves are the same, the second is written as the first.
+    let same = (tableau.a == tableau.a_tilde, tableau.b == tableau.b_tilde);
+    let vector = |name: &str, doc: &str, values: TokenStream| {
+        let name = literal::identifier(name);
+        quote! {
+            #[doc = #doc]
+            pub const #name: [f64; #stages] = #values;
+        }
+    };
+    let matrix = |name: &str, doc: &str, rows: TokenStream| {
+        let name = literal::identifier(name);
+        quote! {
+            #[doc = #doc]
+            pub const #name: [[f64; #stages]; #stages] = #rows;
+        }
+    };
+    let or_same = |same: bool, name: &str, values: TokenStream| {
+        let name = literal::identifier(name);
+        if same { quote!(Self::#name) } else { values }
+    };
+    let rows = |rows: &[Vec<f64>]| {
+        let rows = rows.iter().map(|row| literal::array(row));
+        quote!([#(#rows),*])
+    };
+    let constants = [
+        matrix(
+            "A",
+            " a_ij: the position stages from the velocities. Correctly rounded.",
+            rows(&values.a),
+        ),
+        matrix(
+            "A_TILDE",
+            " ã_ij: the momentum stages from the forces. Correctly rounded.",
+            or_same(same.0, "A", rows(&values.a_tilde)),
+        ),
+        vector(
+            "B",
+            " b_j: the weights of the velocities. Correctly rounded.",
+            literal::array(&values.b),
+        ),
+        vector(
+            "B_TILDE",
+            " b̃_j: the weights of the forces. Correctly rounded.",
+            or_same(same.1, "B", literal::array(&values.b_tilde)),
+        ),
+        vector(
+            "C",
+            " c_i = Σ_j a_ij. Correctly rounded.",
+            literal::array(&values.c),
+        ),
+        vector(
+            "C_TILDE",
+            " c̃_i = Σ_j ã_ij. Correctly rounded.",
+            or_same(same.0, "C", literal::array(&values.c_tilde)),
+        ),
+    ];
+    quote!(#(#constants)*)
+}
+
+/// The tableau and what is proved about it, for the page of the type.
+fn documentation(tableau: &Tableau) -> String {
+    let table = crate::export::text::write(tableau, DOCUMENTATION_DIGITS);
+    format!("\n\n```text\n{table}```")
+}
+
+/// Digits of the coefficients in the documentation that have no short exact form.
+const DOCUMENTATION_DIGITS: usize = 16;

@@ -7,6 +7,7 @@ use num_rational::BigRational;
 
 use super::{Input, MAX_EXPONENT, MAX_LENGTH};
 use crate::error::{Error, ErrorKind};
+use crate::quadrature::FAMILIES;
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Token {
@@ -53,19 +54,12 @@ pub(super) fn tokenize(input: Input<'_>) -> Result<Vec<(Token, Range<usize>)>, E
             Token::Number(number(input, start..position)?)
         } else if first.is_alphabetic() || first == '_' {
             position = run(position, |c| c.is_alphanumeric() || c == '_');
-            // Names of rules contain hyphens: `radau-left(3)`. A hyphen between two names is part
-            // of the name only where a call follows, so `t-t` remains a difference.
-            let mut end = position;
-            while text[end..].starts_with('-')
-                && text[end + 1..].starts_with(|c: char| c.is_alphabetic())
-            {
-                end = run(end + 1, |c| c.is_alphanumeric() || c == '_');
-            }
-            if end > position
-                && text[end..].trim_start().starts_with('(')
-                && is_hyphenated(&text[start..end])
-            {
-                position = end;
+            // The names of some rules contain hyphens: `radau-left(3)`.
+            let rules = FAMILIES.iter().map(|family| family.name);
+            let hyphenated =
+                |name: &&str| text[start..].starts_with(name) && name.len() > position - start;
+            if let Some(name) = rules.filter(hyphenated).max_by_key(|name| name.len()) {
+                position = start + name.len();
             }
             Token::Name(text[start..position].to_owned())
         } else if "+-*/^(),[]".contains(first) {
@@ -82,12 +76,6 @@ pub(super) fn tokenize(input: Input<'_>) -> Result<Vec<(Token, Range<usize>)>, E
     }
     tokens.push((Token::End, text.len()..text.len()));
     Ok(tokens)
-}
-
-/// Whether a word with hyphens is the name of a function rather than a difference of names: no part
-/// of it is a variable or a constant.
-fn is_hyphenated(word: &str) -> bool {
-    word.split('-').all(|part| part.len() > 1)
 }
 
 /// The end of the number that starts at a position: digits, a fraction, an exponent.

@@ -274,7 +274,7 @@ pub(crate) fn moment(power: usize) -> BigRational {
 }
 
 /// The first node outside `[0, 1]`.
-fn first_outside(algebra: &NodeAlgebra) -> Option<usize> {
+pub(crate) fn first_outside(algebra: &NodeAlgebra) -> Option<usize> {
     let (zero, one) = (BigRational::zero(), BigRational::one());
     let outside = |index: usize| match algebra.roots()[index].rational() {
         Some(value) => *value < zero || *value > one,

@@ -1,0 +1,81 @@
+//! The generated code: readable, and without anything that the tableau does not need.
+//!
+//! `UPDATE_EXPECT=1 cargo test -p symplectic-compiler --test emission` rewrites the snapshots.
+
+use expect_test::expect_file;
+use proc_macro2::{Ident, Span};
+use quote::quote;
+use symplectic_compiler::emit::{Header, method};
+use symplectic_compiler::{Tableau, catalogue, derive};
+
+fn emitted(tableau: &Tableau, name: &str) -> String {
+    let header = Header {
+        attributes: quote!(#[doc = " Documentation of the user."]),
+        visibility: quote!(pub),
+        name: Ident::new(name, Span::call_site()),
+    };
+    let code = method(tableau, &header);
+    prettyplease::unparse(&syn::parse2(code).expect("the generated code parses"))
+}
+
+fn derived(basis: &str, nodes: &str) -> Tableau {
+    derive(basis, nodes).expect("derived")
+}
+
+#[test]
+fn an_explicit_method_is_straight_line_code() {
+    let code = emitted(&derived("polynomial(2)", "lobatto(2)"), "StoermerVerlet");
+    expect_file!["emission/stoermer_verlet.rs"].assert_eq(&code);
+}
+
+#[test]
+fn the_ends_of_a_step_are_not_solved_for() {
+    let code = emitted(&derived("polynomial(3)", "lobatto(3)"), "Lobatto3");
+    expect_file!["emission/lobatto_3.rs"].assert_eq(&code);
+}
+
+#[test]
+fn one_matrix_is_written_once() {
+    let code = emitted(&derived("polynomial(2)", "gauss(2)"), "Gauss2");
+    expect_file!["emission/gauss_2.rs"].assert_eq(&code);
+}
+
+/// The arrays of coefficients in calls of `combine` and `relax`.
+fn coefficients(code: &str) -> Vec<Vec<f64>> {
+    let plans = code
+        .split_once("const _")
+        .expect("plans")
+        .1
+        .replace([' ', '\n', '(', ')'], "");
+    let arrays = plans.split("step.size,[").skip(1);
+    let numbers = |array: &str| -> Vec<f64> {
+        let list = array
+            .split_once(']')
+            .expect("an array")
+            .0
+            .split(',')
+            .filter(|number| !number.is_empty());
+        list.map(|number| number.parse().expect("a number"))
+            .collect()
+    };
+    arrays.map(numbers).collect()
+}
+
+#[test]
+fn nothing_is_multiplied_by_zero_or_computed_twice() {
+    for entry in catalogue::entries() {
+        let tableau = entry.derive().expect("derived");
+        let code = emitted(&tableau, "Method");
+        let arrays = coefficients(&code);
+        assert!(!arrays.is_empty());
+        assert!(arrays.iter().flatten().all(|&c| c != 0.0), "{}", entry.name);
+        // Where all is explicit there is nothing to relax in the plan for separable systems.
+        let separable = code.split("struct SeparablePlan").nth(1).expect("the plan");
+        assert_eq!(
+            tableau.properties().explicit.holds,
+            !separable.contains("relax"),
+            "{}",
+            entry.name
+        );
+    }
+}

@@ -1,0 +1,289 @@
+/// Documentation of the user.
+/**
+
+```text
+3 stages, basis polynomial(3), nodes lobatto(3)
+
+  c │ a                      c̃ │ ã
+────┼─────────────────     ────┼───────────────
+  0 │    0    0      0       0 │ 1/6  -1/6    0
+1/2 │ 5/24  1/3  -1/24     1/2 │ 1/6   1/3    0
+  1 │  1/6  2/3    1/6       1 │ 1/6   5/6    0
+────┼─────────────────     ────┼───────────────
+  b │  1/6  2/3    1/6       b̃ │ 1/6   2/3  1/6
+
+properties
+  symplectic          yes  proved
+  symmetric           yes  proved
+  consistent          yes  proved
+  equal_matrices      no   refuted  a_11 − ã_11 = -1/6
+  explicit            no   refuted  these stages need one another: Q2 → P1 → Q2
+  first_row_zero      yes  proved
+  stiffly_accurate    yes  proved
+  first_same_as_last  yes  proved   Q_s = q1 is Q_1 of the next step
+  positive_weights    yes  proved
+```*/
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lobatto3;
+impl Lobatto3 {
+    /// a_ij: the position stages from the velocities. Correctly rounded.
+    pub const A: [[f64; 3]; 3] = [
+        [0.0, 0.0, 0.0],
+        [0.20833333333333334, 0.3333333333333333, (-0.041666666666666664)],
+        [0.16666666666666666, 0.6666666666666666, 0.16666666666666666],
+    ];
+    /// ã_ij: the momentum stages from the forces. Correctly rounded.
+    pub const A_TILDE: [[f64; 3]; 3] = [
+        [0.16666666666666666, (-0.16666666666666666), 0.0],
+        [0.16666666666666666, 0.3333333333333333, 0.0],
+        [0.16666666666666666, 0.8333333333333334, 0.0],
+    ];
+    /// b_j: the weights of the velocities. Correctly rounded.
+    pub const B: [f64; 3] = [
+        0.16666666666666666,
+        0.6666666666666666,
+        0.16666666666666666,
+    ];
+    /// b̃_j: the weights of the forces. Correctly rounded.
+    pub const B_TILDE: [f64; 3] = Self::B;
+    /// c_i = Σ_j a_ij. Correctly rounded.
+    pub const C: [f64; 3] = [0.0, 0.5, 1.0];
+    /// c̃_i = Σ_j ã_ij. Correctly rounded.
+    pub const C_TILDE: [f64; 3] = [0.0, 0.5, 1.0];
+}
+const _: () = {
+    impl ::symplectic::Method for Lobatto3 {
+        const NAME: &'static str = "Lobatto3";
+        const STAGES: usize = 3;
+        const BASIS: &'static str = "polynomial(3)";
+        const NODES: &'static str = "lobatto(3)";
+        type General = GeneralPlan;
+        type Separable = SeparablePlan;
+    }
+    pub struct GeneralPlan;
+    #[allow(unused_variables)]
+    impl ::symplectic::Plan for GeneralPlan {
+        type Class = ::symplectic::General;
+        type Coupling = ::symplectic::Coupled;
+        type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 3, 3>;
+        #[inline]
+        fn begin<
+            V: ::symplectic::Vector,
+            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+        >(
+            step: &::symplectic::Step<'_, V>,
+            system: &S,
+            stages: &mut Self::Stages<V>,
+            carried: bool,
+        ) {
+            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            ::symplectic::combine(&mut q[1], step.q, step.size, [], []);
+            ::symplectic::combine(&mut q[2], step.q, step.size, [], []);
+            ::symplectic::combine(&mut p[0], step.p, step.size, [], []);
+            ::symplectic::combine(&mut p[1], step.p, step.size, [], []);
+            ::symplectic::combine(&mut p[2], step.p, step.size, [], []);
+            system.velocity(step.at(0.0), step.q, step.p, &mut velocity[0]);
+            ::symplectic::copy_to(velocity, 0, [1, 2]);
+        }
+        #[inline]
+        fn sweep<
+            V: ::symplectic::Vector,
+            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+        >(
+            step: &::symplectic::Step<'_, V>,
+            system: &S,
+            stages: &mut Self::Stages<V>,
+        ) -> ::symplectic::Change {
+            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            let mut change = ::symplectic::Change::default();
+            ::symplectic::relax(
+                &mut q[1],
+                step.q,
+                step.size,
+                [0.20833333333333334, 0.3333333333333333, (-0.041666666666666664)],
+                [&velocity[0], &velocity[1], &velocity[2]],
+                &mut change.q,
+            );
+            ::symplectic::relax(
+                &mut q[2],
+                step.q,
+                step.size,
+                [0.16666666666666666, 0.6666666666666666, 0.16666666666666666],
+                [&velocity[0], &velocity[1], &velocity[2]],
+                &mut change.q,
+            );
+            system.force(step.at(0.0), step.q, &p[0], &mut force[0]);
+            system.force(step.at(0.5), &q[1], &p[1], &mut force[1]);
+            ::symplectic::relax(
+                &mut p[0],
+                step.p,
+                step.size,
+                [0.16666666666666666, (-0.16666666666666666)],
+                [&force[0], &force[1]],
+                &mut change.p,
+            );
+            ::symplectic::relax(
+                &mut p[1],
+                step.p,
+                step.size,
+                [0.16666666666666666, 0.3333333333333333],
+                [&force[0], &force[1]],
+                &mut change.p,
+            );
+            ::symplectic::relax(
+                &mut p[2],
+                step.p,
+                step.size,
+                [0.16666666666666666, 0.8333333333333334],
+                [&force[0], &force[1]],
+                &mut change.p,
+            );
+            system.velocity(step.at(0.0), step.q, &p[0], &mut velocity[0]);
+            system.velocity(step.at(0.5), &q[1], &p[1], &mut velocity[1]);
+            system.velocity(step.at(1.0), &q[2], &p[2], &mut velocity[2]);
+            change
+        }
+        #[inline]
+        fn finish<
+            V: ::symplectic::Vector,
+            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+        >(
+            step: &::symplectic::Step<'_, V>,
+            system: &S,
+            stages: &mut Self::Stages<V>,
+            q1: &mut V,
+            p1: &mut V,
+        ) {
+            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            system.force(step.at(1.0), &q[2], &p[2], &mut force[2]);
+            ::symplectic::combine(
+                q1,
+                step.q,
+                step.size,
+                [0.16666666666666666, 0.6666666666666666, 0.16666666666666666],
+                [&velocity[0], &velocity[1], &velocity[2]],
+            );
+            ::symplectic::combine(
+                p1,
+                step.p,
+                step.size,
+                [0.16666666666666666, 0.6666666666666666, 0.16666666666666666],
+                [&force[0], &force[1], &force[2]],
+            );
+        }
+        #[inline]
+        fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
+            false
+        }
+    }
+    pub struct SeparablePlan;
+    #[allow(unused_variables)]
+    impl ::symplectic::Plan for SeparablePlan {
+        type Class = ::symplectic::Separable;
+        type Coupling = ::symplectic::Coupled;
+        type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 3, 3>;
+        #[inline]
+        fn begin<
+            V: ::symplectic::Vector,
+            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+        >(
+            step: &::symplectic::Step<'_, V>,
+            system: &S,
+            stages: &mut Self::Stages<V>,
+            carried: bool,
+        ) {
+            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            if !carried {
+                system.force(step.at(0.0), step.q, step.p, &mut force[0]);
+            }
+            ::symplectic::combine(&mut q[1], step.q, step.size, [], []);
+            ::symplectic::combine(&mut p[0], step.p, step.size, [], []);
+            ::symplectic::combine(&mut p[1], step.p, step.size, [], []);
+            ::symplectic::combine(&mut p[2], step.p, step.size, [], []);
+            system.velocity(step.at(0.0), step.q, step.p, &mut velocity[0]);
+            ::symplectic::copy_to(velocity, 0, [1, 2]);
+        }
+        #[inline]
+        fn sweep<
+            V: ::symplectic::Vector,
+            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+        >(
+            step: &::symplectic::Step<'_, V>,
+            system: &S,
+            stages: &mut Self::Stages<V>,
+        ) -> ::symplectic::Change {
+            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            let mut change = ::symplectic::Change::default();
+            ::symplectic::relax(
+                &mut q[1],
+                step.q,
+                step.size,
+                [0.20833333333333334, 0.3333333333333333, (-0.041666666666666664)],
+                [&velocity[0], &velocity[1], &velocity[2]],
+                &mut change.q,
+            );
+            system.force(step.at(0.5), &q[1], step.p, &mut force[1]);
+            ::symplectic::relax(
+                &mut p[0],
+                step.p,
+                step.size,
+                [0.16666666666666666, (-0.16666666666666666)],
+                [&force[0], &force[1]],
+                &mut change.p,
+            );
+            ::symplectic::relax(
+                &mut p[1],
+                step.p,
+                step.size,
+                [0.16666666666666666, 0.3333333333333333],
+                [&force[0], &force[1]],
+                &mut change.p,
+            );
+            ::symplectic::relax(
+                &mut p[2],
+                step.p,
+                step.size,
+                [0.16666666666666666, 0.8333333333333334],
+                [&force[0], &force[1]],
+                &mut change.p,
+            );
+            system.velocity(step.at(0.0), step.q, &p[0], &mut velocity[0]);
+            system.velocity(step.at(0.5), step.q, &p[1], &mut velocity[1]);
+            system.velocity(step.at(1.0), step.q, &p[2], &mut velocity[2]);
+            change
+        }
+        #[inline]
+        fn finish<
+            V: ::symplectic::Vector,
+            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+        >(
+            step: &::symplectic::Step<'_, V>,
+            system: &S,
+            stages: &mut Self::Stages<V>,
+            q1: &mut V,
+            p1: &mut V,
+        ) {
+            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            ::symplectic::combine(
+                q1,
+                step.q,
+                step.size,
+                [0.16666666666666666, 0.6666666666666666, 0.16666666666666666],
+                [&velocity[0], &velocity[1], &velocity[2]],
+            );
+            system.force(step.at(1.0), q1, step.p, &mut force[2]);
+            ::symplectic::combine(
+                p1,
+                step.p,
+                step.size,
+                [0.16666666666666666, 0.6666666666666666, 0.16666666666666666],
+                [&force[0], &force[1], &force[2]],
+            );
+        }
+        #[inline]
+        fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
+            stages.force.swap(0, 2);
+            true
+        }
+    }
+};
