@@ -1,1 +1,282 @@
-//! catalogue
+//! The known methods, by name: one row a method or a family.
+
+use crate::derive::derive_within;
+use crate::error::{Error, ErrorKind};
+use crate::limits::Limits;
+use crate::tableau::Tableau;
+
+/// A method of the catalogue.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Entry {
+    /// The name: `gauss-3`.
+    pub name: String,
+    /// What it is.
+    pub title: String,
+    /// The basis: `polynomial(3)`.
+    pub basis: String,
+    /// The nodes: `gauss(3)`.
+    pub nodes: String,
+    /// The number of stages.
+    pub stages: usize,
+    /// Papers and books that it is from, and under which other names it is in this catalogue.
+    pub source: String,
+}
+
+impl Entry {
+    /// Derives the tableau, with its name and source.
+    ///
+    /// # Errors
+    /// None for the methods that are in the catalogue now.
+    ///
+    /// ```
+    /// use symplectic_compiler::catalogue;
+    ///
+    /// let verlet = catalogue::find("stormer-verlet").expect("a known method").derive()?;
+    /// assert!(verlet.properties().explicit.holds);
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    pub fn derive(&self) -> Result<Tableau, Error> {
+        self.derive_within(&Limits::default())
+    }
+
+    /// As [`Entry::derive`], within given limits.
+    ///
+    /// # Errors
+    /// [`ErrorKind::TooManyStages`].
+    pub fn derive_within(&self, limits: &Limits) -> Result<Tableau, Error> {
+        let tableau = derive_within(&self.basis, &self.nodes, limits)?;
+        Ok(tableau.named(&self.name).with_source(&self.source))
+    }
+
+    /// The other names of this method in the catalogue.
+    pub fn same_as(&self) -> Vec<&'static str> {
+        let group = COINCIDENCES
+            .iter()
+            .find(|g| g.contains(&self.name.as_str()));
+        let others = group.into_iter().flat_map(|group| group.iter().copied());
+        others.filter(|name| *name != self.name).collect()
+    }
+}
+
+/// A method, or a family with one member for each number of stages, for which `{s}` stands.
+struct Row {
+    name: &'static str,
+    title: &'static str,
+    basis: &'static str,
+    nodes: &'static str,
+    stages: &'static [usize],
+    source: &'static str,
+}
+
+const ROWS: &[Row] = &[
+    Row {
+        name: "symplectic-euler",
+        title: "symplectic Euler, implicit in p",
+        basis: "polynomial(1)",
+        nodes: "0",
+        stages: &[1],
+        source: "Leok & Zhang, Discrete Hamiltonian Variational Integrators, Example 2 with c = 0",
+    },
+    Row {
+        name: "symplectic-euler-adjoint",
+        title: "the adjoint of symplectic Euler, implicit in q",
+        basis: "polynomial(1)",
+        nodes: "1",
+        stages: &[1],
+        source: "Leok & Zhang, Discrete Hamiltonian Variational Integrators, Example 2 with c = 1",
+    },
+    Row {
+        name: "midpoint",
+        title: "the implicit midpoint rule",
+        basis: "polynomial(1)",
+        nodes: "1/2",
+        stages: &[1],
+        source: "Leok & Zhang, Discrete Hamiltonian Variational Integrators, Example 2 with c = 1/2",
+    },
+    Row {
+        name: "stormer-verlet",
+        title: "Störmer–Verlet",
+        basis: "polynomial(2)",
+        nodes: "lobatto(2)",
+        stages: &[2],
+        source: "Verlet 1967; Marsden & West 2001, §2.6.2; Hairer, Lubich & Wanner, Geometric Numerical Integration, §I.1.4; \
+                 Leok & Zhang, Example 3 and the remark after it (from the basis 1, cos(πτ), the same tableau)",
+    },
+    Row {
+        name: "gauss-{s}",
+        title: "Gauss–Legendre collocation, order 2s",
+        basis: "polynomial({s})",
+        nodes: "gauss({s})",
+        stages: &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10],
+        source: "Kuntzmann 1961; Butcher, Implicit Runge–Kutta processes, Math. Comp. 18 (1964); \
+                 Hairer, Lubich & Wanner, Geometric Numerical Integration, §II.1.3; built as in Marsden & West 2001, Theorem 2.6.2",
+    },
+    Row {
+        name: "lobatto-{s}",
+        title: "Lobatto IIIA–IIIB pair, order 2s − 2",
+        basis: "polynomial({s})",
+        nodes: "lobatto({s})",
+        stages: &[2, 3, 4, 5, 6, 7, 8],
+        source: "Sun, Symplectic partitioned Runge–Kutta methods, J. Comput. Math. 11 (1993); \
+                 Jay, SIAM J. Numer. Anal. 33 (1996); Hairer, Lubich & Wanner, Geometric Numerical Integration, §II.2.2 and §VI.4; \
+                 built as in Marsden & West 2001, Theorem 2.6.2",
+    },
+    Row {
+        name: "radau-left-{s}",
+        title: "collocation at left Radau nodes with Radau IA for momenta, order 2s − 1",
+        basis: "polynomial({s})",
+        nodes: "radau-left({s})",
+        stages: &[1, 2, 3, 4, 5, 6],
+        source: "Radau IA: Ehle 1969; as a symplectic pair: Sun, J. Comput. Math. 11 (1993); \
+                 built as in Marsden & West 2001, Theorem 2.6.2",
+    },
+    Row {
+        name: "radau-right-{s}",
+        title: "Radau IIA with its symplectic partner, order 2s − 1",
+        basis: "polynomial({s})",
+        nodes: "radau-right({s})",
+        stages: &[1, 2, 3, 4, 5, 6],
+        source: "Radau IIA: Ehle 1969, Axelsson 1969; as a symplectic pair: Sun, J. Comput. Math. 11 (1993); \
+                 built as in Marsden & West 2001, Theorem 2.6.2",
+    },
+    Row {
+        name: "chebyshev-{s}",
+        title: "equal weights (Chebyshev quadrature)",
+        basis: "polynomial({s})",
+        nodes: "chebyshev({s})",
+        stages: &[1, 2, 3, 4, 5, 6, 7, 9],
+        source: "Leok & Zhang, Discrete Hamiltonian Variational Integrators, Example 5 (tables for s = 1, 2, 3; equation 44 gives the nodes)",
+    },
+    Row {
+        name: "clenshaw-curtis-{s}",
+        title: "Clenshaw–Curtis nodes, the extrema of a Chebyshev polynomial",
+        basis: "polynomial({s})",
+        nodes: "clenshaw-curtis({s})",
+        stages: &[3, 4, 5, 6],
+        source: "nodes: Clenshaw & Curtis, Numer. Math. 2 (1960); the method: Leok & Zhang, §4.4 and Marsden & West 2001, Theorem 2.6.2",
+    },
+    Row {
+        name: "newton-cotes-{s}",
+        title: "equidistant nodes, closed Newton–Cotes",
+        basis: "polynomial({s})",
+        nodes: "newton-cotes({s})",
+        stages: &[2, 3, 4, 5, 6],
+        source: "nodes: Newton and Cotes; the method: Leok & Zhang, §4.4 and Marsden & West 2001, Theorem 2.6.2",
+    },
+];
+
+/// Names of one method each. The test of the catalogue proves that these and no others coincide.
+const COINCIDENCES: &[&[&str]] = &[
+    &["symplectic-euler", "radau-left-1"],
+    &["symplectic-euler-adjoint", "radau-right-1"],
+    &["midpoint", "gauss-1", "chebyshev-1"],
+    &["gauss-2", "chebyshev-2"],
+    &["stormer-verlet", "lobatto-2", "newton-cotes-2"],
+    &["lobatto-3", "clenshaw-curtis-3", "newton-cotes-3"],
+];
+
+/// All methods, in the order of the catalogue.
+pub fn entries() -> impl Iterator<Item = Entry> {
+    ROWS.iter()
+        .flat_map(|row| row.stages.iter().map(move |&stages| row.entry(stages)))
+}
+
+/// The method of this name.
+pub fn find(name: &str) -> Option<Entry> {
+    entries().find(|entry| entry.name == name)
+}
+
+/// The error for a name that is not in the catalogue, with the names that look most like it.
+pub fn unknown(name: &str) -> Error {
+    let mut near: Vec<(usize, String)> = entries()
+        .map(|entry| (distance(name, &entry.name), entry.name))
+        .filter(|(distance, known)| *distance <= 2.max(known.len() / 3))
+        .collect();
+    near.sort_by_key(|(distance, _)| *distance);
+    let near: Vec<String> = near.into_iter().take(3).map(|(_, name)| name).collect();
+    let known = if near.is_empty() {
+        "the names that `symplectic list` shows".to_owned()
+    } else {
+        format!("{}, …", near.join(", "))
+    };
+    ErrorKind::Unknown {
+        what: "method",
+        name: crate::expression::shown(name),
+        known,
+    }
+    .into()
+}
+
+/// The number of insertions, deletions and changes that turn one word into another (Levenshtein).
+fn distance(from: &str, to: &str) -> usize {
+    let to: Vec<char> = to.chars().collect();
+    let mut row: Vec<usize> = (0..=to.len()).collect();
+    for (i, c) in from.chars().take(64).enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, d) in to.iter().enumerate() {
+            let change = diagonal + usize::from(c != *d);
+            diagonal = row[j + 1];
+            row[j + 1] = change.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[to.len()]
+}
+
+impl Row {
+    fn entry(&self, stages: usize) -> Entry {
+        let fill = |pattern: &str| pattern.replace("{s}", &stages.to_string());
+        let mut entry = Entry {
+            name: fill(self.name),
+            title: self.title.to_owned(),
+            basis: fill(self.basis),
+            nodes: fill(self.nodes),
+            stages,
+            source: self.source.to_owned(),
+        };
+        let others = entry.same_as();
+        if !others.is_empty() {
+            entry.source = format!(
+                "{}; the same method as {}",
+                entry.source,
+                others.join(" and ")
+            );
+        }
+        entry
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_names_are_suggested() {
+        assert_eq!(distance("gaus-3", "gauss-3"), 1);
+        assert_eq!(distance("", "abc"), 3);
+        let message = unknown("gaus-3").to_string();
+        assert!(
+            message.starts_with("unknown method `gaus-3`; known here: gauss-3, "),
+            "{message}"
+        );
+        assert!(
+            unknown("runge-kutta-fehlberg")
+                .to_string()
+                .ends_with("`symplectic list` shows")
+        );
+    }
+
+    #[test]
+    fn names_are_unique() {
+        let mut names: Vec<String> = entries().map(|entry| entry.name).collect();
+        let count = names.len();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), count);
+        assert!(
+            names
+                .iter()
+                .all(|name| find(name).is_some_and(|entry| entry.name == *name))
+        );
+    }
+}

@@ -1,1 +1,64 @@
-//! check
+//! Checking a file from nothing but its basis and nodes.
+
+use std::path::Path;
+
+use crate::error::{Error, ErrorKind};
+use crate::export::{self, compare};
+use crate::expression::Input;
+use crate::limits::Limits;
+use crate::tableau::Tableau;
+
+/// Checks a table file, TOML or JSON by the extension of its name, and returns its tableau.
+///
+/// Nothing in the file is trusted: the tableau is derived anew from basis and nodes, its properties
+/// are proved, and every entry of the file is held against what is written of the result, in the order
+/// in which the entries stand: the node polynomial, exact data, decimals to their last digit, doubles,
+/// properties with their evidence. The name and the source are taken as they are.
+///
+/// # Errors
+/// [`ErrorKind::Mismatch`] for the first entry that does not fit; [`ErrorKind::Document`] where the
+/// file is no table file; everything that [`derive`](crate::derive()) refuses about its basis and
+/// nodes. Each with its place in the file.
+///
+/// ```
+/// use symplectic_compiler::{Limits, check, derive, export::toml};
+///
+/// let text = toml::write(&derive("polynomial(2)", "gauss(2)")?, 10);
+/// check("gauss.toml", &text, &Limits::default())?;
+///
+/// let edited = text.replace("0.2886751346", "0.2886751345").replace("0.5386751346", "0.5386751347");
+/// let error = check("gauss.toml", &edited, &Limits::default()).unwrap_err();
+/// assert!(error.to_string().ends_with(
+///     "`a_21 (decimal)` does not fit: the file has 0.5386751347, the derivation gives 0.5386751346"
+/// ));
+/// # Ok::<(), symplectic_compiler::Error>(())
+/// ```
+pub fn check(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Error> {
+    let extension = Path::new(file_name).extension().and_then(|e| e.to_str());
+    match extension.map(str::to_ascii_lowercase).as_deref() {
+        Some("toml") => check_toml(file_name, text, limits),
+        // Reading JSON is checking it.
+        Some("json") => export::json::read(file_name, text, limits),
+        _ => Err(ErrorKind::Document {
+            message: format!("`{file_name}` is named neither .toml nor .json"),
+        }
+        .into()),
+    }
+}
+
+fn check_toml(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Error> {
+    let file = Input {
+        name: file_name,
+        text,
+    };
+    let document = export::toml::Document::parse(file, limits)?;
+    let tableau = document.derive(file, limits)?;
+    let fresh = export::toml::write(&tableau, document.digits());
+    let expected = Input {
+        name: "the derivation",
+        text: &fresh,
+    };
+    let expected = export::toml::Document::parse(expected, limits)?;
+    compare(file, &document.entries(), &expected.entries())?;
+    Ok(tableau)
+}

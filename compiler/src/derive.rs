@@ -37,18 +37,18 @@ pub fn derive(basis: &str, nodes: &str) -> Result<Tableau, Error> {
 /// # Errors
 /// As [`derive`].
 pub fn derive_within(basis: &str, nodes: &str, limits: &Limits) -> Result<Tableau, Error> {
-    let rule = QuadratureRule::parse(nodes, limits);
-    let basis_of = Basis::parse(basis, limits)?;
-    let rule = rule?;
-    derive_from(&basis_of, &rule).map_err(|kind| {
+    let functions = Basis::parse(basis, limits)?;
+    let rule = QuadratureRule::parse(nodes, limits)?;
+    derive_from(&functions, &rule).map_err(|kind| {
         let whole = |input: &str, text: &str| Place {
             input: input.to_owned(),
             text: text.to_owned(),
             span: trimmed(text),
         };
-        let place = match kind {
-            ErrorKind::NotSquare { .. } => whole("basis", basis),
-            _ => whole("nodes", nodes),
+        let place = if kind.is_about_basis() {
+            whole("basis", basis)
+        } else {
+            whole("nodes", nodes)
         };
         Error::at(kind, place)
     })

@@ -212,6 +212,13 @@ pub enum ErrorKind {
     },
 }
 
+impl ErrorKind {
+    /// Whether an error of [`derive_from`](crate::derive_from) is about the basis rather than the nodes.
+    pub fn is_about_basis(&self) -> bool {
+        matches!(self, ErrorKind::NotSquare { .. })
+    }
+}
+
 impl Error {
     /// An error at a part of an input text.
     pub fn at(kind: ErrorKind, place: Place) -> Self {

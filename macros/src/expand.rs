@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, quote};
 use symplectic_compiler::emit::{Header, method};
-use symplectic_compiler::{Evidence, Limits, Properties, Tableau, check, derive_within};
+use symplectic_compiler::{
+    Basis, Evidence, Limits, Properties, QuadratureRule, Tableau, check, derive_from,
+};
 use syn::parse::Parser;
 use syn::punctuated::Punctuated;
 use syn::{LitInt, LitStr, Token, bracketed};
@@ -38,6 +40,12 @@ impl Errors {
         }
         None
     }
+
+    /// All errors noted; there is at least one.
+    fn all(self) -> syn::Error {
+        self.0
+            .unwrap_or_else(|| syn::Error::new(Span::call_site(), "nothing is wrong"))
+    }
 }
 
 const KEYS: [&str; 5] = ["basis", "nodes", "file", "require", "max_stages"];
@@ -63,8 +71,8 @@ fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
     let field = |name: &str| definition.fields.iter().find(|field| field.key == name);
     let limits = field("max_stages").map_or(Ok(Limits::default()), max_stages);
     let limits = errors.note(limits).unwrap_or_default();
-    let requirements = field("require").map_or(Ok(Vec::new()), requirements);
-    let requirements = errors.note(requirements).unwrap_or_default();
+    let requirements =
+        field("require").map_or_else(Vec::new, |field| requirements(field, &mut errors));
 
     let mut rebuild = TokenStream::new();
     let tableau = match (field("file"), field("basis"), field("nodes")) {
@@ -77,17 +85,7 @@ fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
             file.key.span(),
             "`file` says everything: leave out `basis` and `nodes`, or `file`",
         )),
-        (None, basis, _) => {
-            let missing = if basis.is_some() {
-                "`nodes: …` is missing"
-            } else {
-                "`basis: …` is missing"
-            };
-            Err(syn::Error::new(
-                definition.name.span(),
-                format!("{missing}; a method needs `basis` and `nodes`, or `file`"),
-            ))
-        }
+        (None, basis, nodes) => Err(incomplete(definition, basis, nodes, &limits)),
     };
     if let Some(tableau) = errors.note(tableau) {
         errors.note(prove(&tableau, &requirements));
@@ -107,28 +105,50 @@ fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
 
 /// Derives the tableau of a basis and nodes.
 fn derive(basis: &Field, nodes: &Field, limits: &Limits) -> syn::Result<Tableau> {
-    let basis = Source::new(basis.value.clone());
-    let nodes = Source::new(nodes.value.clone());
-    derive_within(&basis.text, &nodes.text, limits).map_err(|first| {
-        // Both may be wrong; a person wants to know of both at once.
-        let in_basis = first
-            .place
-            .as_ref()
-            .is_none_or(|place| place.input == "basis");
-        let mut error = if in_basis {
-            basis.locate(&first)
+    let mut errors = Errors(None);
+    let [basis, nodes] = [basis, nodes].map(|field| Source::new(field.value.clone()));
+    // Both may be wrong, and a person wants to know of both at once.
+    let functions =
+        errors.note(Basis::parse(&basis.text, limits).map_err(|error| basis.locate(&error)));
+    let rule = errors
+        .note(QuadratureRule::parse(&nodes.text, limits).map_err(|error| nodes.locate(&error)));
+    let (Some(functions), Some(rule)) = (functions, rule) else {
+        return Err(errors.all());
+    };
+    derive_from(&functions, &rule).map_err(|kind| {
+        let source = if kind.is_about_basis() {
+            &basis
         } else {
-            nodes.locate(&first)
+            &nodes
         };
-        let basis_is_wrong = symplectic_compiler::Basis::parse(&basis.text, limits).is_err();
-        if in_basis
-            && basis_is_wrong
-            && let Err(second) = symplectic_compiler::QuadratureRule::parse(&nodes.text, limits)
-        {
-            error.combine(nodes.locate(&second));
-        }
-        error
+        source.locate(&kind.into())
     })
+}
+
+/// What is wrong with the one of `basis` and `nodes` that is there, and that the other is missing.
+fn incomplete(
+    definition: &Definition,
+    basis: Option<&Field>,
+    nodes: Option<&Field>,
+    limits: &Limits,
+) -> syn::Error {
+    let mut errors = Errors(None);
+    let missing = match (basis, nodes) {
+        (Some(_), None) => "`nodes: …` is missing; ",
+        (None, Some(_)) => "`basis: …` is missing; ",
+        _ => "",
+    };
+    let message = format!("{missing}a method needs `basis` and `nodes`, or `file`");
+    errors.note::<()>(Err(syn::Error::new(definition.name.span(), message)));
+    let source = |field: &Field| Source::new(field.value.clone());
+    if let Some(basis) = basis.map(source) {
+        errors.note(Basis::parse(&basis.text, limits).map_err(|error| basis.locate(&error)));
+    }
+    if let Some(nodes) = nodes.map(source) {
+        errors
+            .note(QuadratureRule::parse(&nodes.text, limits).map_err(|error| nodes.locate(&error)));
+    }
+    errors.all()
 }
 
 /// Reads and re-proves a table file, and makes the crate depend on it.
@@ -158,30 +178,32 @@ fn read(file: &Field, limits: &Limits) -> syn::Result<(Tableau, TokenStream)> {
     ))
 }
 
-/// `require: [symplectic, symmetric]`
-fn requirements(field: &Field) -> syn::Result<Vec<Ident>> {
+/// `require: [symplectic, symmetric]`: the properties that exist; the others are errors.
+fn requirements(field: &Field, errors: &mut Errors) -> Vec<Ident> {
     let list = |input: syn::parse::ParseStream<'_>| {
         let content;
         bracketed!(content in input);
         Punctuated::<Ident, Token![,]>::parse_terminated(&content)
     };
     let names = list.parse2(field.value.clone()).map_err(|error| {
-        syn::Error::new(
-            error.span(),
-            "expected a list of properties: `require: [symplectic, symmetric]`",
-        )
-    })?;
-    let mut errors = Errors(None);
-    for name in &names {
-        if !Properties::NAMES.iter().any(|known| name == known) {
-            let message = format!(
-                "unknown property `{name}`; known here: {}",
-                Properties::NAMES.join(", ")
-            );
-            errors.note::<()>(Err(syn::Error::new(name.span(), message)));
+        let message = "expected a list of properties: `require: [symplectic, symmetric]`";
+        syn::Error::new(error.span(), message)
+    });
+    let known = |name: &Ident| {
+        if Properties::NAMES.iter().any(|known| name == known) {
+            return Ok(name.clone());
         }
-    }
-    errors.0.map_or(Ok(names.into_iter().collect()), Err)
+        let message = format!(
+            "unknown property `{name}`; known here: {}",
+            Properties::NAMES.join(", ")
+        );
+        Err(syn::Error::new(name.span(), message))
+    };
+    let names = errors.note(names).unwrap_or_default();
+    names
+        .iter()
+        .filter_map(|name| errors.note(known(name)))
+        .collect()
 }
 
 fn max_stages(field: &Field) -> syn::Result<Limits> {

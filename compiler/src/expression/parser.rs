@@ -20,7 +20,7 @@ pub fn parse_list(input: Input<'_>) -> Result<Vec<Expression>, Error> {
     };
     let items = if let Some(open) = parser.accept('[') {
         let items = parser.items()?;
-        parser.close(open, '[', ']')?;
+        parser.close(open, ['[', ']'], "an operator, `,`")?;
         items
     } else {
         parser.items()?
@@ -73,20 +73,29 @@ impl Parser<'_> {
         )
     }
 
+    /// The end of what an opening bracket began; `inside` is what could have gone on there.
     fn close(
         &mut self,
         open: Range<usize>,
-        bracket: char,
-        partner: char,
+        [bracket, partner]: [char; 2],
+        inside: &str,
     ) -> Result<Range<usize>, Error> {
         if let Some(span) = self.accept(partner) {
             return Ok(span);
         }
-        match self.peek() {
-            (Token::End, _) => Err(self
+        // Is the partner missing, or does something stand before it?
+        let mut depth = 0;
+        let closes = self.tokens[self.next..].iter().any(|(token, _)| {
+            depth += i32::from(*token == Token::Symbol(bracket));
+            depth -= i32::from(*token == Token::Symbol(partner));
+            depth < 0
+        });
+        if closes {
+            Err(self.unexpected(&format!("{inside} or `{partner}`")))
+        } else {
+            Err(self
                 .input
-                .error(&open, ErrorKind::Unbalanced { bracket, partner })),
-            _ => Err(self.unexpected(&format!("an operator, `,` or `{partner}`"))),
+                .error(&open, ErrorKind::Unbalanced { bracket, partner }))
         }
     }
 
@@ -179,7 +188,7 @@ impl Parser<'_> {
                 };
                 let empty = self.peek().0 == Token::Symbol(')');
                 let arguments = if empty { Vec::new() } else { self.items()? };
-                let close = self.close(open, '(', ')')?;
+                let close = self.close(open, ['(', ')'], "an operator, `,`")?;
                 let whole = span.start..close.end;
                 Ok(Expression {
                     kind: ExpressionKind::Call {
@@ -193,7 +202,7 @@ impl Parser<'_> {
             Token::Symbol('(') => {
                 self.next += 1;
                 let inner = self.expression()?;
-                let close = self.close(span.clone(), '(', ')')?;
+                let close = self.close(span.clone(), ['(', ')'], "an operator")?;
                 Ok(Expression {
                     kind: inner.kind,
                     span: span.start..close.end,

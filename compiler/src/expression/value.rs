@@ -233,9 +233,14 @@ mod tests {
     fn wrong_expressions_are_named_at_their_place() {
         let cases = [
             ("1, 2/0", "basis, column 6: division by zero"),
+            ("(1, t", "basis, column 1: `(` has no matching `)`"),
             (
-                "(1, t",
-                "basis, column 3: found `,`, expected an operator, `,` or `)`",
+                "(1, t)",
+                "basis, column 3: found `,`, expected an operator or `)`",
+            ),
+            (
+                "[1 t]",
+                "basis, column 4: found `t`, expected an operator, `,` or `]`",
             ),
             ("(1 + t", "basis, column 1: `(` has no matching `)`"),
             ("1 + t)", "basis, column 6: `)` has no matching `(`"),

@@ -219,3 +219,57 @@ fn extend(
     }
     false
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::properties::Evidence;
+
+    /// Two stages that nothing tells apart: all entries of both matrices are the same number.
+    fn twins(entry: BigRational) -> Tableau {
+        let mut tableau = crate::derive("polynomial(2)", "0, 1").expect("derived");
+        let matrix = Tensor::from_products(
+            &tableau.algebra,
+            &[(Polynomial::constant(entry), Polynomial::one())],
+        );
+        (tableau.a, tableau.a_tilde) = (matrix.clone(), matrix);
+        tableau
+    }
+
+    #[test]
+    fn stages_that_nothing_tells_apart_are_searched() {
+        let symmetric = twins(ratio(1, 4)).properties().symmetric;
+        assert!(symmetric.holds);
+        assert_eq!(symmetric.evidence, Evidence::Verified { bits: SEARCH_BITS });
+        let asymmetric = twins(ratio(1, 3)).properties().symmetric;
+        assert!(!asymmetric.holds);
+        assert_eq!(asymmetric.evidence, Evidence::Refuted);
+    }
+
+    #[test]
+    fn symmetry_is_proved_and_refuted() {
+        for (basis, nodes, symmetric) in [
+            ("polynomial(4)", "gauss(4)", true),
+            ("polynomial(5)", "lobatto(5)", true),
+            ("polynomial(3)", "0, 1/2, 1", true),
+            ("polynomial(3)", "radau-left(3)", false),
+            ("polynomial(3)", "0, 1/4, 1", false),
+            // Not consistent: c is not the node, but the method is its own adjoint.
+            ("t - t^2", "1/2", true),
+            ("t", "1/2", false),
+            ("t^2 - t, 2*t - 1", "1/4, 3/4", true),
+        ] {
+            let property = crate::derive(basis, nodes)
+                .expect("derived")
+                .properties()
+                .symmetric;
+            assert_eq!(property.holds, symmetric, "{basis} at {nodes}: {property}");
+            let evidence = if symmetric {
+                Evidence::Proved
+            } else {
+                Evidence::Refuted
+            };
+            assert_eq!(property.evidence, evidence);
+        }
+    }
+}

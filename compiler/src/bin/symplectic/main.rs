@@ -1,2 +1,43 @@
-//! CLI
-fn main() {}
+//! The command line of the compiler: derive a tableau, show and list known ones, check files.
+//!
+//! Exit status: 0; 1 where a file's entries do not fit; 2 for bad input.
+
+mod check;
+mod derive;
+mod list;
+mod output;
+mod report;
+mod show;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Derives symplectic partitioned Runge–Kutta methods exactly and proves what they are.
+#[derive(Parser)]
+#[command(name = "symplectic", version, about, long_about = None)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Derive(derive::Arguments),
+    List(list::Arguments),
+    Show(show::Arguments),
+    Check(check::Arguments),
+}
+
+fn main() -> ExitCode {
+    let outcome = match Cli::parse().command {
+        Command::Derive(arguments) => derive::run(&arguments),
+        Command::List(arguments) => list::run(&arguments),
+        Command::Show(arguments) => show::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+    };
+    outcome.unwrap_or_else(|error| {
+        report::to_stderr(&error);
+        ExitCode::from(report::status(&error))
+    })
+}

@@ -1,0 +1,59 @@
+//! `symplectic check`
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use symplectic_compiler::{Error, ErrorKind, Limits, check};
+
+use crate::output;
+use crate::report;
+
+/// Derive the tableaux of files anew, prove their properties and compare every entry.
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// Files written by `derive` or `show` with `--format toml` or `--format json`.
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// The most stages that a file may have.
+    #[arg(long, value_name = "S")]
+    max_stages: Option<usize>,
+}
+
+/// Checks every file; the exit status is that of the worst.
+pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
+    let limits = output::limits(arguments.max_stages);
+    let mut status = 0;
+    for path in &arguments.files {
+        let name = path.display();
+        let line = match check_file(path, &limits) {
+            Ok(verdict) => format!("{name}: ok, {verdict}\n"),
+            Err(error) => {
+                report::to_stderr(&error);
+                status = report::status(&error).max(status);
+                format!("{name}: FAILED, {}\n", error.kind)
+            }
+        };
+        output::print(&line)?;
+    }
+    Ok(ExitCode::from(status))
+}
+
+fn check_file(path: &Path, limits: &Limits) -> Result<String, Error> {
+    let bad = |message: String| Error::from(ErrorKind::Document { message });
+    let name = path.display().to_string();
+    let bytes =
+        std::fs::read(path).map_err(|error| bad(format!("cannot read `{name}`: {error}")))?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        bad(format!(
+            "`{name}` is no UTF-8 text: the byte at offset {valid} is wrong"
+        ))
+    })?;
+    let tableau = check(&name, &text, limits)?;
+    let called = tableau.name().unwrap_or("a tableau without a name");
+    Ok(match tableau.stages() {
+        1 => format!("{called} with 1 stage"),
+        stages => format!("{called} with {stages} stages"),
+    })
+}

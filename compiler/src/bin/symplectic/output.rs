@@ -1,0 +1,79 @@
+//! What is written, and how it gets out.
+
+use std::io::{ErrorKind as IoErrorKind, Write};
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+use symplectic_compiler::export::{self, DEFAULT_DIGITS, MAX_DIGITS, TEXT_DIGITS};
+use symplectic_compiler::{Error, ErrorKind, Limits, Tableau};
+
+/// The formats of a tableau.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// A table for people.
+    Text,
+    /// The lossless exchange format.
+    Toml,
+    /// For other programs.
+    Json,
+}
+
+/// The options of `derive` and `show`.
+#[derive(Args)]
+pub(crate) struct OutputOptions {
+    /// The form of the output.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Significant digits of decimals [default: 40, in text 16].
+    #[arg(long, value_name = "D", value_parser = digits)]
+    digits: Option<usize>,
+    /// The most stages that are derived [default: 32].
+    #[arg(long, value_name = "S")]
+    max_stages: Option<usize>,
+}
+
+impl OutputOptions {
+    pub(crate) fn limits(&self) -> Limits {
+        limits(self.max_stages)
+    }
+
+    pub(crate) fn write(&self, tableau: &Tableau) -> String {
+        let digits = |default| self.digits.unwrap_or(default);
+        match self.format {
+            Format::Text => export::text::write(tableau, digits(TEXT_DIGITS)),
+            Format::Toml => export::toml::write(tableau, digits(DEFAULT_DIGITS)),
+            Format::Json => export::json::write(tableau, digits(DEFAULT_DIGITS)),
+        }
+    }
+}
+
+pub(crate) fn limits(max_stages: Option<usize>) -> Limits {
+    let mut limits = Limits::default();
+    if let Some(stages) = max_stages {
+        limits.stages = stages;
+    }
+    limits
+}
+
+fn digits(text: &str) -> Result<usize, String> {
+    text.parse()
+        .ok()
+        .filter(|digits| (1..=MAX_DIGITS).contains(digits))
+        .ok_or_else(|| format!("expected a whole number from 1 to {MAX_DIGITS}"))
+}
+
+/// Prints to standard output. A reader that has gone away is no error.
+pub(crate) fn print(text: &str) -> Result<ExitCode, Error> {
+    let mut stdout = std::io::stdout().lock();
+    match stdout
+        .write_all(text.as_bytes())
+        .and_then(|()| stdout.flush())
+    {
+        Ok(()) => Ok(ExitCode::SUCCESS),
+        Err(error) if error.kind() == IoErrorKind::BrokenPipe => Ok(ExitCode::SUCCESS),
+        Err(error) => {
+            let message = format!("cannot write the output: {error}");
+            Err(ErrorKind::Document { message }.into())
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! The entries of a file in the order in which they stand, each with its name and its place.
+
+use std::ops::Range;
+
+use crate::error::{Error, ErrorKind};
+use crate::expression::Input;
+
+/// One entry of a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Entry {
+    /// What it is, as messages name it: `ã_21 (decimal)`.
+    pub name: String,
+    /// What the file says.
+    pub value: String,
+    /// The bytes of the file that say it.
+    pub span: Range<usize>,
+}
+
+impl Entry {
+    pub(super) fn new(name: impl Into<String>, value: impl ToString, span: Range<usize>) -> Self {
+        Entry {
+            name: name.into(),
+            value: value.to_string(),
+            span,
+        }
+    }
+}
+
+/// Holds every entry of a file against the entry that it should be.
+///
+/// Both lists come from files of one format; where they differ in length, an entry before the end,
+/// the number of stages, differs.
+///
+/// # Errors
+/// [`ErrorKind::Mismatch`] for the first entry that does not fit.
+pub(crate) fn compare(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> Result<(), Error> {
+    let Some((found, expected)) = found
+        .iter()
+        .zip(expected)
+        .find(|(f, e)| f.name != e.name || f.value != e.value)
+    else {
+        return Ok(());
+    };
+    let (shown_found, shown_expected) = difference(&found.value, &expected.value);
+    let kind = ErrorKind::Mismatch {
+        entry: found.name.clone(),
+        found: shown_found,
+        expected: shown_expected,
+    };
+    Err(file.error(&found.span, kind))
+}
+
+/// Values longer than this are shown around the place where they begin to differ.
+const LONG: usize = 120;
+
+/// Two different values as a message shows them.
+fn difference(found: &str, expected: &str) -> (String, String) {
+    let (found, expected): (Vec<char>, Vec<char>) =
+        (found.chars().collect(), expected.chars().collect());
+    let common = found
+        .iter()
+        .zip(&expected)
+        .take_while(|(a, b)| a == b)
+        .count();
+    let shown = |value: &[char]| {
+        if value.len() <= LONG {
+            return value.iter().collect();
+        }
+        let start = common.saturating_sub(LONG / 2).min(value.len());
+        let end = (start + LONG).min(value.len());
+        let before = if start > 0 { "…" } else { "" };
+        let after = if end < value.len() { "…" } else { "" };
+        let middle: String = value[start..end].iter().collect();
+        format!("{before}{middle}{after}")
+    };
+    (shown(&found), shown(&expected))
+}
+
+/// The index of a matrix entry as a subscript: `21`, and `2,10` where digits would run together.
+pub(super) fn subscript(row: usize, column: usize) -> String {
+    if row < 10 && column < 10 {
+        format!("{row}{column}")
+    } else {
+        format!("{row},{column}")
+    }
+}
+
+/// The place in a text of a line and a column, both counted from 1, the column in bytes.
+pub(super) fn offset(text: &str, line: usize, column: usize) -> usize {
+    let start: usize = text
+        .split_inclusive('\n')
+        .take(line.saturating_sub(1))
+        .map(str::len)
+        .sum();
+    let mut offset = (start + column.saturating_sub(1)).min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    offset
+}
+
+/// A span without what follows its first line, so that a caret can stand under it.
+pub(super) fn first_line(text: &str, span: Range<usize>) -> Range<usize> {
+    let end = text
+        .get(span.clone())
+        .and_then(|part| part.find(['\n', '\r']))
+        .map_or(span.end, |length| span.start + length);
+    span.start..end
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_values_are_shown_where_they_differ() {
+        let (one, other) = (
+            format!("{}7{}", "3".repeat(500), "3".repeat(500)),
+            "3".repeat(1001),
+        );
+        let (found, expected) = difference(&one, &other);
+        assert!(found.starts_with('…') && found.ends_with('…') && found.contains('7'));
+        assert_eq!(expected.chars().count(), LONG + 2);
+        assert_eq!(difference("1", "2"), ("1".into(), "2".into()));
+    }
+
+    #[test]
+    fn places_stay_inside_the_text() {
+        assert_eq!(offset("a\nbã\n", 2, 3), 3);
+        assert_eq!(offset("a\nb", 9, 9), 3);
+        assert_eq!(first_line("ab\ncd", 1..5), 1..2);
+    }
+}

@@ -1,0 +1,341 @@
+//! Reading JSON: a tableau is derived anew from basis and nodes, and everything else is checked.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::Range;
+
+use serde::Deserialize;
+use serde::de::{Deserializer, MapAccess, Visitor};
+use serde_json::Value;
+use serde_json::value::RawValue;
+
+use crate::error::{Error, ErrorKind};
+use crate::export::MAX_DIGITS;
+use crate::export::entries::{Entry, compare, offset, subscript};
+use crate::export::origin::Origin;
+use crate::expression::Input;
+use crate::limits::Limits;
+use crate::properties::Properties;
+use crate::tableau::Tableau;
+
+/// Reads a tableau from JSON.
+///
+/// JSON exports hold no lossless data, so the tableau is derived from basis and nodes, its properties
+/// are decided, and every entry of the file is held against what is written of the result; the name
+/// and the source are taken as they are. The number of digits is that of most decimals in the file.
+///
+/// # Errors
+/// [`ErrorKind::Document`] where the text is no JSON or its keys or shapes are not those of a tableau;
+/// [`ErrorKind::Mismatch`] for the first entry that does not fit; everything that
+/// [`derive`](crate::derive()) refuses. Each with its place in the file.
+///
+/// ```
+/// use symplectic_compiler::{Limits, derive, export::json};
+///
+/// let tableau = derive("polynomial(2)", "gauss(2)")?;
+/// let text = json::write(&tableau, 20);
+/// assert_eq!(json::read("gauss.json", &text, &Limits::default())?, tableau);
+///
+/// let edited = text.replacen("0.25000000000000000000", "0.25000000000000000001", 1);
+/// let error = json::read("gauss.json", &edited, &Limits::default()).unwrap_err();
+/// assert!(error.to_string().contains("`a_11 (decimal)` does not fit"));
+/// # Ok::<(), symplectic_compiler::Error>(())
+/// ```
+pub fn read(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Error> {
+    let file = Input {
+        name: file_name,
+        text,
+    };
+    let document = Document::parse(file)?;
+    let found = document.entries(file, limits)?;
+    let tableau = document.origin(file)?.derive(file, limits)?;
+    let fresh = super::write(&tableau, document.digits());
+    let expected = Input {
+        name: "the derivation",
+        text: &fresh,
+    };
+    compare(
+        file,
+        &found,
+        &Document::parse(expected)?.entries(expected, limits)?,
+    )?;
+    Ok(tableau)
+}
+
+/// A value as it stands in the text.
+#[derive(Deserialize)]
+#[serde(transparent)]
+struct Leaf<'a>(#[serde(borrow)] &'a RawValue);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document<'a> {
+    #[serde(borrow)]
+    name: Leaf<'a>,
+    stages: Leaf<'a>,
+    basis: Leaf<'a>,
+    nodes: Leaf<'a>,
+    source: Leaf<'a>,
+    c: Vec<Number<'a>>,
+    c_tilde: Vec<Number<'a>>,
+    b: Vec<Number<'a>>,
+    b_tilde: Vec<Number<'a>>,
+    a: Vec<Vec<Number<'a>>>,
+    a_tilde: Vec<Vec<Number<'a>>>,
+    properties: PropertyList<'a>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Number<'a> {
+    #[serde(borrow)]
+    exact: Leaf<'a>,
+    decimal: Leaf<'a>,
+    f64: Leaf<'a>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PropertyEntry<'a> {
+    #[serde(borrow)]
+    holds: Leaf<'a>,
+    evidence: Leaf<'a>,
+    bits: Leaf<'a>,
+    witness: Leaf<'a>,
+}
+
+/// The properties, each of them once.
+struct PropertyList<'a>(Vec<(&'static str, PropertyEntry<'a>)>);
+
+impl<'de: 'a, 'a> Deserialize<'de> for PropertyList<'a> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct All<'a>(PhantomData<&'a ()>);
+        impl<'de: 'a, 'a> Visitor<'de> for All<'a> {
+            type Value = PropertyList<'a>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("an object of properties")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+                use serde::de::Error;
+                let mut known = BTreeMap::new();
+                while let Some(key) = map.next_key::<String>()? {
+                    let Some(name) = Properties::NAMES.iter().find(|name| **name == key) else {
+                        return Err(A::Error::unknown_field(&key, Properties::NAMES));
+                    };
+                    if known.insert(*name, map.next_value()?).is_some() {
+                        return Err(A::Error::duplicate_field(name));
+                    }
+                }
+                let each = Properties::NAMES.iter().map(|name| {
+                    let property = known.remove(name);
+                    Ok((
+                        *name,
+                        property.ok_or_else(|| A::Error::missing_field(name))?,
+                    ))
+                });
+                each.collect::<Result<_, _>>().map(PropertyList)
+            }
+        }
+        deserializer.deserialize_map(All(PhantomData))
+    }
+}
+
+impl<'a> Leaf<'a> {
+    /// The bytes of the text that the value stands in.
+    fn span(&self, text: &str) -> Range<usize> {
+        // The value is borrowed from the text.
+        let start = (self.0.get().as_ptr() as usize).saturating_sub(text.as_ptr() as usize);
+        start..start + self.0.get().len()
+    }
+
+    fn value(&self) -> Value {
+        // It was read as JSON before; only a depth that no tableau has can be refused here.
+        serde_json::from_str(self.0.get()).unwrap_or(Value::Null)
+    }
+
+    fn entry(&self, file: Input<'a>, name: impl Into<String>) -> Entry {
+        let value = match self.value() {
+            Value::String(text) => text,
+            other => other.to_string(),
+        };
+        Entry::new(name, value, self.span(file.text))
+    }
+
+    fn error(&self, file: Input<'_>, message: &str) -> Error {
+        let message = message.to_owned();
+        file.error(&self.span(file.text), ErrorKind::Document { message })
+    }
+
+    fn optional_string(&self, file: Input<'_>) -> Result<Option<String>, Error> {
+        match self.value() {
+            Value::String(text) => Ok(Some(text)),
+            Value::Null => Ok(None),
+            _ => Err(self.error(file, "expected a string or null")),
+        }
+    }
+
+    fn string(&self, file: Input<'_>) -> Result<String, Error> {
+        self.optional_string(file)?
+            .ok_or_else(|| self.error(file, "expected a string"))
+    }
+}
+
+impl<'a> Document<'a> {
+    fn parse(file: Input<'a>) -> Result<Self, Error> {
+        serde_json::from_str(file.text).map_err(|error| {
+            let start = offset(file.text, error.line(), error.column());
+            let length = file.text[start..].chars().next();
+            let end = start + length.filter(|c| *c != '\n').map_or(0, char::len_utf8);
+            // The place is told apart from the message.
+            let message = error.to_string();
+            let message = message
+                .rsplit_once(" at line ")
+                .map_or(message.as_str(), |(message, _)| message);
+            let message = format!("not a JSON export of a tableau: {message}");
+            file.error(&(start..end), ErrorKind::Document { message })
+        })
+    }
+
+    fn origin(&self, file: Input<'_>) -> Result<Origin, Error> {
+        Ok(Origin {
+            name: self.name.optional_string(file)?,
+            basis: (self.basis.string(file)?, self.basis.span(file.text)),
+            nodes: (self.nodes.string(file)?, self.nodes.span(file.text)),
+            source: self.source.optional_string(file)?,
+        })
+    }
+
+    /// The vectors and matrices with their names.
+    fn tables(&self) -> [(&'static str, Table<'_, 'a>); 6] {
+        [
+            ("c", Table::Vector(&self.c)),
+            ("c̃", Table::Vector(&self.c_tilde)),
+            ("b", Table::Vector(&self.b)),
+            ("b̃", Table::Vector(&self.b_tilde)),
+            ("a", Table::Matrix(&self.a)),
+            ("ã", Table::Matrix(&self.a_tilde)),
+        ]
+    }
+
+    /// All entries but the name and the source, which cannot be derived.
+    fn entries(&self, file: Input<'a>, limits: &Limits) -> Result<Vec<Entry>, Error> {
+        let stages = self.stages.value().as_u64().map(|s| s as usize);
+        let Some(stages) = stages.filter(|&s| s > 0) else {
+            return Err(self.stages.error(file, "expected a number of stages"));
+        };
+        if stages > limits.stages {
+            let kind = ErrorKind::TooManyStages {
+                stages: stages.to_string(),
+                limit: limits.stages,
+            };
+            return Err(file.error(&self.stages.span(file.text), kind));
+        }
+        let mut entries = vec![
+            self.stages.entry(file, "stages"),
+            self.basis.entry(file, "basis"),
+            self.nodes.entry(file, "nodes"),
+        ];
+        let shape = |name: &str, found: usize| {
+            let message = format!("`{name}` has {found} entries, but there are {stages} stages");
+            if found == stages {
+                Ok(())
+            } else {
+                Err(self.stages.error(file, &message))
+            }
+        };
+        let mut number = |name: String, number: &Number<'a>| {
+            entries.push(number.exact.entry(file, format!("{name} (exact)")));
+            entries.push(number.decimal.entry(file, format!("{name} (decimal)")));
+            entries.push(number.f64.entry(file, format!("{name} (f64)")));
+        };
+        for (name, table) in self.tables() {
+            match table {
+                Table::Vector(vector) => {
+                    shape(name, vector.len())?;
+                    for (i, entry) in vector.iter().enumerate() {
+                        number(format!("{name}_{}", i + 1), entry);
+                    }
+                }
+                Table::Matrix(rows) => {
+                    shape(name, rows.len())?;
+                    for (i, row) in rows.iter().enumerate() {
+                        shape(&format!("row {} of {name}", i + 1), row.len())?;
+                        for (j, entry) in row.iter().enumerate() {
+                            number(format!("{name}_{}", subscript(i + 1, j + 1)), entry);
+                        }
+                    }
+                }
+            }
+        }
+        for (name, property) in &self.properties.0 {
+            let fields = [
+                ("holds", &property.holds),
+                ("evidence", &property.evidence),
+                ("bits", &property.bits),
+                ("witness", &property.witness),
+            ];
+            for (field, leaf) in fields {
+                entries.push(leaf.entry(file, format!("{name} ({field})")));
+            }
+        }
+        Ok(entries)
+    }
+
+    /// The number of significant digits that most decimals have.
+    fn digits(&self) -> usize {
+        let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
+        let numbers = self
+            .tables()
+            .into_iter()
+            .flat_map(|(_, table)| match table {
+                Table::Vector(vector) => vector.iter().collect::<Vec<_>>(),
+                Table::Matrix(rows) => rows.iter().flatten().collect(),
+            });
+        for number in numbers {
+            if let Value::String(decimal) = number.decimal.value() {
+                *counts.entry(significant_digits(&decimal)).or_default() += 1;
+            }
+        }
+        // Zeros have no digits.
+        counts.remove(&0);
+        let most = counts.into_iter().max_by_key(|(_, count)| *count);
+        most.map_or(1, |(digits, _)| digits.clamp(1, MAX_DIGITS))
+    }
+}
+
+enum Table<'d, 'a> {
+    Vector(&'d [Number<'a>]),
+    Matrix(&'d [Vec<Number<'a>>]),
+}
+
+/// The number of digits of a decimal from the first that is not zero.
+fn significant_digits(decimal: &str) -> usize {
+    let mantissa = decimal.split('e').next().unwrap_or_default();
+    mantissa
+        .bytes()
+        .filter(u8::is_ascii_digit)
+        .skip_while(|digit| *digit == b'0')
+        .count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_counted_from_the_first_that_is_not_zero() {
+        let cases = [
+            ("0", 0),
+            ("0.00120", 3),
+            ("-1.20e-7", 3),
+            ("120", 3),
+            ("1.2e5", 2),
+        ];
+        for (decimal, digits) in cases {
+            assert_eq!(significant_digits(decimal), digits, "{decimal}");
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Writing JSON.
+
+use crate::algebra::ClosedForm;
+use crate::arithmetic::rounding::shortest;
+use crate::properties::{Evidence, Property};
+use crate::tableau::Tableau;
+
+/// The three forms of a coefficient.
+type Forms = (Option<ClosedForm>, (String, f64));
+
+/// Writes a tableau as JSON with decimals of `digits ≥ 1` significant digits.
+///
+/// The text is the same for the same tableau, one coefficient or property a line.
+///
+/// ```
+/// use symplectic_compiler::{derive, export::json};
+///
+/// let text = json::write(&derive("1", "1/2")?, 5);
+/// assert!(text.contains(r#""b": [{"exact": "1", "decimal": "1.0000", "f64": "1"}]"#));
+/// # Ok::<(), symplectic_compiler::Error>(())
+/// ```
+pub fn write(tableau: &Tableau, digits: usize) -> String {
+    let rounded = tableau.with_numbers(|numbers| {
+        numbers.map(|number| (number.decimal(digits).to_string(), number.to_f64()))
+    });
+    let forms = tableau.closed_forms().zip(rounded);
+    let provenance = tableau.provenance();
+    let properties = tableau.properties();
+    let properties: Vec<String> = properties
+        .all()
+        .into_iter()
+        .map(|(name, property)| format!("    {}: {}", string(name), property_text(property)))
+        .collect();
+    let members = [
+        ("name", optional(tableau.name())),
+        ("stages", tableau.stages().to_string()),
+        ("basis", string(&provenance.basis)),
+        ("nodes", string(&provenance.nodes)),
+        ("source", optional(provenance.source.as_deref())),
+        ("c", vector(&forms.c, "  ")),
+        ("c_tilde", vector(&forms.c_tilde, "  ")),
+        ("b", vector(&forms.b, "  ")),
+        ("b_tilde", vector(&forms.b_tilde, "  ")),
+        ("a", matrix(&forms.a)),
+        ("a_tilde", matrix(&forms.a_tilde)),
+        (
+            "properties",
+            format!("{{\n{}\n  }}", properties.join(",\n")),
+        ),
+    ];
+    let members = members.map(|(key, value)| format!("  {}: {value}", string(key)));
+    format!("{{\n{}\n}}\n", members.join(",\n"))
+}
+
+fn string(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+fn optional(text: Option<&str>) -> String {
+    text.map_or_else(|| "null".to_owned(), string)
+}
+
+fn number((exact, (decimal, double)): &Forms) -> String {
+    let exact = exact.as_ref().map(ToString::to_string);
+    format!(
+        "{{\"exact\": {}, \"decimal\": {}, \"f64\": {}}}",
+        optional(exact.as_deref()),
+        string(decimal),
+        string(&shortest(*double))
+    )
+}
+
+fn vector(numbers: &[Forms], indent: &str) -> String {
+    match numbers {
+        [single] => format!("[{}]", number(single)),
+        _ => list(numbers.iter().map(number), indent),
+    }
+}
+
+fn matrix(rows: &[Vec<Forms>]) -> String {
+    list(rows.iter().map(|row| vector(row, "    ")), "  ")
+}
+
+/// An array with one item a line.
+fn list(items: impl Iterator<Item = String>, indent: &str) -> String {
+    let items: Vec<String> = items.map(|item| format!("{indent}  {item}")).collect();
+    format!("[\n{}\n{indent}]", items.join(",\n"))
+}
+
+fn property_text(property: &Property) -> String {
+    let (evidence, bits) = evidence(property.evidence);
+    let bits = bits.map_or_else(|| "null".to_owned(), |bits| bits.to_string());
+    format!(
+        "{{\"holds\": {}, \"evidence\": {}, \"bits\": {bits}, \"witness\": {}}}",
+        property.holds,
+        string(evidence),
+        optional(property.witness.as_deref())
+    )
+}
+
+/// The name of a kind of evidence in files, and the width of its enclosures.
+pub(in crate::export) fn evidence(evidence: Evidence) -> (&'static str, Option<u32>) {
+    match evidence {
+        Evidence::Proved => ("proved", None),
+        Evidence::Refuted => ("refuted", None),
+        Evidence::Verified { bits } => ("verified", Some(bits)),
+    }
+}

@@ -1,0 +1,170 @@
+//! The table for people: the partitioned Butcher tableau of LZ §4.4 and the properties.
+
+use super::layout::{left, right, width, widths};
+use crate::properties::{Evidence, Properties};
+use crate::tableau::{Coefficients, Tableau};
+
+/// Exact forms that are longer than this give way to decimals.
+const LONGEST_EXACT: usize = 24;
+/// Two tables stand side by side where they are not wider than this together.
+const WIDEST: usize = 100;
+const GAP: &str = "     ";
+
+/// Writes a tableau as a table: exact entries where they are short, and otherwise decimals of
+/// `digits ≥ 1` significant digits, correctly rounded.
+///
+/// ```
+/// use symplectic_compiler::{derive, export::text};
+///
+/// let table = text::write(&derive("polynomial(2)", "lobatto(2)")?.named("stormer-verlet"), 16);
+/// let lines: Vec<&str> = table.lines().collect();
+/// assert_eq!(lines[0], "stormer-verlet, 2 stages, basis polynomial(2), nodes lobatto(2)");
+/// assert_eq!(lines[4], "0 │   0    0     1/2 │ 1/2  0");
+/// # Ok::<(), symplectic_compiler::Error>(())
+/// ```
+pub fn write(tableau: &Tableau, digits: usize) -> String {
+    let provenance = tableau.provenance();
+    let stages = match tableau.stages() {
+        1 => "1 stage".to_owned(),
+        stages => format!("{stages} stages"),
+    };
+    let mut title: Vec<String> = tableau.name().map(str::to_owned).into_iter().collect();
+    title.extend([
+        stages,
+        format!("basis {}", provenance.basis),
+        format!("nodes {}", provenance.nodes),
+    ]);
+    let mut text = title.join(", ") + "\n";
+    if let Some(source) = &provenance.source {
+        // One paper a line.
+        text.push_str(&format!(
+            "source: {}\n",
+            source.replace("; ", ";\n        ")
+        ));
+    }
+    text.push('\n');
+
+    let (cells, rounded) = cells(tableau, digits);
+    let positions = table(["c", "a", "b"], &cells.c, &cells.a, &cells.b);
+    if tableau.a() == tableau.a_tilde() && tableau.b() == tableau.b_tilde() {
+        push_lines(&mut text, &positions);
+        text.push_str("\nã = a, b̃ = b, c̃ = c: the same for momenta.\n");
+    } else {
+        let momenta = table(
+            ["c̃", "ã", "b̃"],
+            &cells.c_tilde,
+            &cells.a_tilde,
+            &cells.b_tilde,
+        );
+        let widest = |lines: &[String]| lines.iter().map(|l| width(l)).max().unwrap_or(0);
+        if widest(&positions) + GAP.len() + widest(&momenta) <= WIDEST {
+            let to = widest(&positions);
+            let pairs = positions.iter().zip(&momenta);
+            let lines: Vec<String> = pairs
+                .map(|(p, m)| format!("{}{GAP}{m}", left(p, to)))
+                .collect();
+            push_lines(&mut text, &lines);
+        } else {
+            push_lines(&mut text, &positions);
+            text.push('\n');
+            push_lines(&mut text, &momenta);
+        }
+    }
+    if rounded {
+        text.push_str(&format!(
+            "\nEntries with a decimal point are correctly rounded to {digits} significant digits; all others are exact.\n"
+        ));
+    }
+    text.push_str("\nproperties\n");
+    push_lines(&mut text, &property_lines(&tableau.properties()));
+    text
+}
+
+fn push_lines(text: &mut String, lines: &[String]) {
+    for line in lines {
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+}
+
+/// Every coefficient as it is shown, and whether any of them is rounded.
+fn cells(tableau: &Tableau, digits: usize) -> (Coefficients<String>, bool) {
+    let short = tableau.closed_forms().map(|form| {
+        let exact = form.as_ref().map(ToString::to_string);
+        exact.filter(|exact| width(exact) <= LONGEST_EXACT)
+    });
+    let cells = tableau.with_numbers(|numbers| {
+        let numbers = numbers.map(Clone::clone);
+        short.clone().zip(numbers).map(|(exact, number)| {
+            let decimal = || number.decimal(digits).to_string();
+            exact.clone().unwrap_or_else(decimal)
+        })
+    });
+    let vectors = [&short.c, &short.c_tilde, &short.b, &short.b_tilde];
+    let matrices = short.a.iter().chain(&short.a_tilde);
+    let rounded = vectors
+        .into_iter()
+        .chain(matrices)
+        .flatten()
+        .any(Option::is_none);
+    (cells, rounded)
+}
+
+/// The lines of a tableau: nodes beside the matrix, the weights below it.
+fn table(
+    labels: [&str; 3],
+    nodes: &[String],
+    matrix: &[Vec<String>],
+    weights: &[String],
+) -> Vec<String> {
+    let [node, entry, weight] = labels;
+    let weights = weights.to_vec();
+    let columns = widths(matrix.iter().chain([&weights]));
+    let side = nodes
+        .iter()
+        .map(|c| width(c))
+        .chain([width(weight)])
+        .max()
+        .unwrap_or(0);
+    let cells = |row: &[String]| {
+        let cells: Vec<String> = row
+            .iter()
+            .zip(&columns)
+            .map(|(c, w)| right(c, *w))
+            .collect();
+        cells.join("  ")
+    };
+    let inside = columns.iter().sum::<usize>() + 2 * columns.len().saturating_sub(1);
+    let rule = format!("{}┼{}", "─".repeat(side + 1), "─".repeat(inside + 1));
+    let mut lines = vec![format!("{} │ {entry}", right(node, side)), rule.clone()];
+    for (c, row) in nodes.iter().zip(matrix) {
+        lines.push(format!("{} │ {}", right(c, side), cells(row)));
+    }
+    lines.push(rule);
+    lines.push(format!("{} │ {}", right(weight, side), cells(&weights)));
+    lines
+}
+
+fn property_lines(properties: &Properties) -> Vec<String> {
+    let rows: Vec<Vec<String>> = properties
+        .all()
+        .into_iter()
+        .map(|(name, property)| {
+            let evidence = match property.evidence {
+                Evidence::Proved => "proved".to_owned(),
+                Evidence::Refuted => "refuted".to_owned(),
+                Evidence::Verified { bits } => format!("verified to 2^-{bits}"),
+            };
+            let holds = if property.holds { "yes" } else { "no" };
+            let witness = property.witness.clone().unwrap_or_default();
+            vec![name.to_owned(), holds.to_owned(), evidence, witness]
+        })
+        .collect();
+    let columns = widths(&rows);
+    rows.iter()
+        .map(|row| {
+            let cells: Vec<String> = row.iter().zip(&columns).map(|(c, w)| left(c, *w)).collect();
+            format!("  {}", cells.join("  "))
+        })
+        .collect()
+}

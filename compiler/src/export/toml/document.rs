@@ -1,0 +1,284 @@
+//! The parts of a TOML file with their places.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::error::{Error, ErrorKind};
+use crate::export::MAX_DIGITS;
+use crate::export::entries::{Entry, first_line, subscript};
+use crate::export::origin::Origin;
+use crate::expression::Input;
+use crate::limits::Limits;
+use crate::properties::Properties;
+use crate::tableau::Tableau;
+
+pub(super) type List = Spanned<Vec<Spanned<String>>>;
+pub(super) type Matrix = Spanned<Vec<List>>;
+
+/// A file whose keys and shapes are those of a tableau; what its entries say is not yet looked at.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Document {
+    name: Option<String>,
+    stages: Spanned<usize>,
+    provenance: ProvenanceTable,
+    pub(super) exact: Exact,
+    decimals: Decimals,
+    properties: Spanned<BTreeMap<Spanned<String>, PropertyEntry>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ProvenanceTable {
+    basis: Spanned<String>,
+    nodes: Spanned<String>,
+    source: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Exact {
+    pub(super) node_polynomial: List,
+    pub(super) b: List,
+    pub(super) b_tilde: List,
+    pub(super) a: Matrix,
+    pub(super) a_tilde: Matrix,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Decimals {
+    digits: Spanned<usize>,
+    c: List,
+    c_tilde: List,
+    b: List,
+    b_tilde: List,
+    a: Matrix,
+    a_tilde: Matrix,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PropertyEntry {
+    holds: Spanned<bool>,
+    evidence: Spanned<String>,
+    bits: Option<Spanned<u32>>,
+    witness: Option<Spanned<String>>,
+}
+
+impl Document {
+    /// Reads the keys and shapes of a file.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Document`] for a text that is no TOML, for keys that are missing or unknown, for
+    /// lists of a wrong length; [`ErrorKind::TooManyStages`].
+    pub fn parse(file: Input<'_>, limits: &Limits) -> Result<Self, Error> {
+        let document: Document = toml::from_str(file.text).map_err(|error| {
+            let span = error.span().unwrap_or(0..0);
+            let message = format!("not a TOML file of a tableau: {}", error.message());
+            document_error(file, span, message)
+        })?;
+        document.check_shapes(file, limits)?;
+        Ok(document)
+    }
+
+    fn check_shapes(&self, file: Input<'_>, limits: &Limits) -> Result<(), Error> {
+        let stages = *self.stages.get_ref();
+        if stages == 0 {
+            let message = "a tableau has at least one stage".to_owned();
+            return Err(document_error(file, self.stages.span(), message));
+        }
+        if stages > limits.stages {
+            let kind = ErrorKind::TooManyStages {
+                stages: stages.to_string(),
+                limit: limits.stages,
+            };
+            return Err(file.error(&self.stages.span(), kind));
+        }
+        let digits = *self.decimals.digits.get_ref();
+        if !(1..=MAX_DIGITS).contains(&digits) {
+            let message = format!("the number of digits must be from 1 to {MAX_DIGITS}");
+            return Err(document_error(file, self.decimals.digits.span(), message));
+        }
+        let length = |key: &str, found: usize, expected: usize, span: Range<usize>| {
+            if found == expected {
+                return Ok(());
+            }
+            let message = format!(
+                "`{key}` has {found} entries where {expected} are needed for {stages} stages"
+            );
+            Err(document_error(file, span, message))
+        };
+        let (exact, decimals) = (&self.exact, &self.decimals);
+        for (key, list, expected) in [
+            ("node_polynomial", &exact.node_polynomial, stages + 1),
+            ("b", &exact.b, stages),
+            ("b_tilde", &exact.b_tilde, stages),
+            ("c", &decimals.c, stages),
+            ("c_tilde", &decimals.c_tilde, stages),
+            ("b", &decimals.b, stages),
+            ("b_tilde", &decimals.b_tilde, stages),
+        ] {
+            length(key, list.get_ref().len(), expected, list.span())?;
+        }
+        for (key, matrix) in [
+            ("a", &exact.a),
+            ("a_tilde", &exact.a_tilde),
+            ("a", &decimals.a),
+            ("a_tilde", &decimals.a_tilde),
+        ] {
+            length(key, matrix.get_ref().len(), stages, matrix.span())?;
+            for (index, row) in matrix.get_ref().iter().enumerate() {
+                let key = format!("{key}[{index}]");
+                length(&key, row.get_ref().len(), stages, row.span())?;
+            }
+        }
+        let properties = self.properties.get_ref();
+        if let Some(unknown) = properties
+            .keys()
+            .find(|key| !Properties::NAMES.contains(&key.get_ref().as_str()))
+        {
+            let kind = ErrorKind::Unknown {
+                what: "property",
+                name: unknown.get_ref().clone(),
+                known: Properties::NAMES.join(", "),
+            };
+            return Err(file.error(&unknown.span(), kind));
+        }
+        if let Some(missing) = Properties::NAMES
+            .iter()
+            .find(|name| !properties.keys().any(|key| key.get_ref() == *name))
+        {
+            let message = format!("the property `{missing}` is missing");
+            return Err(document_error(file, self.properties.span(), message));
+        }
+        Ok(())
+    }
+
+    /// The number of stages.
+    pub fn stages(&self) -> usize {
+        *self.stages.get_ref()
+    }
+
+    /// The significant digits of the decimals.
+    pub fn digits(&self) -> usize {
+        *self.decimals.digits.get_ref()
+    }
+
+    /// Name and provenance.
+    pub(super) fn origin(&self) -> Origin {
+        let spanned = |text: &Spanned<String>| (text.get_ref().clone(), text.span());
+        Origin {
+            name: self.name.clone(),
+            basis: spanned(&self.provenance.basis),
+            nodes: spanned(&self.provenance.nodes),
+            source: self.provenance.source.clone(),
+        }
+    }
+
+    /// Derives the tableau anew, with the name and the source of the file.
+    ///
+    /// # Errors
+    /// As [`derive`](crate::derive()), with places in the file.
+    pub fn derive(&self, file: Input<'_>, limits: &Limits) -> Result<Tableau, Error> {
+        self.origin().derive(file, limits)
+    }
+
+    /// All entries but the name and the source, which cannot be derived.
+    pub fn entries(&self) -> Vec<Entry> {
+        fn one<T: ToString>(name: String, value: &Spanned<T>) -> Entry {
+            Entry::new(name, value.get_ref().to_string(), value.span())
+        }
+        let mut entries = vec![
+            one("stages".to_owned(), &self.stages),
+            one("basis".to_owned(), &self.provenance.basis),
+            one("nodes".to_owned(), &self.provenance.nodes),
+        ];
+        let exact = &self.exact;
+        for (name, list) in [
+            ("the node polynomial", &exact.node_polynomial),
+            ("b", &exact.b),
+            ("b̃", &exact.b_tilde),
+        ] {
+            for (power, value) in list.get_ref().iter().enumerate() {
+                let name = format!("{name}, coefficient of {} (exact)", monomial(power, 0));
+                entries.push(one(name, value));
+            }
+        }
+        for (name, matrix) in [("a", &exact.a), ("ã", &exact.a_tilde)] {
+            for (row, list) in matrix.get_ref().iter().enumerate() {
+                for (column, value) in list.get_ref().iter().enumerate() {
+                    let name = format!("{name}, coefficient of {} (exact)", monomial(column, row));
+                    entries.push(one(name, value));
+                }
+            }
+        }
+        let decimals = &self.decimals;
+        entries.push(one("digits".to_owned(), &decimals.digits));
+        for (name, list) in [
+            ("c", &decimals.c),
+            ("c̃", &decimals.c_tilde),
+            ("b", &decimals.b),
+            ("b̃", &decimals.b_tilde),
+        ] {
+            for (index, value) in list.get_ref().iter().enumerate() {
+                entries.push(one(format!("{name}_{} (decimal)", index + 1), value));
+            }
+        }
+        for (name, matrix) in [("a", &decimals.a), ("ã", &decimals.a_tilde)] {
+            for (row, list) in matrix.get_ref().iter().enumerate() {
+                for (column, value) in list.get_ref().iter().enumerate() {
+                    let index = subscript(row + 1, column + 1);
+                    entries.push(one(format!("{name}_{index} (decimal)"), value));
+                }
+            }
+        }
+        for name in Properties::NAMES {
+            let properties = self.properties.get_ref().iter();
+            for (key, property) in properties.filter(|(key, _)| key.get_ref() == name) {
+                // An absent key has the place of the property.
+                let absent =
+                    |field: &str| Entry::new(format!("{name} ({field})"), "nothing", key.span());
+                let optional =
+                    |field: &str, entry: Option<Entry>| entry.unwrap_or_else(|| absent(field));
+                let label = |field: &str| format!("{name} ({field})");
+                let bits = property.bits.as_ref();
+                let witness = property.witness.as_ref();
+                entries.extend([
+                    one(label("holds"), &property.holds),
+                    one(label("evidence"), &property.evidence),
+                    optional("bits", bits.map(|bits| one(label("bits"), bits))),
+                    optional("witness", witness.map(|text| one(label("witness"), text))),
+                ]);
+            }
+        }
+        entries
+    }
+}
+
+/// The product of powers `x^k y^l`.
+fn monomial(x: usize, y: usize) -> String {
+    let power = |name: &str, exponent: usize| match exponent {
+        0 => None,
+        1 => Some(name.to_owned()),
+        _ => Some(format!("{name}^{exponent}")),
+    };
+    let factors: Vec<String> = [power("x", x), power("y", y)]
+        .into_iter()
+        .flatten()
+        .collect();
+    if factors.is_empty() {
+        "1".to_owned()
+    } else {
+        factors.join(" ")
+    }
+}
+
+/// An error in the form of a file.
+pub(super) fn document_error(file: Input<'_>, span: Range<usize>, message: String) -> Error {
+    let span = first_line(file.text, span);
+    file.error(&span, ErrorKind::Document { message })
+}

@@ -1,0 +1,38 @@
+//! TOML, the lossless exchange format, which people can read too.
+//!
+//! ```toml
+//! name = "midpoint"                    # may be absent
+//! stages = 1
+//!
+//! [provenance]
+//! basis = "1"
+//! nodes = "1/2"
+//! source = "Leok & Zhang, Example 2"   # may be absent
+//!
+//! [exact]
+//! node_polynomial = ["-1", "2"]        # coefficients of 1, x, x², …; the nodes are its roots
+//! b = ["1"]                            # b_i = b(c_i), coefficients of 1, x, …
+//! b_tilde = ["1"]
+//! a = [["1/2"]]                        # a_ij = a(c_i, c_j); a row for each power of y
+//! a_tilde = [["1/2"]]
+//!
+//! [decimals]                           # c, c_tilde, b, b_tilde, a, a_tilde, correctly rounded
+//! digits = 3
+//! # …
+//!
+//! [properties]
+//! symplectic = { holds = true, evidence = "proved" }
+//! # … each of them
+//! ```
+//!
+//! All quantities with one index are polynomials in a node, all with two are polynomials in two nodes
+//! (theory.md §3.1), so rational coefficients hold irrational tableaux exactly. Every list has as many
+//! entries as there are stages, the node polynomial has one more.
+
+mod document;
+mod read;
+mod write;
+
+pub(crate) use document::Document;
+pub use read::read;
+pub use write::write;

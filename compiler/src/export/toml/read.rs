@@ -1,0 +1,108 @@
+//! Reading the exact data of a TOML file.
+
+use std::sync::Arc;
+
+use num_rational::BigRational;
+use toml::Spanned;
+
+use super::Document;
+use super::document::{List, Matrix, document_error};
+use crate::algebra::{NodeAlgebra, Tensor};
+use crate::arithmetic::polynomial::Polynomial;
+use crate::arithmetic::rational;
+use crate::error::{Error, ErrorKind};
+use crate::expression::{Input, MAX_BITS};
+use crate::limits::Limits;
+use crate::quadrature::{first_outside, node_text};
+use crate::tableau::{Provenance, Tableau};
+
+/// Reads a tableau from the exact data of a TOML file.
+///
+/// The result is what the exact data say, whether or not it follows from basis and nodes; decimals
+/// and properties must be there but are not looked at. [`check`](crate::check()) looks at everything.
+///
+/// # Errors
+/// [`ErrorKind::Document`] where the text is no TOML, a key is missing or unknown, a list has a wrong
+/// length or an entry is no rational; [`ErrorKind::TooManyStages`]; node polynomials whose roots are
+/// not distinct reals in `[0, 1]`. Each with its place in the file.
+///
+/// ```
+/// use symplectic_compiler::{Limits, derive, export::toml};
+///
+/// let text = toml::write(&derive("polynomial(2)", "lobatto(2)")?, 10);
+/// let error = toml::read("verlet.toml", &text.replacen("\"1/2\"", "\"1/0\"", 1), &Limits::default());
+/// assert_eq!(
+///     error.unwrap_err().to_string(),
+///     "verlet.toml, line 13, column 6: `1/0` is no rational number such as 3 or -3/4"
+/// );
+/// # Ok::<(), symplectic_compiler::Error>(())
+/// ```
+pub fn read(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Error> {
+    let file = Input {
+        name: file_name,
+        text,
+    };
+    let document = Document::parse(file, limits)?;
+    let exact = &document.exact;
+    let modulus = polynomial(file, &exact.node_polynomial)?;
+    let algebra = algebra(&modulus, document.stages()).map_err(|kind| {
+        let span = exact.node_polynomial.span();
+        file.error(&super::super::entries::first_line(text, span), kind)
+    })?;
+    let origin = document.origin();
+    Ok(Tableau {
+        name: origin.name,
+        provenance: Provenance {
+            basis: origin.basis.0,
+            nodes: origin.nodes.0,
+            source: origin.source,
+        },
+        algebra: Arc::new(algebra),
+        a: tensor(file, &exact.a)?,
+        a_tilde: tensor(file, &exact.a_tilde)?,
+        b: polynomial(file, &exact.b)?,
+        b_tilde: polynomial(file, &exact.b_tilde)?,
+    })
+}
+
+fn algebra(modulus: &Polynomial, stages: usize) -> Result<NodeAlgebra, ErrorKind> {
+    let algebra = NodeAlgebra::new(modulus)?;
+    if algebra.dimension() != stages {
+        let message = format!(
+            "the node polynomial has {} roots, but there are {stages} stages",
+            algebra.dimension()
+        );
+        return Err(ErrorKind::Document { message });
+    }
+    match first_outside(&algebra) {
+        Some(outside) => Err(ErrorKind::NodeOutside {
+            node: node_text(&algebra, outside),
+        }),
+        None => Ok(algebra),
+    }
+}
+
+fn tensor(file: Input<'_>, rows: &Matrix) -> Result<Tensor, Error> {
+    let columns = rows.get_ref().iter().map(|row| polynomial(file, row));
+    Ok(Tensor::from_columns(columns.collect::<Result<_, _>>()?))
+}
+
+fn polynomial(file: Input<'_>, list: &List) -> Result<Polynomial, Error> {
+    let coefficients = list.get_ref().iter().map(|entry| number(file, entry));
+    let coefficients: Vec<BigRational> = coefficients.collect::<Result<_, _>>()?;
+    Ok(Polynomial::from_rationals(&coefficients))
+}
+
+fn number(file: Input<'_>, entry: &Spanned<String>) -> Result<BigRational, Error> {
+    let text = entry.get_ref();
+    // A digit has more than three bits.
+    if text.len() > MAX_BITS / 3 {
+        let message = format!("a number with {} characters is too long", text.len());
+        return Err(document_error(file, entry.span(), message));
+    }
+    rational::parse(text).ok_or_else(|| {
+        let shown = crate::expression::shown(text);
+        let message = format!("`{shown}` is no rational number such as 3 or -3/4");
+        document_error(file, entry.span(), message)
+    })
+}

@@ -1,0 +1,197 @@
+//! Writing TOML.
+
+use crate::algebra::{Number, Tensor};
+use crate::arithmetic::polynomial::Polynomial;
+use crate::export::json::evidence;
+use crate::export::layout::{right, widths};
+use crate::properties::Property;
+use crate::tableau::Tableau;
+
+/// Rows that are wider than this have one entry a line.
+const WIDEST: usize = 110;
+
+const HEAD: &str = "\
+# A symplectic partitioned Runge–Kutta method, written by `symplectic`.
+# `symplectic check` derives it anew, proves its properties and compares every entry.
+";
+
+const EXACT: &str = "\
+# The nodes are the roots of the node polynomial in ascending order; coefficients of 1, x, x^2, …
+";
+
+const ONE_INDEX: &str = "\
+# b_i = b(c_i) and b̃_i = b̃(c_i): polynomials in a node, coefficients of 1, x, x^2, …
+";
+
+const TWO_INDICES: &str = "\
+# a_ij = a(c_i, c_j) and ã_ij = ã(c_i, c_j): polynomials in two nodes x = c_i and y = c_j.
+# A row has the coefficients of 1, x, x^2, … beside one power of y.
+";
+
+/// Writes a tableau as TOML with decimals of `digits ≥ 1` significant digits.
+///
+/// The text is the same for the same tableau, and [`read`](super::read()) gives that tableau back.
+///
+/// ```
+/// use symplectic_compiler::{Limits, derive, export::toml};
+///
+/// let tableau = derive("polynomial(3)", "gauss(3)")?.named("gauss-3");
+/// let text = toml::write(&tableau, 40);
+/// assert_eq!(toml::read("gauss-3.toml", &text, &Limits::default())?, tableau);
+/// # Ok::<(), symplectic_compiler::Error>(())
+/// ```
+pub fn write(tableau: &Tableau, digits: usize) -> String {
+    let mut text = HEAD.to_owned();
+    if let Some(name) = tableau.name() {
+        text.push_str(&format!("name = {}\n", string(name)));
+    }
+    text.push_str(&format!("stages = {}\n", tableau.stages()));
+
+    let provenance = tableau.provenance();
+    text.push_str(&format!(
+        "\n[provenance]\nbasis = {}\nnodes = {}\n",
+        string(&provenance.basis),
+        string(&provenance.nodes)
+    ));
+    if let Some(source) = &provenance.source {
+        text.push_str(&format!("source = {}\n", string(source)));
+    }
+
+    write_exact(&mut text, tableau);
+    write_decimals(&mut text, tableau, digits);
+
+    text.push_str("\n[properties]\n");
+    let properties = tableau.properties();
+    let all = properties.all();
+    let width = all.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+    for (name, property) in all {
+        text.push_str(&format!("{name:width$} = {}\n", property_text(property)));
+    }
+    text
+}
+
+fn write_exact(text: &mut String, tableau: &Tableau) {
+    let stages = tableau.stages();
+    text.push_str("\n[exact]\n");
+    text.push_str(EXACT);
+    let modulus = coefficients(tableau.algebra().modulus(), stages + 1);
+    write_vector(text, "node_polynomial", &modulus);
+    text.push_str(ONE_INDEX);
+    write_vector(text, "b", &coefficients(tableau.b(), stages));
+    write_vector(text, "b_tilde", &coefficients(tableau.b_tilde(), stages));
+    text.push_str(TWO_INDICES);
+    let rows = |tensor: &Tensor| -> Vec<Vec<String>> {
+        (0..stages)
+            .map(|k| {
+                let column = tensor.columns().get(k);
+                column.map_or_else(|| vec![quoted("0"); stages], |c| coefficients(c, stages))
+            })
+            .collect()
+    };
+    write_matrix(text, "a", &rows(tableau.a()), power_of_y);
+    write_matrix(text, "a_tilde", &rows(tableau.a_tilde()), power_of_y);
+}
+
+fn write_decimals(text: &mut String, tableau: &Tableau, digits: usize) {
+    let decimals = tableau.with_numbers(|all| all.map(|n: &Number<'_>| quoted(n.decimal(digits))));
+    text.push_str("\n[decimals]\n# Significant digits, correctly rounded.\n");
+    text.push_str(&format!("digits = {digits}\n"));
+    write_vector(text, "c", &decimals.c);
+    write_vector(text, "c_tilde", &decimals.c_tilde);
+    write_vector(text, "b", &decimals.b);
+    write_vector(text, "b_tilde", &decimals.b_tilde);
+    write_matrix(text, "a", &decimals.a, stage);
+    write_matrix(text, "a_tilde", &decimals.a_tilde, stage);
+}
+
+/// The comment at a row of exact coefficients.
+fn power_of_y(row: usize) -> String {
+    match row {
+        0 => "1".to_owned(),
+        1 => "y".to_owned(),
+        _ => format!("y^{row}"),
+    }
+}
+
+/// The comment at a row of decimals.
+fn stage(row: usize) -> String {
+    format!("i = {}", row + 1)
+}
+
+/// The coefficients of `1, x, x², …`, this many of them.
+fn coefficients(polynomial: &Polynomial, count: usize) -> Vec<String> {
+    (0..count)
+        .map(|k| quoted(polynomial.coefficient(k)))
+        .collect()
+}
+
+fn quoted(value: impl std::fmt::Display) -> String {
+    format!("\"{value}\"")
+}
+
+fn string(text: &str) -> String {
+    // A JSON string is a TOML basic string, but for this character, which TOML wants escaped.
+    serde_json::Value::from(text)
+        .to_string()
+        .replace('\u{7f}', "\\u007f")
+}
+
+fn write_vector(text: &mut String, key: &str, entries: &[String]) {
+    let line = format!("{key} = [{}]\n", entries.join(", "));
+    if crate::export::layout::width(&line) <= WIDEST {
+        text.push_str(&line);
+        return;
+    }
+    text.push_str(&format!("{key} = [\n"));
+    let width = column(entries);
+    for entry in entries {
+        text.push_str(&format!("    {},\n", right(entry, width)));
+    }
+    text.push_str("]\n");
+}
+
+fn write_matrix(text: &mut String, key: &str, rows: &[Vec<String>], comment: fn(usize) -> String) {
+    let widths = widths(rows);
+    text.push_str(&format!("{key} = [\n"));
+    let in_lines = widths.iter().map(|w| w + 2).sum::<usize>() <= WIDEST;
+    let width = rows.iter().map(|row| column(row)).max().unwrap_or(0);
+    for (index, row) in rows.iter().enumerate() {
+        if in_lines {
+            let cells: Vec<String> = row.iter().zip(&widths).map(|(c, w)| right(c, *w)).collect();
+            text.push_str(&format!(
+                "    [{}], # {}\n",
+                cells.join(", "),
+                comment(index)
+            ));
+        } else {
+            text.push_str(&format!("    [ # {}\n", comment(index)));
+            for entry in row {
+                text.push_str(&format!("        {},\n", right(entry, width)));
+            }
+            text.push_str("    ],\n");
+        }
+    }
+    text.push_str("]\n");
+}
+
+/// The width of the widest entry.
+fn column(entries: &[String]) -> usize {
+    entries.iter().map(String::len).max().unwrap_or(0)
+}
+
+fn property_text(property: &Property) -> String {
+    let (evidence, bits) = evidence(property.evidence);
+    let mut text = format!(
+        "{{ holds = {}, evidence = {}",
+        property.holds,
+        quoted(evidence)
+    );
+    if let Some(bits) = bits {
+        text.push_str(&format!(", bits = {bits}"));
+    }
+    if let Some(witness) = &property.witness {
+        text.push_str(&format!(", witness = {}", string(witness)));
+    }
+    text.push_str(" }");
+    text
+}
