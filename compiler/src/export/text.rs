@@ -5,7 +5,7 @@ use crate::properties::{Evidence, Properties};
 use crate::tableau::{Coefficients, Tableau};
 
 /// Exact forms that are longer than this give way to decimals.
-const LONGEST_EXACT: usize = 24;
+const LONGEST_EXACT: usize = 28;
 /// Two tables stand side by side where they are not wider than this together.
 const WIDEST: usize = 100;
 const GAP: &str = "     ";
@@ -19,7 +19,7 @@ const GAP: &str = "     ";
 /// let table = text::write(&derive("polynomial(2)", "lobatto(2)")?.named("stormer-verlet"), 16);
 /// let lines: Vec<&str> = table.lines().collect();
 /// assert_eq!(lines[0], "stormer-verlet, 2 stages, basis polynomial(2), nodes lobatto(2)");
-/// assert_eq!(lines[4], "0 │   0    0     1/2 │ 1/2  0");
+/// assert_eq!(lines[4], "0 │   0    0     1/2 │ 1/2    0");
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
 pub fn write(tableau: &Tableau, digits: usize) -> String {

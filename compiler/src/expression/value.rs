@@ -291,4 +291,25 @@ mod tests {
             assert!(evaluate(&text).is_err());
         }
     }
+
+    proptest::proptest! {
+        /// Whatever is written, there is an answer, and an error stands at a part of the text.
+        #[test]
+        fn any_text_has_an_answer(
+            tokens in proptest::collection::vec(
+                proptest::sample::select(vec![
+                    "t", "1", "0.5", "2e9", "7", "+", "-", "*", "/", "^", "(", ")", "[", "]", ",", " ", "\n", "ψ",
+                    "gauss", "lobatto(3)", "polynomial", "radau-left(", "1e", ".", "$", "é",
+                ]),
+                0..14,
+            ),
+        ) {
+            let text = tokens.concat();
+            let limits = crate::Limits { stages: 6 };
+            let errors = [crate::Basis::parse(&text, &limits).err(), crate::QuadratureRule::parse(&text, &limits).err()];
+            for place in errors.into_iter().flatten().filter_map(|error| error.place) {
+                proptest::prop_assert!(place.text.get(place.span.clone()).is_some(), "{:?}", place);
+            }
+        }
+    }
 }

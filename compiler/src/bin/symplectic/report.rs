@@ -50,12 +50,13 @@ fn with_caret(kind: &ErrorKind, place: &Place, colour: bool) -> Option<Vec<u8>> 
     let before = " ".repeat(line[..span.start].width());
     let carets = "^".repeat(line[span].width().max(1));
     let input = &place.input;
-    let line = line.trim_end();
+    let shown = format!("{number} | {line}");
+    let shown = shown.trim_end();
     let picture = format!(
         "{strong}Error{plain}: {kind}\n\
          {gutter}--> {input}:{number}:{column}\n\
          {gutter} |\n\
-         {number} | {line}\n\
+         {shown}\n\
          {gutter} | {before}{red}{carets}{plain}\n"
     );
     Some(picture.into_bytes())

@@ -1,0 +1,138 @@
+//! The files of `tableaux/` are what the tool writes now, no more and no fewer, and they check.
+//!
+//! `UPDATE_EXPECT=1 cargo test -p symplectic-compiler --test catalogue` writes them anew.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use symplectic_compiler::export::{DEFAULT_DIGITS, toml};
+use symplectic_compiler::{Limits, Tableau, catalogue, check};
+
+fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../tableaux")
+}
+
+fn derived(name: &str) -> Tableau {
+    let entry = catalogue::find(name).expect(name);
+    entry.derive().expect(name)
+}
+
+#[test]
+fn the_files_are_those_that_the_tool_writes() {
+    let update = std::env::var_os("UPDATE_EXPECT").is_some_and(|value| value == "1");
+    let mut wrong = Vec::new();
+    let mut known = BTreeSet::new();
+    for entry in catalogue::entries() {
+        let name = format!("{}.toml", entry.name);
+        let path = folder().join(&name);
+        let tableau = entry.derive().expect(&name);
+        assert_eq!(tableau.stages(), entry.stages, "{name}");
+        let text = toml::write(&tableau, DEFAULT_DIGITS);
+        if update {
+            std::fs::write(&path, &text).expect("a folder that can be written to");
+        }
+        match std::fs::read_to_string(&path) {
+            Ok(found) if found == text => {}
+            Ok(_) => wrong.push(format!("{name} is stale")),
+            Err(error) => wrong.push(format!("{name}: {error}")),
+        }
+        // Both ways to read it give the tableau back, one of them from basis and nodes only.
+        assert_eq!(
+            toml::read(&name, &text, &Limits::default()),
+            Ok(tableau.clone())
+        );
+        assert_eq!(check(&name, &text, &Limits::default()), Ok(tableau));
+        known.insert(name);
+    }
+    for file in std::fs::read_dir(folder()).expect("the folder") {
+        let name = file
+            .expect("a file")
+            .file_name()
+            .to_string_lossy()
+            .into_owned();
+        if !known.contains(&name) {
+            wrong.push(format!("{name} is not in the catalogue"));
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "{wrong:#?}\nUPDATE_EXPECT=1 writes the files anew"
+    );
+}
+
+#[test]
+fn methods_coincide_where_it_is_said_and_nowhere_else() {
+    let all: Vec<_> = catalogue::entries()
+        .map(|entry| (entry.derive().expect("derived"), entry))
+        .collect();
+    for (one, entry) in &all {
+        for (other, second) in all.iter().filter(|(_, second)| second.name != entry.name) {
+            let equal = one.algebra() == other.algebra()
+                && one.a() == other.a()
+                && one.a_tilde() == other.a_tilde()
+                && one.b() == other.b()
+                && one.b_tilde() == other.b_tilde();
+            let said = entry.same_as().contains(&second.name.as_str());
+            assert_eq!(equal, said, "{} and {}", entry.name, second.name);
+            if said {
+                assert!(entry.source.contains(&second.name), "{}", entry.source);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_method_is_symplectic_consistent_and_has_a_source() {
+    for entry in catalogue::entries() {
+        let properties = entry.derive().expect("derived").properties();
+        assert!(
+            properties.symplectic.holds && properties.consistent.holds,
+            "{}",
+            entry.name
+        );
+        assert!(
+            !entry.source.is_empty() && !entry.title.is_empty(),
+            "{}",
+            entry.name
+        );
+    }
+}
+
+#[test]
+fn the_titles_of_the_radau_methods_are_true() {
+    let entries = |table: Vec<Vec<Option<symplectic_compiler::algebra::ClosedForm>>>| {
+        let shown = |form: Option<symplectic_compiler::algebra::ClosedForm>| {
+            form.map_or_else(String::new, |form| form.to_string())
+        };
+        table
+            .into_iter()
+            .map(|row| row.into_iter().map(shown).collect::<Vec<_>>())
+            .collect::<Vec<_>>()
+    };
+    // Hairer & Wanner, Solving Ordinary Differential Equations II, tables IV.5.4 and IV.5.5.
+    let left = derived("radau-left-2").closed_forms();
+    assert_eq!(
+        entries(left.a_tilde),
+        [["1/4", "-1/4"], ["1/4", "5/12"]],
+        "Radau IA"
+    );
+    let right = derived("radau-right-2").closed_forms();
+    assert_eq!(
+        entries(right.a),
+        [["5/12", "-1/12"], ["3/4", "1/4"]],
+        "Radau IIA"
+    );
+    // The partner of Radau IIA has the right nodes and is not Radau IA.
+    assert_eq!(entries(right.a_tilde), [["1/3", "0"], ["1", "0"]]);
+}
+
+#[test]
+fn symplectic_euler_and_its_adjoint_are_adjoint() {
+    let adjoint = derived("symplectic-euler").adjoint();
+    let forms = |tableau: &Tableau| {
+        let forms = tableau.closed_forms();
+        (forms.a, forms.a_tilde, forms.b)
+    };
+    assert_eq!(forms(&adjoint), forms(&derived("symplectic-euler-adjoint")));
+    assert_ne!(forms(&derived("midpoint")), forms(&adjoint));
+}

@@ -1,0 +1,255 @@
+//! Bad input on the command line: the message, the caret and the exit status.
+
+mod command;
+
+use command::{failure, stdout};
+use expect_test::{Expect, expect};
+
+fn bad_input(arguments: &[&str], expected: Expect) {
+    let (status, errors) = failure(arguments);
+    assert_eq!(status, Some(2), "{arguments:?}");
+    expected.assert_eq(&errors);
+}
+
+#[test]
+fn bad_expressions_are_refused_with_a_caret() {
+    let derive = |basis, nodes, expected| {
+        bad_input(&["derive", "--basis", basis, "--nodes", nodes], expected)
+    };
+    derive(
+        "polynomial(3)",
+        "0, 1/2, 2/4",
+        expect![[r#"
+        Error: the node 1/2 is listed twice; nodes must be distinct
+         --> nodes:1:9
+          |
+        1 | 0, 1/2, 2/4
+          |         ^^^
+    "#]],
+    );
+    derive(
+        "polynomial(3)",
+        "0, 1/3, 4/3",
+        expect![[r#"
+        Error: the node 4/3 lies outside [0, 1]; nodes are fractions of a step
+         --> nodes:1:9
+          |
+        1 | 0, 1/3, 4/3
+          |         ^^^
+    "#]],
+    );
+    derive(
+        "polynomial(2)",
+        "-1/9, 1",
+        expect![[r#"
+        Error: the node -1/9 lies outside [0, 1]; nodes are fractions of a step
+         --> nodes:1:1
+          |
+        1 | -1/9, 1
+          | ^^^^
+    "#]],
+    );
+    derive(
+        "1, t, 2 - t",
+        "gauss(3)",
+        expect![[r#"
+        Error: the basis functions are linearly dependent: 2*1 - t - (-t + 2) = 0; leave one of them out
+         --> basis:1:1
+          |
+        1 | 1, t, 2 - t
+          | ^^^^^^^^^^^
+    "#]],
+    );
+    derive(
+        "polynomial(2)",
+        "1/2, 1",
+        expect![[r#"
+        Error: the weight b_2 at the node c_2 = 1 is zero, and ã_2j = (b_2 b_j − b_j a_j2)/b_2 divides by it; choose other nodes or another basis
+         --> nodes:1:1
+          |
+        1 | 1/2, 1
+          | ^^^^^^
+    "#]],
+    );
+    derive(
+        "polynomial(1)",
+        "gauss(0)",
+        expect![[r#"
+        Error: `gauss(0)` does not exist: `gauss(s)` needs s ≥ 1
+         --> nodes:1:1
+          |
+        1 | gauss(0)
+          | ^^^^^^^^
+    "#]],
+    );
+    derive(
+        "polynomial(1)",
+        "lobatto(1)",
+        expect![[r#"
+        Error: `lobatto(1)` does not exist: `lobatto(s)` needs s ≥ 2
+         --> nodes:1:1
+          |
+        1 | lobatto(1)
+          | ^^^^^^^^^^
+    "#]],
+    );
+    derive(
+        "polynomial(8)",
+        "chebyshev(8)",
+        expect![[r#"
+        Error: `chebyshev(8)` has only 2 real nodes out of 8; real nodes exist only for s = 1, …, 7 and 9 (Bernstein 1937)
+         --> nodes:1:1
+          |
+        1 | chebyshev(8)
+          | ^^^^^^^^^^^^
+    "#]],
+    );
+    derive(
+        "1, t/0",
+        "0, 1",
+        expect![[r#"
+        Error: division by zero
+         --> basis:1:6
+          |
+        1 | 1, t/0
+          |      ^
+    "#]],
+    );
+    derive(
+        "polynomial(2)",
+        "0, (1",
+        expect![[r#"
+        Error: `(` has no matching `)`
+         --> nodes:1:4
+          |
+        1 | 0, (1
+          |    ^
+    "#]],
+    );
+    derive(
+        "polynomial(2)",
+        "0, 1)",
+        expect![[r#"
+        Error: `)` has no matching `(`
+         --> nodes:1:5
+          |
+        1 | 0, 1)
+          |     ^
+    "#]],
+    );
+    derive(
+        "1, t^2 - foo(3)",
+        "0, 1",
+        expect![[r#"
+        Error: unknown function `foo`; known here: inside an expression only t, numbers and + - * / ^
+         --> basis:1:10
+          |
+        1 | 1, t^2 - foo(3)
+          |          ^^^
+    "#]],
+    );
+    derive(
+        "polynomial(2)",
+        "",
+        expect![[r#"
+            Error: the input ends, expected a number, a name or `(`
+             --> nodes:1:1
+              |
+            1 |
+              | ^
+        "#]],
+    );
+    derive(
+        "polynomial(3)",
+        "0, α, 1",
+        expect![[r#"
+        Error: unknown name `α`; known here: t, numbers
+         --> nodes:1:4
+          |
+        1 | 0, α, 1
+          |    ^
+    "#]],
+    );
+    derive(
+        "polynomial(3)",
+        "0,\n  1/2,\n  1/0",
+        expect![[r#"
+        Error: division by zero
+         --> nodes:3:5
+          |
+        3 |   1/0
+          |     ^
+    "#]],
+    );
+    derive(
+        "polynomial(40)",
+        "gauss(40)",
+        expect![[r#"
+        Error: 40 stages exceed the limit of 32, beyond which a derivation may run for very long; raise it with `--max-stages 40` (in the macro `max_stages: 40`)
+         --> basis:1:1
+          |
+        1 | polynomial(40)
+          | ^^^^^^^^^^^^^^
+    "#]],
+    );
+}
+
+#[test]
+fn a_limit_can_be_raised_and_lowered() {
+    // Beyond the limit there is another complaint, without the work of 33 stages.
+    let (status, errors) = failure(&[
+        "derive",
+        "--basis",
+        "polynomial(33)",
+        "--nodes",
+        "0, 1",
+        "--max-stages",
+        "33",
+    ]);
+    assert_eq!(status, Some(2));
+    assert!(
+        errors.contains("33 basis functions and 2 nodes"),
+        "{errors}"
+    );
+    let (status, errors) = failure(&["show", "gauss-3", "--max-stages", "2"]);
+    assert_eq!(status, Some(2));
+    assert!(
+        errors.contains("3 stages exceed the limit of 2"),
+        "{errors}"
+    );
+}
+
+#[test]
+fn wrong_options_and_names_are_refused() {
+    bad_input(
+        &["show", "gaus-3"],
+        expect![[r#"
+        Error: unknown method `gaus-3`; known here: gauss-3, gauss-1, gauss-2, …
+    "#]],
+    );
+    bad_input(
+        &["show", "dormand-prince"],
+        expect![[r#"
+        Error: unknown method `dormand-prince`; known here: the names that `symplectic list` shows
+    "#]],
+    );
+    for digits in ["0", "10001", "-3", "many"] {
+        let (status, errors) = failure(&["show", "gauss-3", &format!("--digits={digits}")]);
+        assert_eq!(status, Some(2));
+        assert!(
+            errors.contains("expected a whole number from 1 to 10000"),
+            "{errors}"
+        );
+    }
+    for arguments in [
+        &["derive"][..],
+        &["show"],
+        &["check"],
+        &["fly"],
+        &[],
+        &["show", "gauss-3", "--format", "xml"],
+    ] {
+        assert_eq!(failure(arguments).0, Some(2), "{arguments:?}");
+    }
+    assert!(stdout(&["show", "midpoint", "--digits", "10000", "--format", "toml"]).len() > 40_000);
+}

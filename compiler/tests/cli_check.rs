@@ -1,0 +1,129 @@
+//! `symplectic check`: files that fit, files that do not, files that are no tables.
+
+mod command;
+
+use std::path::PathBuf;
+
+use command::{stdout, symplectic};
+
+/// A file of this test, in a folder of its own.
+fn file(name: &str, contents: &[u8]) -> String {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("cli");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let path = folder.join(name);
+    std::fs::write(&path, contents).expect("a file");
+    path.to_str().expect("a path in UTF-8").to_owned()
+}
+
+fn checked(file: &str) -> (Option<i32>, String, String) {
+    let output = symplectic(&["check", file]);
+    let (out, errors) = (
+        String::from_utf8(output.stdout),
+        String::from_utf8(output.stderr),
+    );
+    (
+        output.status.code(),
+        out.expect("text"),
+        errors.expect("text"),
+    )
+}
+
+#[test]
+fn what_is_written_is_checked() {
+    for format in ["toml", "json"] {
+        let text = stdout(&["show", "lobatto-3", "--format", format]);
+        let path = file(&format!("good.{format}"), text.as_bytes());
+        assert_eq!(
+            checked(&path),
+            (
+                Some(0),
+                format!("{path}: ok, lobatto-3 with 3 stages\n"),
+                String::new()
+            )
+        );
+        // One digit, the last, of the last decimal.
+        let last = text
+            .rfind("0.8333333333333333333333333333333333333333")
+            .expect("ã_32");
+        let mut edited = text.clone();
+        edited.replace_range(last + 41..last + 42, "4");
+        let path = file(&format!("edited.{format}"), edited.as_bytes());
+        let (status, out, errors) = checked(&path);
+        assert_eq!(status, Some(1));
+        assert!(
+            out.starts_with(&format!("{path}: FAILED, `ã_32 (decimal)` does not fit")),
+            "{out}"
+        );
+        let lines: Vec<&str> = errors.lines().collect();
+        assert!(
+            lines[0].starts_with("Error: `ã_32 (decimal)` does not fit: the file has 0.83333"),
+            "{errors}"
+        );
+        // The carets stand under the value.
+        let column = |line: &str, part: &str| line.find(part).map(|at| line[..at].chars().count());
+        assert_eq!(
+            column(lines[4], "^"),
+            column(lines[3], "\"0.8333"),
+            "{errors}"
+        );
+    }
+    let text = stdout(&["show", "gauss-4", "--format", "toml"]);
+    let path = file(
+        "exact.toml",
+        text.replacen("\"-140\"", "\"-141\"", 1).as_bytes(),
+    );
+    let (status, out, _) = checked(&path);
+    assert_eq!(status, Some(1));
+    assert!(
+        out.contains(
+            "`the node polynomial, coefficient of x^3 (exact)` does not fit: the file has -141"
+        ),
+        "{out}"
+    );
+}
+
+#[test]
+fn what_is_no_table_file_is_bad_input() {
+    let good = stdout(&["show", "midpoint", "--format", "toml"]);
+    let folder = env!("CARGO_TARGET_TMPDIR").to_owned();
+    let garbage: Vec<u8> = (0..=255).rev().collect();
+    for (path, message) in [
+        (
+            file("truncated.toml", &good.as_bytes()[..good.len() / 2]),
+            "not a TOML file of a tableau",
+        ),
+        (file("truncated.json", b"{\"name\": "), "EOF while parsing"),
+        (
+            file("garbage.toml", &garbage),
+            "no UTF-8 text: the byte at offset 0 is wrong",
+        ),
+        (file("garbage.json", &garbage), "no UTF-8 text"),
+        (file("empty.toml", b""), "missing field `stages`"),
+        (file("empty.json", b""), "EOF while parsing a value"),
+        (
+            file("table.txt", good.as_bytes()),
+            "is named neither .toml nor .json",
+        ),
+        (folder.clone(), "cannot read"),
+        (format!("{folder}/nowhere.toml"), "cannot read"),
+    ] {
+        let (status, out, errors) = checked(&path);
+        assert_eq!(status, Some(2), "{path}");
+        assert!(
+            errors.contains(message) && !errors.contains("panicked"),
+            "{path}: {errors}"
+        );
+        assert!(
+            out.starts_with(&format!("{path}: FAILED, ")) && out.lines().count() == 1,
+            "{out}"
+        );
+    }
+    // All files are looked at, and the worst decides.
+    let (good, bad) = (
+        file("one.toml", good.as_bytes()),
+        file("two.toml", b"stages"),
+    );
+    let output = symplectic(&["check", &bad, &good]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(String::from_utf8_lossy(&output.stdout).lines().count(), 2);
+}
