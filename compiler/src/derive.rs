@@ -32,10 +32,10 @@ pub fn derive(basis: &str, nodes: &str) -> Result<Tableau, Error> {
     derive_within(basis, nodes, &Limits::default())
 }
 
-/// As [`derive`], within given limits.
+/// As [`derive()`], within given limits.
 ///
 /// # Errors
-/// As [`derive`].
+/// As [`derive()`].
 pub fn derive_within(basis: &str, nodes: &str, limits: &Limits) -> Result<Tableau, Error> {
     let functions = Basis::parse(basis, limits)?;
     let rule = QuadratureRule::parse(nodes, limits)?;

@@ -14,7 +14,7 @@
 //! | what | where |
 //! |---|---|
 //! | bases, nodes and weights | [`Basis`], [`QuadratureRule`], [`FAMILIES`] |
-//! | the derivation | [`derive`], [`derive_from`] |
+//! | the derivation | [`derive()`], [`derive_from`] |
 //! | the exact coefficients | [`Tableau`], in the [`algebra`] of its nodes |
 //! | what is proved about them | [`Properties`], each a [`Property`] with its [`Evidence`] |
 //! | text, JSON, TOML; reading and checking files | [`export`], [`check`] |

@@ -66,9 +66,9 @@ fn irrational_and_long_entries_are_readable() {
           consistent          yes  proved
           equal_matrices      yes  proved
           explicit            no   refuted  these stages need one another: Q1 → P1 → Q1
-          first_row_zero      no   refuted  a_11 = 0.138888888889…
+          first_row_zero      no   refuted  a_11 = 5/36
           stiffly_accurate    no   refuted  b_1 − a_31 = 0.00978944401531…
-          first_same_as_last  no   refuted  a_11 = 0.138888888889…
+          first_same_as_last  no   refuted  a_11 = 5/36
           positive_weights    yes  proved
     "#]]
     .assert_eq(&stdout(&["show", "gauss-3"]));

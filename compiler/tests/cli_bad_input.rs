@@ -20,7 +20,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(3)",
         "0, 1/2, 2/4",
         expect![[r#"
-        Error: the node 1/2 is listed twice; nodes must be distinct
+        error: the node 1/2 is listed twice; nodes must be distinct
          --> nodes:1:9
           |
         1 | 0, 1/2, 2/4
@@ -31,7 +31,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(3)",
         "0, 1/3, 4/3",
         expect![[r#"
-        Error: the node 4/3 lies outside [0, 1]; nodes are fractions of a step
+        error: the node 4/3 lies outside [0, 1]; nodes are fractions of a step
          --> nodes:1:9
           |
         1 | 0, 1/3, 4/3
@@ -42,7 +42,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(2)",
         "-1/9, 1",
         expect![[r#"
-        Error: the node -1/9 lies outside [0, 1]; nodes are fractions of a step
+        error: the node -1/9 lies outside [0, 1]; nodes are fractions of a step
          --> nodes:1:1
           |
         1 | -1/9, 1
@@ -53,7 +53,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "1, t, 2 - t",
         "gauss(3)",
         expect![[r#"
-        Error: the basis functions are linearly dependent: 2*1 - t - (-t + 2) = 0; leave one of them out
+        error: the basis functions are linearly dependent: 2*1 - t - (-t + 2) = 0; leave one of them out
          --> basis:1:1
           |
         1 | 1, t, 2 - t
@@ -64,7 +64,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(2)",
         "1/2, 1",
         expect![[r#"
-        Error: the weight b_2 at the node c_2 = 1 is zero, and ã_2j = (b_2 b_j − b_j a_j2)/b_2 divides by it; choose other nodes or another basis
+        error: the weight b_2 at the node c_2 = 1 is zero, and ã_2j = (b_2 b_j − b_j a_j2)/b_2 divides by it; choose other nodes or another basis
          --> nodes:1:1
           |
         1 | 1/2, 1
@@ -75,7 +75,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(1)",
         "gauss(0)",
         expect![[r#"
-        Error: `gauss(0)` does not exist: `gauss(s)` needs s ≥ 1
+        error: `gauss(0)` does not exist: `gauss(s)` needs s ≥ 1
          --> nodes:1:1
           |
         1 | gauss(0)
@@ -86,7 +86,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(1)",
         "lobatto(1)",
         expect![[r#"
-        Error: `lobatto(1)` does not exist: `lobatto(s)` needs s ≥ 2
+        error: `lobatto(1)` does not exist: `lobatto(s)` needs s ≥ 2
          --> nodes:1:1
           |
         1 | lobatto(1)
@@ -97,7 +97,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(8)",
         "chebyshev(8)",
         expect![[r#"
-        Error: `chebyshev(8)` has only 2 real nodes out of 8; real nodes exist only for s = 1, …, 7 and 9 (Bernstein 1937)
+        error: `chebyshev(8)` has only 2 real nodes out of 8; real nodes exist only for s = 1, …, 7 and 9 (Bernstein 1937)
          --> nodes:1:1
           |
         1 | chebyshev(8)
@@ -108,7 +108,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "1, t/0",
         "0, 1",
         expect![[r#"
-        Error: division by zero
+        error: division by zero
          --> basis:1:6
           |
         1 | 1, t/0
@@ -119,7 +119,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(2)",
         "0, (1",
         expect![[r#"
-        Error: `(` has no matching `)`
+        error: `(` has no matching `)`
          --> nodes:1:4
           |
         1 | 0, (1
@@ -130,7 +130,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(2)",
         "0, 1)",
         expect![[r#"
-        Error: `)` has no matching `(`
+        error: `)` has no matching `(`
          --> nodes:1:5
           |
         1 | 0, 1)
@@ -141,7 +141,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "1, t^2 - foo(3)",
         "0, 1",
         expect![[r#"
-        Error: unknown function `foo`; known here: inside an expression only t, numbers and + - * / ^
+        error: unknown function `foo`; known here: inside an expression only t, numbers and + - * / ^
          --> basis:1:10
           |
         1 | 1, t^2 - foo(3)
@@ -152,7 +152,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(2)",
         "",
         expect![[r#"
-            Error: the input ends, expected a number, a name or `(`
+            error: the input ends, expected a number, a name or `(`
              --> nodes:1:1
               |
             1 |
@@ -163,7 +163,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(3)",
         "0, α, 1",
         expect![[r#"
-        Error: unknown name `α`; known here: t, numbers
+        error: unknown name `α`; known here: t, numbers
          --> nodes:1:4
           |
         1 | 0, α, 1
@@ -174,7 +174,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(3)",
         "0,\n  1/2,\n  1/0",
         expect![[r#"
-        Error: division by zero
+        error: division by zero
          --> nodes:3:5
           |
         3 |   1/0
@@ -185,7 +185,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(40)",
         "gauss(40)",
         expect![[r#"
-        Error: 40 stages exceed the limit of 32, beyond which a derivation may run for very long; raise it with `--max-stages 40` (in the macro `max_stages: 40`)
+        error: 40 stages exceed the limit of 32, beyond which a derivation may run for very long; raise it with `--max-stages 40` (in the macro `max_stages: 40`)
          --> basis:1:1
           |
         1 | polynomial(40)
@@ -224,13 +224,13 @@ fn wrong_options_and_names_are_refused() {
     bad_input(
         &["show", "gaus-3"],
         expect![[r#"
-        Error: unknown method `gaus-3`; known here: gauss-3, gauss-1, gauss-2, …
+        error: unknown method `gaus-3`; known here: gauss-3, gauss-1, gauss-2, …
     "#]],
     );
     bad_input(
         &["show", "dormand-prince"],
         expect![[r#"
-        Error: unknown method `dormand-prince`; known here: the names that `symplectic list` shows
+        error: unknown method `dormand-prince`; known here: the names that `symplectic list` shows
     "#]],
     );
     for digits in ["0", "10001", "-3", "many"] {

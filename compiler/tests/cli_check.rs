@@ -56,7 +56,7 @@ fn what_is_written_is_checked() {
         );
         let lines: Vec<&str> = errors.lines().collect();
         assert!(
-            lines[0].starts_with("Error: `ã_32 (decimal)` does not fit: the file has 0.83333"),
+            lines[0].starts_with("error: `ã_32 (decimal)` does not fit: the file has 0.83333"),
             "{errors}"
         );
         // The carets stand under the value.

@@ -110,11 +110,58 @@ impl ClosedForm {
 
     /// The value of a polynomial at this number.
     fn evaluate(&self, polynomial: &Polynomial) -> Option<Self> {
+        if self.factor.is_zero() {
+            return Some(ClosedForm::rational(polynomial.evaluate(&self.rational)));
+        }
         let zero = ClosedForm::rational(BigRational::zero());
         let mut coefficients = polynomial.coefficients().into_iter().rev();
         coefficients.try_fold(zero, |value, c| {
             value.multiply(self)?.add(&ClosedForm::rational(c))
         })
+    }
+}
+
+/// A polynomial whose coefficients are in one quadratic field: `rational + √radicand · factor`.
+struct QuadraticPolynomial {
+    rational: Polynomial,
+    factor: Polynomial,
+    root: ClosedForm,
+}
+
+impl QuadraticPolynomial {
+    /// The row of a matrix at a node, a polynomial in `y`.
+    fn row(tensor: &Tensor, node: &ClosedForm) -> Option<Self> {
+        let values: Vec<ClosedForm> = tensor
+            .columns()
+            .iter()
+            .map(|c| node.evaluate(c))
+            .collect::<Option<_>>()?;
+        let part = |part: fn(&ClosedForm) -> &BigRational| {
+            Polynomial::from_rationals(
+                &values
+                    .iter()
+                    .map(|value| part(value).clone())
+                    .collect::<Vec<_>>(),
+            )
+        };
+        let root = ClosedForm::new(
+            BigRational::zero(),
+            BigRational::one(),
+            node.radicand.clone(),
+        );
+        Some(QuadraticPolynomial {
+            rational: part(|value| &value.rational),
+            factor: part(|value| &value.factor),
+            root,
+        })
+    }
+
+    fn evaluate(&self, y: &ClosedForm) -> Option<ClosedForm> {
+        let rational = y.evaluate(&self.rational)?;
+        if self.factor.is_zero() {
+            return Some(rational);
+        }
+        rational.add(&y.evaluate(&self.factor)?.multiply(&self.root)?)
     }
 }
 
@@ -191,7 +238,7 @@ fn search(
 }
 
 /// The simplest rational in an interval, if it is short.
-fn short_rational(interval: &Interval) -> Option<BigRational> {
+pub(super) fn short_rational(interval: &Interval) -> Option<BigRational> {
     let candidate = simplest_between(&interval.low(), &interval.high());
     let short = candidate.numer().bits() <= SHORT_BITS && candidate.denom().bits() <= SHORT_BITS;
     short.then_some(candidate)
@@ -217,23 +264,16 @@ pub fn of_tensor(algebra: &NodeAlgebra, tensor: &Tensor) -> Vec<Vec<Option<Close
     };
     (0..size)
         .map(|row| {
-            // The row as a polynomial in y over the field of its node.
-            let coefficients: Option<Vec<ClosedForm>> = nodes[row]
+            let values = nodes[row]
                 .as_ref()
-                .and_then(|x| tensor.columns().iter().map(|c| x.evaluate(c)).collect());
+                .and_then(|node| QuadraticPolynomial::row(tensor, node));
             (0..size)
-                .map(|column| match (&coefficients, &nodes[column]) {
+                .map(|column| match (&values, &nodes[column]) {
                     _ if row == column && diagonal[row].is_some() => diagonal[row].clone(),
                     _ if row + column + 1 == size && antidiagonal[row].is_some() => {
                         antidiagonal[row].clone()
                     }
-                    (Some(coefficients), Some(y)) => {
-                        let zero = ClosedForm::rational(BigRational::zero());
-                        coefficients
-                            .iter()
-                            .rev()
-                            .try_fold(zero, |value, c| value.multiply(y)?.add(c))
-                    }
+                    (Some(values), Some(y)) => values.evaluate(y),
                     _ => None,
                 })
                 .collect()

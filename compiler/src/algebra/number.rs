@@ -112,6 +112,11 @@ impl<'a> Number<'a> {
         }
     }
 
+    /// The number, if it is a rational with a short numerator and denominator; proved.
+    pub fn short_rational(&self) -> Option<BigRational> {
+        super::closed_form::short_rational(&self.start).filter(|candidate| self.equals(candidate))
+    }
+
     /// Whether the number is zero, decided exactly.
     pub fn is_zero(&self) -> bool {
         self.equals(&BigRational::zero())

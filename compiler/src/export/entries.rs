@@ -76,15 +76,6 @@ fn difference(found: &str, expected: &str) -> (String, String) {
     (shown(&found), shown(&expected))
 }
 
-/// The index of a matrix entry as a subscript: `21`, and `2,10` where digits would run together.
-pub(super) fn subscript(row: usize, column: usize) -> String {
-    if row < 10 && column < 10 {
-        format!("{row}{column}")
-    } else {
-        format!("{row},{column}")
-    }
-}
-
 /// The place in a text of a line and a column, both counted from 1, the column in bytes.
 pub(super) fn offset(text: &str, line: usize, column: usize) -> usize {
     let start: usize = text

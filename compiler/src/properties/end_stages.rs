@@ -1,14 +1,17 @@
 //! Stages that coincide with the ends of the step.
 
-use super::{Examined, Property, about};
+use super::{Examined, Property, shown};
 use crate::algebra::Number;
+use crate::tableau::subscript;
 
 /// Decides `a_1j = 0`.
 pub(super) fn first_row_zero(examined: &Examined<'_>) -> Property {
     let row = examined.numbers.a.first().map_or(&[][..], Vec::as_slice);
     match row.iter().enumerate().find(|(_, entry)| !entry.is_zero()) {
         None => Property::proved(None),
-        Some((j, entry)) => Property::refuted(format!("a_1{} = {}", j + 1, about(entry))),
+        Some((j, entry)) => {
+            Property::refuted(format!("a_{} = {}", subscript(1, j + 1), shown(entry)))
+        }
     }
 }
 
@@ -26,10 +29,10 @@ pub(super) fn stiffly_accurate(examined: &Examined<'_>) -> Property {
     {
         None => Property::proved(None),
         Some((j, entry)) => Property::refuted(format!(
-            "b_{j} − a_{s}{j} = {}",
-            about(entry),
-            j = j + 1,
-            s = last + 1
+            "b_{} − a_{} = {}",
+            j + 1,
+            subscript(last + 1, j + 1),
+            shown(entry)
         )),
     }
 }

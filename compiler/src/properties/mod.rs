@@ -13,9 +13,9 @@ mod symplectic;
 
 use std::fmt;
 
-use crate::algebra::{NodeAlgebra, Number, Tensor};
+use crate::algebra::{NodeAlgebra, Number, Tensor, closed_form};
 use crate::arithmetic::polynomial::Polynomial;
-use crate::tableau::{Coefficients, Tableau};
+use crate::tableau::{Coefficients, Tableau, subscript};
 
 /// How it is known whether a property holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -152,35 +152,58 @@ struct Examined<'a> {
     numbers: &'a Coefficients<Number<'a>>,
 }
 
-/// The first entry of a matrix that is not zero, with its value: `(i, j, value)`, counted from 1.
-fn first_nonzero_entry(algebra: &NodeAlgebra, residual: &Tensor) -> Option<(usize, usize, String)> {
+/// The first entry of a matrix that is not zero.
+fn first_nonzero_entry(algebra: &NodeAlgebra, residual: &Tensor) -> Option<Entry> {
+    if residual.is_zero() {
+        return None;
+    }
     let numbers = Number::of_tensor(algebra, residual);
     let position = numbers.iter().enumerate().find_map(|(i, row)| {
         let column = row.iter().position(|entry| !entry.is_zero())?;
         Some((i, column))
     });
     position.map(|(i, j)| {
-        let exact = crate::algebra::closed_form::of_tensor(algebra, residual)[i].swap_remove(j);
-        (
-            i + 1,
-            j + 1,
-            exact.map_or_else(|| about(&numbers[i][j]), |form| form.to_string()),
-        )
+        let exact = closed_form::of_tensor(algebra, residual)[i].swap_remove(j);
+        let value = exact.map_or_else(|| shown(&numbers[i][j]), |form| form.to_string());
+        Entry {
+            index: subscript(i + 1, j + 1),
+            transposed: subscript(j + 1, i + 1),
+            row: i + 1,
+            column: j + 1,
+            value,
+        }
     })
+}
+
+/// An entry of a matrix, for a message.
+struct Entry {
+    /// The index of the entry: `12`.
+    index: String,
+    /// The index of its mirror image: `21`.
+    transposed: String,
+    /// The row, counted from 1.
+    row: usize,
+    /// The column, counted from 1.
+    column: usize,
+    /// The value.
+    value: String,
 }
 
 /// The first value of an element that is not zero, with its node, counted from 1.
 fn first_nonzero_value(algebra: &NodeAlgebra, residual: &Polynomial) -> Option<(usize, String)> {
     let numbers = Number::of_element(algebra, residual);
     let index = numbers.iter().position(|value| !value.is_zero())?;
-    let exact = crate::algebra::closed_form::of_element(algebra, residual).swap_remove(index);
+    let exact = closed_form::of_element(algebra, residual).swap_remove(index);
     Some((
         index + 1,
-        exact.map_or_else(|| about(&numbers[index]), |form| form.to_string()),
+        exact.map_or_else(|| shown(&numbers[index]), |form| form.to_string()),
     ))
 }
 
-/// A number that has no short exact form, for a message.
-fn about(number: &Number<'_>) -> String {
-    format!("{}…", number.decimal(12))
+/// A number for a message: a short rational exactly, anything else by its first digits.
+fn shown(number: &Number<'_>) -> String {
+    number.short_rational().map_or_else(
+        || format!("{}…", number.decimal(12)),
+        |value| value.to_string(),
+    )
 }

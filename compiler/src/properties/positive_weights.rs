@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::{Examined, Property, about};
+use super::{Examined, Property, shown};
 
 /// Decides the sign of every weight.
 pub(super) fn decide(examined: &Examined<'_>) -> Property {
@@ -12,7 +12,7 @@ pub(super) fn decide(examined: &Examined<'_>) -> Property {
                 Ordering::Greater => {}
                 Ordering::Equal => return Property::refuted(format!("{name}_{} = 0", i + 1)),
                 Ordering::Less => {
-                    return Property::refuted(format!("{name}_{} = {}", i + 1, about(weight)));
+                    return Property::refuted(format!("{name}_{} = {}", i + 1, shown(weight)));
                 }
             }
         }

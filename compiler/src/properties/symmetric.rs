@@ -1,6 +1,6 @@
 //! Symmetry: equality with the adjoint.
 
-use super::{Evidence, Examined, Property, first_nonzero_entry, first_nonzero_value};
+use super::{Entry, Evidence, Examined, Property, first_nonzero_entry, first_nonzero_value};
 use crate::algebra::{NodeAlgebra, Tensor};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::matrix;
@@ -130,12 +130,17 @@ fn check(tableau: &Tableau, map: &Polynomial) -> Property {
         ("a", &tableau.a, &adjoint.a),
         ("ã", &tableau.a_tilde, &adjoint.a_tilde),
     ] {
-        if let Some((i, j, value)) =
-            first_nonzero_entry(algebra, &a.substitute(algebra, map).subtract(reflected))
+        if let Some(Entry {
+            row,
+            column,
+            index,
+            value,
+            ..
+        }) = first_nonzero_entry(algebra, &a.substitute(algebra, map).subtract(reflected))
         {
             let b = if name == "a" { "b" } else { "b̃" };
             return Property::refuted(format!(
-                "{name}_σ({i})σ({j}) + {name}_{i}{j} − {b}_{j} = {value} where stage σ(i) is the mirror image of stage i"
+                "{name}_σ({row})σ({column}) + {name}_{index} − {b}_{column} = {value} where stage σ(i) is the mirror image of stage i"
             ));
         }
     }

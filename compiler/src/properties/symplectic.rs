@@ -1,6 +1,6 @@
 //! Symplecticity (MW 2.6.7).
 
-use super::{Examined, Property, first_nonzero_entry, first_nonzero_value};
+use super::{Entry, Examined, Property, first_nonzero_entry, first_nonzero_value};
 use crate::algebra::Tensor;
 
 /// Decides `b_i ã_ij + b̃_j a_ji = b_i b̃_j` in `K ⊗ K` and `b = b̃` in `K`.
@@ -16,11 +16,18 @@ pub(super) fn decide(examined: &Examined<'_>) -> Property {
         .scale_rows(algebra, &tableau.b)
         .add(&tableau.a.scale_rows(algebra, &tableau.b_tilde).transpose())
         .subtract(&product);
-    if residual.is_zero() {
-        return Property::proved(None);
-    }
-    let (i, j, value) = first_nonzero_entry(algebra, &residual).unwrap_or_default();
-    Property::refuted(format!(
-        "b_{i} ã_{i}{j} + b̃_{j} a_{j}{i} − b_{i} b̃_{j} = {value}"
-    ))
+    first_nonzero_entry(algebra, &residual).map_or(
+        Property::proved(None),
+        |Entry {
+             index,
+             transposed,
+             row,
+             column,
+             value,
+         }| {
+            Property::refuted(format!(
+                "b_{row} ã_{index} + b̃_{column} a_{transposed} − b_{row} b̃_{column} = {value}"
+            ))
+        },
+    )
 }

@@ -19,9 +19,9 @@ properties
   consistent          yes  proved
   equal_matrices      yes  proved
   explicit            no   refuted  these stages need one another: Q1 → P1 → Q1
-  first_row_zero      no   refuted  a_11 = 0.250000000000…
+  first_row_zero      no   refuted  a_11 = 1/4
   stiffly_accurate    no   refuted  b_1 − a_21 = -0.0386751345948…
-  first_same_as_last  no   refuted  a_11 = 0.250000000000…
+  first_same_as_last  no   refuted  a_11 = 1/4
   positive_weights    yes  proved
 ```*/
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -12,12 +12,13 @@ use serde_json::value::RawValue;
 
 use crate::error::{Error, ErrorKind};
 use crate::export::MAX_DIGITS;
-use crate::export::entries::{Entry, compare, offset, subscript};
+use crate::export::entries::{Entry, compare, offset};
 use crate::export::origin::Origin;
 use crate::expression::Input;
 use crate::limits::Limits;
 use crate::properties::Properties;
 use crate::tableau::Tableau;
+use crate::tableau::subscript;
 
 /// Reads a tableau from JSON.
 ///

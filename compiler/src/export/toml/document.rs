@@ -8,12 +8,13 @@ use toml::Spanned;
 
 use crate::error::{Error, ErrorKind};
 use crate::export::MAX_DIGITS;
-use crate::export::entries::{Entry, first_line, subscript};
+use crate::export::entries::{Entry, first_line};
 use crate::export::origin::Origin;
 use crate::expression::Input;
 use crate::limits::Limits;
 use crate::properties::Properties;
 use crate::tableau::Tableau;
+use crate::tableau::subscript;
 
 pub(super) type List = Spanned<Vec<Spanned<String>>>;
 pub(super) type Matrix = Spanned<Vec<List>>;
