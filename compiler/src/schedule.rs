@@ -344,7 +344,7 @@ mod tests {
 
     fn schedule(class: Class, basis: &str, nodes: &str) -> Schedule {
         let tableau = crate::derive(basis, nodes).expect("derived");
-        tableau.with_numbers(|numbers| StepGraph::new(class, &tableau, numbers).schedule())
+        StepGraph::new(class, &tableau, &tableau.numbers()).schedule()
     }
 
     #[test]

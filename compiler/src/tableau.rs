@@ -1,5 +1,6 @@
 //! The exact tableau of a symplectic partitioned Runge–Kutta method.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use num_rational::BigRational;
@@ -123,30 +124,39 @@ impl Tableau {
     }
 
     /// All coefficients as numbers that can be enclosed and correctly rounded.
-    pub fn with_numbers<R>(&self, use_numbers: impl FnOnce(&Coefficients<Number<'_>>) -> R) -> R {
-        let (c, c_tilde) = (self.c(), self.c_tilde());
+    ///
+    /// ```
+    /// let gauss = symplectic_compiler::derive("polynomial(2)", "gauss(2)")?;
+    /// assert_eq!(gauss.numbers().a[1][0].decimal(20).to_string(), "0.53867513459481288225");
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    pub fn numbers(&self) -> Coefficients<Number<'_>> {
+        let matrix = |tensor| Number::of_tensor(&self.algebra, tensor);
         let vector = |element| Number::of_element(&self.algebra, element);
-        // Without a copy where both are the same method.
-        let a = Number::of_tensor(&self.algebra, &self.a);
+        let (a, b) = (matrix(&self.a), vector(Cow::Borrowed(&self.b)));
+        // Without a second look where both halves are the same.
         let a_tilde = if self.a == self.a_tilde {
             a.clone()
         } else {
-            Number::of_tensor(&self.algebra, &self.a_tilde)
+            matrix(&self.a_tilde)
         };
-        let b = Number::of_element(&self.algebra, &self.b);
         let b_tilde = if self.b == self.b_tilde {
             b.clone()
         } else {
-            Number::of_element(&self.algebra, &self.b_tilde)
+            vector(Cow::Borrowed(&self.b_tilde))
         };
-        use_numbers(&Coefficients {
-            c: vector(&c),
-            c_tilde: vector(&c_tilde),
+        let (c, c_tilde) = (
+            vector(Cow::Owned(self.c())),
+            vector(Cow::Owned(self.c_tilde())),
+        );
+        Coefficients {
+            c,
+            c_tilde,
             b,
             b_tilde,
             a,
             a_tilde,
-        })
+        }
     }
 
     /// The short exact forms of all coefficients that have one: rationals and `p + q√d`.
@@ -182,7 +192,7 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn to_f64(&self) -> Coefficients<f64> {
-        self.with_numbers(|numbers| numbers.map(Number::to_f64))
+        self.numbers().map(Number::to_f64)
     }
 
     /// `Σ_i b_i` and `Σ_i b̃_i`.
@@ -218,6 +228,16 @@ pub struct Coefficients<T> {
 }
 
 impl<T> Coefficients<T> {
+    /// All of them: `c`, `c̃`, `b`, `b̃`, then `a` and `ã` by rows.
+    pub fn iter(&self) -> impl Iterator<Item = &T> {
+        let vectors = [&self.c, &self.c_tilde, &self.b, &self.b_tilde];
+        vectors
+            .into_iter()
+            .chain(&self.a)
+            .chain(&self.a_tilde)
+            .flatten()
+    }
+
     /// Something else for each coefficient.
     pub fn map<U>(&self, each: impl Fn(&T) -> U) -> Coefficients<U> {
         let vector = |v: &Vec<T>| v.iter().map(&each).collect();

@@ -36,12 +36,12 @@ const FIRST_BITS: u32 = 192;
 
 impl<'a> Number<'a> {
     /// The values of an element at all nodes.
-    pub fn of_element(algebra: &'a NodeAlgebra, element: &'a Polynomial) -> Vec<Self> {
-        let bits = FIRST_BITS + magnitude_bits(element);
-        let starts = algebra.enclose(element, bits);
+    pub fn of_element(algebra: &'a NodeAlgebra, element: Cow<'a, Polynomial>) -> Vec<Self> {
+        let bits = FIRST_BITS + magnitude_bits(&element);
+        let starts = algebra.enclose(&element, bits);
         let number = |(node, start)| Number {
             algebra,
-            source: Source::Element(Cow::Borrowed(element), node),
+            source: Source::Element(element.clone(), node),
             start,
         };
         starts.into_iter().enumerate().map(number).collect()
@@ -223,7 +223,7 @@ mod tests {
     fn decimals_agree_with_known_digits() {
         let k = algebra();
         let x = k.variable();
-        let nodes = Number::of_element(&k, &x);
+        let nodes = Number::of_element(&k, Cow::Borrowed(&x));
         // 1/2 + √3/6, from the known digits of √3.
         let sqrt3 = "1.73205080756887729352744634150587236694280525381038062805580697945193301690880003708114618675724857567562614142";
         let digits = nodes[1].decimal(60).to_string();

@@ -38,13 +38,9 @@ pub fn method(tableau: &Tableau, header: &Header) -> TokenStream {
     let text = name.to_string();
     let provenance = tableau.provenance();
     let (basis, nodes) = (&provenance.basis, &provenance.nodes);
-    let (general, separable) = tableau.with_numbers(|numbers| {
-        let plan = |class, name: &str| plan::implementation(class, tableau, numbers, name);
-        (
-            plan(Class::General, "GeneralPlan"),
-            plan(Class::Separable, "SeparablePlan"),
-        )
-    });
+    let numbers = tableau.numbers();
+    let general = plan::implementation(Class::General, tableau, &numbers, "GeneralPlan");
+    let separable = plan::implementation(Class::Separable, tableau, &numbers, "SeparablePlan");
     quote! {
         #attributes
         #[doc = #documentation]

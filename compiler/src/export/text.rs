@@ -93,20 +93,12 @@ fn cells(tableau: &Tableau, digits: usize) -> (Coefficients<String>, bool) {
         let exact = form.as_ref().map(ToString::to_string);
         exact.filter(|exact| width(exact) <= LONGEST_EXACT)
     });
-    let cells = tableau.with_numbers(|numbers| {
-        let numbers = numbers.map(Clone::clone);
-        short.clone().zip(numbers).map(|(exact, number)| {
-            let decimal = || number.decimal(digits).to_string();
-            exact.clone().unwrap_or_else(decimal)
-        })
+    let rounded = short.iter().any(Option::is_none);
+    let cells = short.zip(tableau.numbers()).map(|(exact, number)| {
+        exact
+            .clone()
+            .unwrap_or_else(|| number.decimal(digits).to_string())
     });
-    let vectors = [&short.c, &short.c_tilde, &short.b, &short.b_tilde];
-    let matrices = short.a.iter().chain(&short.a_tilde);
-    let rounded = vectors
-        .into_iter()
-        .chain(matrices)
-        .flatten()
-        .any(Option::is_none);
     (cells, rounded)
 }
 

@@ -11,6 +11,7 @@ mod positive_weights;
 mod symmetric;
 mod symplectic;
 
+use std::borrow::Cow;
 use std::fmt;
 
 use crate::algebra::{NodeAlgebra, Number, Tensor, closed_form};
@@ -137,11 +138,10 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn properties(&self) -> Properties {
-        self.with_numbers(|numbers| {
-            Properties::decide(&Examined {
-                tableau: self,
-                numbers,
-            })
+        let numbers = &self.numbers();
+        Properties::decide(&Examined {
+            tableau: self,
+            numbers,
         })
     }
 }
@@ -191,7 +191,7 @@ struct Entry {
 
 /// The first value of an element that is not zero, with its node, counted from 1.
 fn first_nonzero_value(algebra: &NodeAlgebra, residual: &Polynomial) -> Option<(usize, String)> {
-    let numbers = Number::of_element(algebra, residual);
+    let numbers = Number::of_element(algebra, Cow::Borrowed(residual));
     let index = numbers.iter().position(|value| !value.is_zero())?;
     let exact = closed_form::of_element(algebra, residual).swap_remove(index);
     Some((

@@ -163,14 +163,10 @@ const SEARCH_BITS: u32 = 512;
 /// Tries all permutations of stages that nothing told apart, with enclosures: a permutation that an
 /// enclosure excludes is refuted; one that survives is verified, not proved.
 fn search(tableau: &Tableau) -> Property {
-    let enclosed =
-        tableau.with_numbers(|numbers| numbers.map(|number| number.enclose(SEARCH_BITS + 256)));
-    let bits = enclosed.b[0].bits().max(enclosed.a[0][0].bits());
-    let aligned = enclosed.map(|interval| Interval {
-        low: &interval.low << (bits - interval.bits),
-        high: &interval.high << (bits - interval.bits),
-        bits,
-    });
+    let numbers = tableau.numbers();
+    let first = numbers.iter().map(|number| number.enclose(0).bits());
+    let bits = first.max().unwrap_or(0) + SEARCH_BITS;
+    let enclosed = numbers.map(|number| number.enclose(bits));
     // Entry (i, j) of the matrix and entry (σ(i), σ(j)) must sum to b_j.
     let fits =
         |a: &[Vec<Interval>], b: &[Interval], (i, j): (usize, usize), (k, l): (usize, usize)| {
@@ -181,7 +177,8 @@ fn search(tableau: &Tableau) -> Property {
                 .is_none_or(std::cmp::Ordering::is_eq)
         };
     let agrees = |from: (usize, usize), to: (usize, usize)| {
-        fits(&aligned.a, &aligned.b, from, to) && fits(&aligned.a_tilde, &aligned.b_tilde, from, to)
+        fits(&enclosed.a, &enclosed.b, from, to)
+            && fits(&enclosed.a_tilde, &enclosed.b_tilde, from, to)
     };
     let mut images: Vec<usize> = Vec::new();
     if extend(&mut images, tableau.stages(), &agrees) {

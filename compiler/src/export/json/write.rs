@@ -20,9 +20,9 @@ type Forms = (Option<ClosedForm>, (String, f64));
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
 pub fn write(tableau: &Tableau, digits: usize) -> String {
-    let rounded = tableau.with_numbers(|numbers| {
-        numbers.map(|number| (number.decimal(digits).to_string(), number.to_f64()))
-    });
+    let rounded = tableau
+        .numbers()
+        .map(|number| (number.decimal(digits).to_string(), number.to_f64()));
     let forms = tableau.closed_forms().zip(rounded);
     let provenance = tableau.provenance();
     let properties = tableau.properties();

@@ -1,6 +1,6 @@
 //! Writing TOML.
 
-use crate::algebra::{Number, Tensor};
+use crate::algebra::Tensor;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::export::json::evidence;
 use crate::export::layout::{right, widths};
@@ -93,7 +93,9 @@ fn write_exact(text: &mut String, tableau: &Tableau) {
 }
 
 fn write_decimals(text: &mut String, tableau: &Tableau, digits: usize) {
-    let decimals = tableau.with_numbers(|all| all.map(|n: &Number<'_>| quoted(n.decimal(digits))));
+    let decimals = tableau
+        .numbers()
+        .map(|number| quoted(number.decimal(digits)));
     text.push_str("\n[decimals]\n# Significant digits, correctly rounded.\n");
     text.push_str(&format!("digits = {digits}\n"));
     write_vector(text, "c", &decimals.c);
