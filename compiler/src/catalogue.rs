@@ -104,7 +104,7 @@ const ROWS: &[Row] = &[
     },
     Row {
         name: "gauss-{s}",
-        title: "Gauss–Legendre collocation, order 2s",
+        title: "Gauss–Legendre collocation",
         basis: "polynomial({s})",
         nodes: "gauss({s})",
         stages: &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10],
@@ -113,7 +113,7 @@ const ROWS: &[Row] = &[
     },
     Row {
         name: "lobatto-{s}",
-        title: "Lobatto IIIA–IIIB pair, order 2s − 2",
+        title: "Lobatto IIIA–IIIB pair",
         basis: "polynomial({s})",
         nodes: "lobatto({s})",
         stages: &[2, 3, 4, 5, 6, 7, 8],
@@ -123,7 +123,7 @@ const ROWS: &[Row] = &[
     },
     Row {
         name: "radau-left-{s}",
-        title: "collocation at left Radau nodes with Radau IA for momenta, order 2s − 1",
+        title: "collocation at left Radau nodes with Radau IA for momenta",
         basis: "polynomial({s})",
         nodes: "radau-left({s})",
         stages: &[1, 2, 3, 4, 5, 6],
@@ -132,7 +132,7 @@ const ROWS: &[Row] = &[
     },
     Row {
         name: "radau-right-{s}",
-        title: "Radau IIA with its symplectic partner, order 2s − 1",
+        title: "Radau IIA with its symplectic partner",
         basis: "polynomial({s})",
         nodes: "radau-right({s})",
         stages: &[1, 2, 3, 4, 5, 6],

@@ -1,1 +1,9 @@
-//! Scenes.
+//! What the integration tests, the examples and later the report share: [`scenes`] to integrate, [`methods`] to
+//! integrate them with, and how results are measured ([`measure`], [`counting`], [`order`]).
+
+pub mod counting;
+pub mod measure;
+pub mod methods;
+pub mod order;
+pub mod scenes;
+pub mod table;

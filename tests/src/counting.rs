@@ -1,0 +1,60 @@
+//! Systems that count their evaluations.
+
+use std::cell::Cell;
+
+use symplectic::{SeparableHamiltonian, Vector};
+
+/// Counts of evaluations.
+#[derive(Debug, Default)]
+pub struct Counts {
+    velocities: Cell<u64>,
+    forces: Cell<u64>,
+}
+
+impl Counts {
+    /// Evaluations of the velocity so far.
+    pub fn velocities(&self) -> u64 {
+        self.velocities.get()
+    }
+
+    /// Evaluations of the force so far.
+    pub fn forces(&self) -> u64 {
+        self.forces.get()
+    }
+
+    fn count(counter: &Cell<u64>) {
+        counter.set(counter.get() + 1);
+    }
+}
+
+/// A separable system that counts what is asked of it.
+#[derive(Debug)]
+pub struct Counting<'a, S> {
+    system: S,
+    counts: &'a Counts,
+}
+
+impl<'a, S> Counting<'a, S> {
+    /// `system`, counted in `counts`.
+    pub const fn new(system: S, counts: &'a Counts) -> Self {
+        Self { system, counts }
+    }
+}
+
+impl<V: Vector, S: SeparableHamiltonian<V>> SeparableHamiltonian<V> for Counting<'_, S> {
+    #[inline]
+    fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V) {
+        Counts::count(&self.counts.velocities);
+        self.system.velocity(time, p, velocity);
+    }
+
+    #[inline]
+    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
+        Counts::count(&self.counts.forces);
+        self.system.force(time, q, force);
+    }
+
+    fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
+        self.system.energy(time, q, p)
+    }
+}

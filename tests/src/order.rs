@@ -1,0 +1,106 @@
+//! The order of a method, observed.
+
+use std::fmt;
+
+/// The line through the points `(log h, log error)` of several runs.
+#[derive(Clone, Debug)]
+pub struct ObservedOrder {
+    /// Its slope, by least squares over all runs.
+    pub slope: f64,
+    /// The correlation coefficient of the points, 1 on a straight line.
+    pub correlation: f64,
+    /// The largest distance of a point from the line, as a factor of the error: 1 on the line.
+    pub residual: f64,
+    /// The slope between each run and the next.
+    pub pairs: Vec<f64>,
+}
+
+impl ObservedOrder {
+    /// The order that runs show, given as `(step size, error)` in any order of falling or rising step sizes.
+    ///
+    /// NaN where there are fewer than two different step sizes, or where an error is not positive.
+    pub fn of(runs: &[(f64, f64)]) -> Self {
+        let points: Vec<(f64, f64)> = runs.iter().map(|(h, error)| (h.ln(), error.ln())).collect();
+        let count = points.len() as f64;
+        let mean_x = points.iter().map(|point| point.0).sum::<f64>() / count;
+        let mean_y = points.iter().map(|point| point.1).sum::<f64>() / count;
+        let sum = |product: fn(f64, f64) -> f64| -> f64 {
+            let products = points.iter().map(|(x, y)| product(x - mean_x, y - mean_y));
+            products.sum()
+        };
+        let (xx, xy, yy) = (sum(|x, _| x * x), sum(|x, y| x * y), sum(|_, y| y * y));
+        let slope = xy / xx;
+        let distances = points
+            .iter()
+            .map(|(x, y)| (y - mean_y - slope * (x - mean_x)).abs());
+        Self {
+            slope,
+            correlation: xy / (xx * yy).sqrt(),
+            residual: distances
+                .fold(0.0_f64, |a, b| if b.is_nan() { b } else { a.max(b) })
+                .exp(),
+            pairs: points
+                .windows(2)
+                .map(|pair| (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0))
+                .collect(),
+        }
+    }
+
+    /// Whether the runs show `order` and nothing else: the slope and that of *every* pair of neighbours within
+    /// `tolerance` of it, so that of every pair of runs, and points on a line to a correlation of 0.9999.
+    ///
+    /// An order that is higher than expected does not pass.
+    pub fn shows(&self, order: f64, tolerance: f64) -> bool {
+        let near = |slope: &f64| (slope - order).abs() <= tolerance;
+        !self.pairs.is_empty()
+            && near(&self.slope)
+            && self.pairs.iter().all(near)
+            && self.correlation >= 0.9999
+    }
+}
+
+impl fmt::Display for ObservedOrder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "slope {:.3} (", self.slope)?;
+        for (index, pair) in self.pairs.iter().enumerate() {
+            write!(f, "{}{pair:.3}", if index == 0 { "" } else { ", " })?;
+        }
+        write!(
+            f,
+            " between neighbours), correlation {:.6}, off the line by a factor {:.3}",
+            self.correlation, self.residual
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_power_has_its_exponent() {
+        let order = ObservedOrder::of(&[(0.4, 0.4_f64.powi(3)), (0.2, 0.008), (0.1, 0.001)]);
+        assert!(order.shows(3.0, 1e-12), "{order}");
+        assert!(order.residual < 1.0 + 1e-12);
+    }
+
+    #[test]
+    fn one_pair_off_the_line_is_not_an_order() {
+        // Two of three pairs have slope 2, and so has the line through the ends.
+        let order = ObservedOrder::of(&[(0.8, 0.64), (0.4, 0.16), (0.2, 0.08), (0.1, 0.01)]);
+        assert!((order.slope - 2.0).abs() < 0.2, "{order}");
+        assert!(!order.shows(2.0, 0.25), "{order}");
+    }
+
+    #[test]
+    fn another_order_or_a_broken_run_does_not_pass() {
+        let cubic = ObservedOrder::of(&[(0.4, 0.064), (0.2, 0.008)]);
+        assert!(!cubic.shows(2.0, 0.5) && !cubic.shows(4.0, 0.5));
+        for error in [0.0, f64::NAN, f64::INFINITY] {
+            assert!(
+                !ObservedOrder::of(&[(0.4, 0.16), (0.2, 0.04), (0.1, error)]).shows(2.0, 100.0)
+            );
+        }
+        assert!(!ObservedOrder::of(&[(0.4, 0.16)]).shows(2.0, 100.0));
+    }
+}

@@ -1,0 +1,69 @@
+//! A step allocates nothing, whatever the method: counted at the allocator.
+//!
+//! A program without the test harness, whose own thread allocates while a test runs.
+#![allow(
+    clippy::print_stdout,
+    reason = "without the harness this says what ran"
+)]
+
+use std::alloc::System;
+
+use nalgebra::DVector;
+use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+use symplectic::{Error, Hamiltonian, Integrator, Method, State, hamiltonian, separable};
+use symplectic_tests::methods::{Gauss4, Lobatto3, StoermerVerlet};
+
+#[global_allocator]
+static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+/// Allocations in a hundred steps and one run to an end.
+fn allocations<M: Method, S: Hamiltonian<DVector<f64>>>(
+    method: M,
+    system: S,
+) -> Result<usize, Error> {
+    let q = DVector::from_fn(40, |i, _| (i as f64).sin());
+    let start = State::new(0.0, q.clone(), -q);
+    let mut integrator = Integrator::new(method, system, start, 0.01)?;
+    let region = Region::new(ALLOCATOR);
+    for _ in 0..100 {
+        integrator.step()?;
+    }
+    integrator.integrate_to(2.0)?;
+    let change = region.change();
+    Ok(change.allocations + change.reallocations)
+}
+
+fn main() -> Result<(), Error> {
+    let chain = || {
+        separable::<DVector<f64>, _, _>(
+            |_, p, velocity| velocity.copy_from(p),
+            |_, q, force| {
+                for i in 0..q.len() {
+                    let left = if i > 0 { q[i - 1] } else { 0.0 };
+                    let right = q.get(i + 1).copied().unwrap_or(0.0);
+                    force[i] = left - 2.0 * q[i] + right;
+                }
+            },
+        )
+    };
+    let coupled = || {
+        hamiltonian::<DVector<f64>, _, _>(
+            |_, q, p, velocity| velocity.zip_zip_apply(q, p, |v, q, p| *v = p * (q * q + 1.0)),
+            |_, q, p, force| force.zip_zip_apply(q, p, |f, q, p| *f = -q * (p * p + 1.0)),
+        )
+    };
+    assert_eq!(allocations(StoermerVerlet, chain())?, 0);
+    assert_eq!(allocations(Lobatto3, chain())?, 0);
+    assert_eq!(allocations(Gauss4, chain())?, 0);
+    assert_eq!(allocations(StoermerVerlet, coupled())?, 0);
+    assert_eq!(allocations(Gauss4, coupled())?, 0);
+
+    // The count sees what a system allocates itself.
+    let wasteful = separable::<DVector<f64>, _, _>(
+        |_, p, velocity| *velocity = p.clone(),
+        |_, q, force| force.copy_from(&(-q)),
+    );
+    assert!(allocations(StoermerVerlet, wasteful)? >= 400);
+    println!("steps allocate nothing ... ok");
+    Ok(())
+}

@@ -1,0 +1,5 @@
+//! A macro with nothing in it.
+
+symplectic::tableau! {}
+
+fn main() {}

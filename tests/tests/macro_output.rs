@@ -1,0 +1,201 @@
+//! What the macro emits is what the compiler derives, however the method is named.
+
+// Attributes of a definition reach its type: without the one on `lower_case` this would not compile.
+#![deny(non_camel_case_types)]
+
+use std::collections::{BTreeSet, HashSet};
+
+use symplectic::{Error, Integrator, Method};
+use symplectic_compiler::{Coefficients, Properties, derive};
+use symplectic_tests::scenes::kepler::{Kepler, start};
+
+symplectic::tableau! {
+    /// From a file.
+    GaussFromFile { file: "../tableaux/gauss-4.toml", require: [symplectic, symmetric, equal_matrices] }
+    /// The same by its basis and nodes.
+    GaussFromRule { basis: polynomial(4), nodes: gauss(4) }
+
+    LobattoFromFile { file: "../tableaux/lobatto-3.toml" }
+    LobattoFromRule { basis: polynomial(3), nodes: lobatto(3) }
+    LobattoFromLists { basis: [1, t, t^2], nodes: [0, 1/2, 1] }
+    /// Another basis of the same span, and nodes in another order.
+    LobattoFromOtherLists { nodes: [1, 0, 2/4,], basis: [t - 1/2, 2, (t + 1)^2 / 3] }
+
+    RadauLeft { basis: polynomial(3), nodes: radau-left(3), require: [symplectic] }
+    RadauRight { basis: polynomial(2), nodes: radau-right(2) }
+    Chebyshev { basis: polynomial(4), nodes: chebyshev(4) }
+    ClenshawCurtis { basis: polynomial(4), nodes: clenshaw-curtis(4) }
+    Fejer { basis: polynomial(3), nodes: fejer(3) }
+    NewtonCotes { basis: polynomial(4), nodes: newton-cotes(4) }
+
+    /// Everything that an explicit method can be asked for.
+    Verlet {
+        basis: polynomial(2),
+        nodes: lobatto(2),
+        require: [
+            symplectic, symmetric, consistent, explicit, first_row_zero, stiffly_accurate, first_same_as_last,
+            positive_weights,
+        ],
+    }
+    /// And what only a Runge–Kutta method has.
+    Midpoint { basis: polynomial(1), nodes: gauss(1), require: [equal_matrices], max_stages: 1 }
+
+    #[allow(non_camel_case_types)]
+    #[derive(Hash)]
+    lower_case { basis: polynomial(1), nodes: [0] }
+}
+
+/// The constants of a method.
+macro_rules! constants {
+    ($method:ty) => {
+        Coefficients {
+            c: <$method>::C.to_vec(),
+            c_tilde: <$method>::C_TILDE.to_vec(),
+            b: <$method>::B.to_vec(),
+            b_tilde: <$method>::B_TILDE.to_vec(),
+            a: <$method>::A.iter().map(|row| row.to_vec()).collect(),
+            a_tilde: <$method>::A_TILDE.iter().map(|row| row.to_vec()).collect(),
+        }
+    };
+}
+
+/// The bits: 0.0 and −0.0 are not the same constant.
+fn bits(coefficients: &Coefficients<f64>) -> Coefficients<u64> {
+    coefficients.map(|value| value.to_bits())
+}
+
+#[test]
+fn constants_are_the_doubles_of_the_derivation() -> Result<(), symplectic_compiler::Error> {
+    macro_rules! check {
+        ($($method:ident)*) => {
+            $(
+                let exact = derive($method::BASIS, $method::NODES)?;
+                assert_eq!(bits(&constants!($method)), bits(&exact.to_f64()), "{}", $method::NAME);
+                assert_eq!($method::STAGES, exact.stages());
+                assert_eq!($method::NAME, stringify!($method));
+            )*
+        };
+    }
+    check! {
+        GaussFromFile GaussFromRule LobattoFromFile LobattoFromRule LobattoFromLists LobattoFromOtherLists RadauLeft
+        RadauRight Chebyshev ClenshawCurtis Fejer NewtonCotes Verlet Midpoint lower_case
+    }
+    Ok(())
+}
+
+#[test]
+fn constants_are_those_that_papers_print() {
+    // GNI, Table II.2.1 and II.2.2.
+    assert_eq!(
+        LobattoFromLists::A,
+        [
+            [0.0; 3],
+            [5.0 / 24.0, 1.0 / 3.0, -1.0 / 24.0],
+            [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]
+        ]
+    );
+    assert_eq!(LobattoFromLists::A_TILDE[2], [1.0 / 6.0, 5.0 / 6.0, 0.0]);
+    assert_eq!(Midpoint::A, [[0.5]]);
+    // Table II.1.1: (88 − 7√6)/360 and (4 − √6)/10 are of Radau on the right with three stages; on the left the nodes
+    // are mirrored.
+    assert!((RadauLeft::C[1] - (6.0 - 6.0_f64.sqrt()) / 10.0).abs() < 1e-15);
+    assert_eq!(RadauLeft::B[0], 1.0 / 9.0);
+}
+
+#[test]
+fn a_method_from_a_file_steps_like_the_one_from_its_basis_and_nodes() -> Result<(), Error> {
+    fn same<M: Method, N: Method>(one: M, other: N) -> Result<bool, Error> {
+        let mut one = Integrator::new(one, Kepler, start::<f64>(0.6), 0.1)?;
+        let mut other = Integrator::new(other, Kepler, start::<f64>(0.6), 0.1)?;
+        let (one, other) = (one.integrate_to(20.0)?, other.integrate_to(20.0)?);
+        let bits = |x: f64, y: f64| x.to_bits() == y.to_bits();
+        let parts = [(&one.q, &other.q), (&one.p, &other.p)];
+        Ok(parts
+            .iter()
+            .all(|(x, y)| x.iter().zip(y.iter()).all(|(x, y)| bits(*x, *y))))
+    }
+    assert!(same(GaussFromFile, GaussFromRule)?);
+    assert!(same(LobattoFromFile, LobattoFromRule)?);
+    assert!(same(LobattoFromLists, LobattoFromRule)?);
+    assert!(same(LobattoFromOtherLists, LobattoFromRule)?);
+    assert!(
+        !same(GaussFromFile, LobattoFromFile)?,
+        "the comparison can fail"
+    );
+    Ok(())
+}
+
+#[test]
+fn a_file_says_what_it_was_derived_from() {
+    assert_eq!(
+        (GaussFromFile::BASIS, GaussFromFile::NODES),
+        ("polynomial(4)", "gauss(4)")
+    );
+    assert_eq!(GaussFromRule::NODES, GaussFromFile::NODES);
+    assert_eq!(RadauLeft::NODES, "radau-left(3)");
+}
+
+#[test]
+fn every_property_is_required_of_a_method_that_has_it() -> Result<(), symplectic_compiler::Error> {
+    // The requirements of `Verlet` and `Midpoint` above are all there are.
+    let verlet = derive(Verlet::BASIS, Verlet::NODES)?.properties();
+    let midpoint = derive(Midpoint::BASIS, Midpoint::NODES)?.properties();
+    let held: BTreeSet<&str> = verlet
+        .all()
+        .into_iter()
+        .filter_map(|(name, property)| property.holds.then_some(name))
+        .chain(midpoint.equal_matrices.holds.then_some("equal_matrices"))
+        .collect();
+    assert_eq!(held, Properties::NAMES.iter().copied().collect());
+    assert_eq!(
+        Properties::NAMES.len(),
+        9,
+        "a new property belongs into the list of `Verlet` or `Midpoint`"
+    );
+    Ok(())
+}
+
+#[test]
+fn attributes_reach_the_type() {
+    // `Hash` is derived by the attribute, the rest by the macro.
+    let mut set = HashSet::new();
+    assert!(set.insert(lower_case) && !set.insert(lower_case));
+    assert_eq!(format!("{lower_case:?}"), "lower_case");
+}
+
+mod inner {
+    use symplectic::Method;
+
+    symplectic::tableau! {
+        /// Everywhere in this crate.
+        pub(crate) Crate { basis: polynomial(1), nodes: [1] }
+        pub(super) Super { basis: polynomial(1), nodes: [1] }
+        pub Public { basis: polynomial(1), nodes: [1] }
+        Private { basis: polynomial(1), nodes: [1] }
+    }
+
+    pub(super) const NAME: &str = <Private as Method>::NAME;
+}
+
+mod other {
+    pub(super) struct Private;
+}
+
+#[test]
+fn visibilities_are_those_written() {
+    // Were the method `Private` visible here, this name would be ambiguous and not compile.
+    use inner::*;
+    use other::*;
+    let _ = Private;
+    assert_eq!(
+        [Crate::NAME, Super::NAME, Public::NAME],
+        ["Crate", "Super", "Public"]
+    );
+    assert_eq!(NAME, "Private");
+}
+
+#[test]
+fn a_macro_may_stand_in_a_function() {
+    symplectic::tableau! { Local { basis: polynomial(1), nodes: [1/2] } }
+    assert_eq!(Local::A, Midpoint::A);
+}
