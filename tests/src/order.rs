@@ -86,10 +86,25 @@ mod tests {
 
     #[test]
     fn one_pair_off_the_line_is_not_an_order() {
-        // Two of three pairs have slope 2, and so has the line through the ends.
-        let order = ObservedOrder::of(&[(0.8, 0.64), (0.4, 0.16), (0.2, 0.08), (0.1, 0.01)]);
-        assert!((order.slope - 2.0).abs() < 0.2, "{order}");
-        assert!(!order.shows(2.0, 0.25), "{order}");
+        let error = |i: i32| 4.0_f64.powi(-i) * if i == 5 { 2.0_f64.powf(0.15) } else { 1.0 };
+        let runs: Vec<(f64, f64)> = (0..6).map(|i| (2.0_f64.powi(-i), error(i))).collect();
+        let order = ObservedOrder::of(&runs);
+        // The fit alone would pass: one pair of five has slope 1.85.
+        assert!(
+            (order.slope - 2.0).abs() < 0.1 && order.correlation > 0.9999,
+            "{order}"
+        );
+        assert!(!order.shows(2.0, 0.1) && order.shows(2.0, 0.2), "{order}");
+    }
+
+    #[test]
+    fn scattered_points_are_not_an_order() {
+        let order = ObservedOrder::of(&[(0.4, 0.16), (0.2, 0.06), (0.1, 0.01)]);
+        assert!((order.slope - 2.0).abs() < 0.1, "{order}");
+        assert!(
+            order.correlation < 0.9999 && !order.shows(2.0, 1.0),
+            "{order}"
+        );
     }
 
     #[test]
