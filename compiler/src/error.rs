@@ -83,7 +83,7 @@ pub enum ErrorKind {
         expected: String,
     },
     /// An expression that would take more work than is allowed.
-    #[error("the expression is too large: {what} {size} exceeds the limit {limit}")]
+    #[error("this is too large: {what} {size} exceeds the limit {limit}")]
     ExpressionSize {
         /// What is too large.
         what: &'static str,
@@ -175,6 +175,14 @@ pub enum ErrorKind {
         basis: usize,
         /// The number of nodes.
         nodes: usize,
+    },
+    /// A coefficient beyond the largest double.
+    #[error(
+        "a coefficient is too large for a double, which makes it {value}; move the nodes apart"
+    )]
+    Overflow {
+        /// What it would be as a double.
+        value: String,
     },
     /// A vanishing weight, by which `ã` would divide.
     #[error(

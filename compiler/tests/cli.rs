@@ -96,7 +96,7 @@ fn irrational_and_long_entries_are_readable() {
 
         properties
           symplectic          yes  proved
-          symmetric           no   refuted  no order of the stages maps every c_i to 1 − c_i
+          symmetric           no   refuted  no order of the stages makes the tableau equal to its adjoint
           consistent          yes  proved
           equal_matrices      no   refuted  a_11 − ã_11 = 2/45 - sqrt(6)/90
           explicit            no   refuted  these stages need one another: Q1 → P1 → Q1

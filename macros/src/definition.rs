@@ -62,8 +62,14 @@ impl Parse for Definition {
 
 impl Parse for Field {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        let key: Ident = input.parse()?;
-        input.parse::<Token![:]>()?;
+        const KEY: &str =
+            "expected a key such as `nodes:`; a list stands in brackets: `[0, 1/2, 1]`";
+        let key: Ident = input
+            .parse()
+            .map_err(|error| syn::Error::new(error.span(), KEY))?;
+        input
+            .parse::<Token![:]>()
+            .map_err(|error| syn::Error::new(error.span(), KEY))?;
         let mut value = TokenStream::new();
         while !input.is_empty() && !input.peek(Token![,]) {
             value.extend([input.parse::<TokenTree>()?]);

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, quote};
 use symplectic_compiler::emit::{Header, method};
+use symplectic_compiler::export::read_text;
 use symplectic_compiler::{
     Basis, Evidence, Limits, Properties, QuadratureRule, Tableau, check, derive_from,
 };
@@ -96,7 +97,8 @@ fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
                 visibility: definition.visibility.to_token_stream(),
                 name: definition.name.clone(),
             };
-            let code = method(&tableau.named(definition.name.to_string()), &header);
+            let code = method(&tableau.named(definition.name.to_string()), &header)
+                .map_err(|kind| syn::Error::new(definition.name.span(), kind.to_string()))?;
             return Ok(quote!(#rebuild #code));
         }
     }
@@ -162,10 +164,10 @@ fn read(file: &Field, limits: &Limits) -> syn::Result<(Tableau, TokenStream)> {
     let root = std::env::var_os("CARGO_MANIFEST_DIR").map_or_else(PathBuf::new, PathBuf::from);
     let path = root.join(literal.value());
     let shown = path.display().to_string();
-    let text = std::fs::read_to_string(&path).map_err(|error| {
+    let text = read_text(&path).map_err(|error| {
         syn::Error::new(
             literal.span(),
-            format!("cannot read `{shown}`: {error}; the path is relative to the crate"),
+            format!("{error}; the path is relative to the crate"),
         )
     })?;
     let tableau = check(&literal.value(), &text, limits)
@@ -207,9 +209,13 @@ fn requirements(field: &Field, errors: &mut Errors) -> Vec<Ident> {
 }
 
 fn max_stages(field: &Field) -> syn::Result<Limits> {
-    let literal: LitInt = syn::parse2(field.value.clone())?;
-    Ok(Limits {
-        stages: literal.base10_parse()?,
+    let number =
+        syn::parse2::<LitInt>(field.value.clone()).and_then(|literal| literal.base10_parse());
+    number.map(|stages| Limits { stages }).map_err(|_| {
+        syn::Error::new_spanned(
+            &field.value,
+            "expected a number of stages: `max_stages: 40`",
+        )
     })
 }
 

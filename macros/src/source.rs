@@ -19,7 +19,7 @@ impl Source {
             text: String::new(),
             spans: Vec::new(),
         };
-        source.append(tokens);
+        source.append(unwrapped(tokens));
         source
     }
 
@@ -42,7 +42,8 @@ impl Source {
                 Delimiter::Parenthesis => ["(", ")"],
                 Delimiter::Bracket => ["[", "]"],
                 Delimiter::Brace => ["{", "}"],
-                Delimiter::None => ["", ""],
+                // What another macro put in is one operand, whatever stands around it.
+                Delimiter::None => ["(", ")"],
             };
             self.push(open, group.span_open());
             self.append(group.stream());
@@ -79,5 +80,16 @@ impl Source {
             .map(|span| TokenTree::Ident(Ident::new("part", span)))
             .collect();
         syn::Error::new_spanned(about, &error.kind)
+    }
+}
+
+/// The tokens without the invisible group that another macro put around all of them.
+fn unwrapped(tokens: TokenStream) -> TokenStream {
+    let mut trees = tokens.clone().into_iter();
+    match (trees.next(), trees.next()) {
+        (Some(TokenTree::Group(group)), None) if group.delimiter() == Delimiter::None => {
+            unwrapped(group.stream())
+        }
+        _ => tokens,
     }
 }

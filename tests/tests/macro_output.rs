@@ -199,3 +199,16 @@ fn a_macro_may_stand_in_a_function() {
     symplectic::tableau! { Local { basis: polynomial(1), nodes: [1/2] } }
     assert_eq!(Local::A, Midpoint::A);
 }
+
+macro_rules! with_function {
+    ($name:ident, $function:expr) => {
+        symplectic::tableau! { $name { basis: [1, 2 * $function], nodes: [0, 1] } }
+    };
+}
+
+with_function!(FromAnotherMacro, 1 + t);
+
+#[test]
+fn what_another_macro_puts_in_is_one_operand() {
+    assert_eq!(FromAnotherMacro::BASIS, "1, 2*t + 2");
+}

@@ -169,9 +169,10 @@ impl<'a> Number<'a> {
             }
             let (a, b) = (value(&below), value(&above));
             let middle = (&a + &b) / ratio(2, 1);
-            // Ends that are close compared with the distance of what they round to are on both sides
-            // of the middle between neighbours.
-            let narrow = (high - low) * ratio(4, 1) < (b - a).abs();
+            // Ends that are close compared with the distance of what they round to are on both sides of
+            // the middle between neighbours. That close, they hardly ever are unless the number is the
+            // middle: the exact test is expensive, so it has to be worth it.
+            let narrow = (high - low) * exact(2f64.powi(64)) < (b - a).abs();
             if decided && narrow && excluded.as_ref() != Some(&middle) {
                 if self.equals(&middle) {
                     return round(&middle);

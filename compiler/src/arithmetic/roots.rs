@@ -180,7 +180,7 @@ enum Refined {
     Within(Interval),
 }
 
-/// An interval of width at most `2⁻ᵇⁱᵗˢ` around an irrational root, inside its isolating interval.
+/// An interval around a root with this number of binary places, at most two units wide.
 ///
 /// `polynomial` is the squarefree polynomial that the root was isolated for.
 pub fn enclose(polynomial: &Polynomial, root: &Root, bits: u32) -> Interval {

@@ -9,8 +9,9 @@ mod literal;
 mod plan;
 
 use proc_macro2::{Ident, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 
+use crate::error::ErrorKind;
 use crate::schedule::Class;
 use crate::tableau::Tableau;
 
@@ -26,7 +27,15 @@ pub struct Header {
 }
 
 /// The type of a method with its coefficients and its plans.
-pub fn method(tableau: &Tableau, header: &Header) -> TokenStream {
+///
+/// # Errors
+/// [`ErrorKind::Overflow`] where a coefficient is beyond the largest double.
+pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKind> {
+    if let Some(&value) = tableau.to_f64().iter().find(|value| !value.is_finite()) {
+        return Err(ErrorKind::Overflow {
+            value: value.to_string(),
+        });
+    }
     let Header {
         attributes,
         visibility,
@@ -39,9 +48,12 @@ pub fn method(tableau: &Tableau, header: &Header) -> TokenStream {
     let provenance = tableau.provenance();
     let (basis, nodes) = (&provenance.basis, &provenance.nodes);
     let numbers = tableau.numbers();
-    let general = plan::implementation(Class::General, tableau, &numbers, "GeneralPlan");
-    let separable = plan::implementation(Class::Separable, tableau, &numbers, "SeparablePlan");
-    quote! {
+    // The plans are named after the method, so that they are not the method.
+    let [general_plan, separable_plan] =
+        ["General", "Separable"].map(|class| format_ident!("{name}{class}"));
+    let general = plan::implementation(Class::General, tableau, &numbers, &general_plan);
+    let separable = plan::implementation(Class::Separable, tableau, &numbers, &separable_plan);
+    Ok(quote! {
         #attributes
         #[doc = #documentation]
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -57,15 +69,15 @@ pub fn method(tableau: &Tableau, header: &Header) -> TokenStream {
                 const STAGES: usize = #stages;
                 const BASIS: &'static str = #basis;
                 const NODES: &'static str = #nodes;
-                type General = GeneralPlan;
-                type Separable = SeparablePlan;
+                type General = #general_plan;
+                type Separable = #separable_plan;
             }
 
             #general
 
             #separable
         };
-    }
+    })
 }
 
 /// The coefficients as constants, each the double nearest to the exact value.

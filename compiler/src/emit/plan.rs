@@ -1,6 +1,6 @@
 //! The plan of a step for one class of Hamiltonians, as code.
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::literal::{array, identifier};
@@ -14,11 +14,10 @@ pub(super) fn implementation(
     class: Class,
     tableau: &Tableau,
     numbers: &Coefficients<Number<'_>>,
-    name: &str,
+    name: &Ident,
 ) -> TokenStream {
     let graph = StepGraph::new(class, tableau, numbers);
     let phases = Phases::new(&graph);
-    let name = identifier(name);
     let class = identifier(match class {
         Class::General => "General",
         Class::Separable => "Separable",
@@ -280,15 +279,20 @@ impl<'g, 'a> Phases<'g, 'a> {
         let first = nodes
             .iter()
             .filter(|&&node| self.begin.contains(&node) && sees_only(node, &at_start, 0));
-        first
-            .filter_map(|&first| {
-                let same_kind = |node: &&Node| evaluation_name(**node) == evaluation_name(first);
-                let last = nodes.iter().filter(same_kind).find(|&&node| {
-                    self.finish.contains(&node) && sees_only(node, &|n| self.is_aliased(n), 1)
-                });
-                last.map(|&last| (first, last))
-            })
-            .collect()
+        let mut carried: Vec<(Node, Node)> = Vec::new();
+        for &first in first {
+            let is_last = |node: &&Node| {
+                evaluation_name(**node) == evaluation_name(first)
+                    && self.finish.contains(node)
+                    && sees_only(**node, &|n| self.is_aliased(n), 1)
+                    // An evaluation can take the place of one other only.
+                    && carried.iter().all(|(_, taken)| taken != *node)
+            };
+            if let Some(&last) = nodes.iter().find(is_last) {
+                carried.push((first, last));
+            }
+        }
+        carried
     }
 
     fn carry(&self) -> TokenStream {
@@ -346,7 +350,7 @@ fn base(node: Node) -> TokenStream {
     }
 }
 
-fn evaluation_name(node: Node) -> proc_macro2::Ident {
+fn evaluation_name(node: Node) -> Ident {
     identifier(match node {
         Node::Force(_) | Node::Position(_) => "force",
         Node::Velocity(_) | Node::Momentum(_) => "velocity",

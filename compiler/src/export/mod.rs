@@ -6,6 +6,11 @@
 //! | JSON | [`json::write`] | [`json::read`] | short exact forms, decimals, doubles, the properties |
 //! | TOML | [`toml::write`] | [`toml::read`] | all exact data, decimals, the properties |
 
+use std::io::Read;
+use std::path::Path;
+
+use crate::error::{Error, ErrorKind};
+
 mod entries;
 pub mod json;
 mod layout;
@@ -21,3 +26,32 @@ pub const DEFAULT_DIGITS: usize = 40;
 pub const TEXT_DIGITS: usize = 16;
 /// The most significant digits of a decimal that can be asked for.
 pub const MAX_DIGITS: usize = 10_000;
+
+/// The largest table file that is read, in bytes; one of 32 stages has about 1 MB.
+const MAX_FILE: u64 = 64 << 20;
+
+/// The text of a table file.
+///
+/// # Errors
+/// [`ErrorKind::Document`] where the file cannot be read, is too large or is no UTF-8 text.
+pub fn read_text(path: &Path) -> Result<String, Error> {
+    let bad = |message: String| Error::from(ErrorKind::Document { message });
+    let name = path.display();
+    let unreadable = |error: std::io::Error| bad(format!("cannot read `{name}`: {error}"));
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(unreadable)?;
+    file.take(MAX_FILE + 1)
+        .read_to_end(&mut bytes)
+        .map_err(unreadable)?;
+    if bytes.len() as u64 > MAX_FILE {
+        return Err(bad(format!(
+            "`{name}` is longer than {MAX_FILE} bytes, so it is no table file"
+        )));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        bad(format!(
+            "`{name}` is no UTF-8 text: the byte at offset {valid} is wrong"
+        ))
+    })
+}

@@ -116,10 +116,9 @@ fn number(input: Input<'_>, span: Range<usize>) -> Result<BigRational, Error> {
         .ok()
         .filter(|e| e.abs() <= limit)
         .ok_or_else(|| {
-            let kind = ErrorKind::ExpressionSize {
-                what: "the exponent of the number",
-                size: exponent.len(),
-                limit: 3,
+            let kind = ErrorKind::Type {
+                found: format!("a number with the exponent {}", super::shown(exponent)),
+                expected: format!("one from -{limit} to {limit}"),
             };
             input.error(&span, kind)
         })?;

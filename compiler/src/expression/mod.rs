@@ -28,6 +28,8 @@ pub use parser::parse_list;
 pub const MAX_LENGTH: usize = 100_000;
 /// The deepest nesting of parentheses and signs.
 pub const MAX_DEPTH: usize = 64;
+/// The highest syntax tree; a sum of as many terms is as high.
+pub const MAX_HEIGHT: usize = 256;
 /// The largest exponent of a power, and of a number such as `1e-300`.
 pub const MAX_EXPONENT: u32 = 400;
 /// The largest degree of a polynomial.
@@ -42,6 +44,26 @@ pub struct Expression {
     pub kind: ExpressionKind,
     /// Where it stands.
     pub span: Range<usize>,
+    /// The height of the tree, which bounds every recursion over it.
+    height: usize,
+}
+
+impl Expression {
+    fn new(kind: ExpressionKind, span: Range<usize>) -> Self {
+        let below = match &kind {
+            ExpressionKind::Number(_) | ExpressionKind::Name(_) => 0,
+            ExpressionKind::Call { arguments, .. } => {
+                arguments.iter().map(|a| a.height).max().unwrap_or(0)
+            }
+            ExpressionKind::Negate(inner) => inner.height,
+            ExpressionKind::Binary { left, right, .. } => left.height.max(right.height),
+        };
+        Expression {
+            kind,
+            span,
+            height: below + 1,
+        }
+    }
 }
 
 /// The kinds of expressions.

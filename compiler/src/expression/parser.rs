@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::lexer::{Token, tokenize};
-use super::{Expression, ExpressionKind, Input, MAX_DEPTH, Operator};
+use super::{Expression, ExpressionKind, Input, MAX_DEPTH, MAX_HEIGHT, Operator};
 use crate::error::{Error, ErrorKind};
 
 /// Reads a list of expressions, with or without brackets around it.
@@ -131,16 +131,17 @@ impl Parser<'_> {
         operand: fn(&mut Self) -> Result<Expression, Error>,
     ) -> Result<Expression, Error> {
         let mut left = operand(self)?;
-        // The tree of `1 + 1 + …` is as deep as the chain is long, and later passes recurse on it.
-        let mut length = 0;
         while let Some(&(_, operator)) = operators
             .iter()
             .find(|(symbol, _)| self.peek().0 == Token::Symbol(*symbol))
         {
             self.next += 1;
-            length += 1;
-            self.check_size("its number of operators in a row", length, 4 * MAX_DEPTH)?;
             left = binary(operator, left, operand(self)?);
+            self.check_size(
+                "its number of operators in a row and inside one another",
+                left.height,
+                MAX_HEIGHT,
+            )?;
         }
         Ok(left)
     }
@@ -151,10 +152,7 @@ impl Parser<'_> {
         let factor = if let Some(minus) = self.accept('-') {
             let inner = self.factor()?;
             let span = minus.start..inner.span.end;
-            Expression {
-                kind: ExpressionKind::Negate(Box::new(inner)),
-                span,
-            }
+            Expression::new(ExpressionKind::Negate(Box::new(inner)), span)
         } else if self.accept('+').is_some() {
             self.factor()?
         } else {
@@ -173,39 +171,31 @@ impl Parser<'_> {
         match token {
             Token::Number(value) => {
                 self.next += 1;
-                Ok(Expression {
-                    kind: ExpressionKind::Number(value),
-                    span,
-                })
+                Ok(Expression::new(ExpressionKind::Number(value), span))
             }
             Token::Name(name) => {
                 self.next += 1;
                 let Some(open) = self.accept('(') else {
-                    return Ok(Expression {
-                        kind: ExpressionKind::Name(name),
-                        span,
-                    });
+                    return Ok(Expression::new(ExpressionKind::Name(name), span));
                 };
                 let empty = self.peek().0 == Token::Symbol(')');
                 let arguments = if empty { Vec::new() } else { self.items()? };
                 let close = self.close(open, ['(', ')'], "an operator, `,`")?;
                 let whole = span.start..close.end;
-                Ok(Expression {
-                    kind: ExpressionKind::Call {
-                        function: name,
-                        name: span,
-                        arguments,
-                    },
-                    span: whole,
-                })
+                let kind = ExpressionKind::Call {
+                    function: name,
+                    name: span,
+                    arguments,
+                };
+                Ok(Expression::new(kind, whole))
             }
             Token::Symbol('(') => {
                 self.next += 1;
                 let inner = self.expression()?;
                 let close = self.close(span.clone(), ['(', ')'], "an operator")?;
                 Ok(Expression {
-                    kind: inner.kind,
                     span: span.start..close.end,
+                    ..inner
                 })
             }
             Token::Symbol(c @ (')' | ']')) if self.next == 0 => {
@@ -235,12 +225,12 @@ impl Parser<'_> {
 
 fn binary(operator: Operator, left: Expression, right: Expression) -> Expression {
     let span = left.span.start..right.span.end;
-    Expression {
-        kind: ExpressionKind::Binary {
+    Expression::new(
+        ExpressionKind::Binary {
             operator,
             left: Box::new(left),
             right: Box::new(right),
         },
         span,
-    }
+    )
 }

@@ -25,7 +25,7 @@ pub enum Evidence {
     Proved,
     /// It does not hold, by exact arithmetic or by an enclosure that excludes it.
     Refuted,
-    /// Its equations hold up to `2⁻ᵇⁱᵗˢ`; that is no proof.
+    /// Known only up to enclosures of width `2⁻ᵇⁱᵗˢ`; that is no proof.
     Verified {
         /// The width of the enclosures.
         bits: u32,

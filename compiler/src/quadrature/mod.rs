@@ -20,7 +20,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use crate::algebra::{ClosedForm, NodeAlgebra, closed_form};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::error::{Error, ErrorKind};
-use crate::expression::{Expression, ExpressionKind, Input, parse_list};
+use crate::expression::{Expression, ExpressionKind, Input, parse_list, shown};
 use crate::limits::Limits;
 
 /// A family of rules with one member for each number of nodes.
@@ -40,6 +40,10 @@ pub struct Family {
     #[cfg(test)]
     degree_of_precision: fn(usize) -> usize,
 }
+
+/// The longest node polynomial that a list of nodes may have: the time of a derivation grows with the
+/// length of its coefficients as with the number of stages.
+const MAX_NODE_BITS: usize = 1024;
 
 /// All families.
 pub const FAMILIES: [&Family; 8] = [
@@ -123,7 +127,7 @@ impl QuadratureRule {
                         return Err(input.error(
                             &item.span,
                             ErrorKind::NodeOutside {
-                                node: node.to_string(),
+                                node: shown(&node.to_string()),
                             },
                         ));
                     }
@@ -131,11 +135,21 @@ impl QuadratureRule {
                         return Err(input.error(
                             &item.span,
                             ErrorKind::EqualNodes {
-                                node: node.to_string(),
+                                node: shown(&node.to_string()),
                             },
                         ));
                     }
                     nodes.push(node);
+                }
+                let size = nodes.iter().map(|node| node.denom().bits() as usize).sum();
+                if size > MAX_NODE_BITS {
+                    let what = "the length of all denominators together in bits";
+                    let kind = ErrorKind::ExpressionSize {
+                        what,
+                        size,
+                        limit: MAX_NODE_BITS,
+                    };
+                    return Err(input.error(&(0..text.len()), kind));
                 }
                 nodes.sort();
                 let name = nodes
@@ -263,7 +277,7 @@ pub(crate) fn check_stages(stages: &BigInt, limits: &Limits) -> Result<usize, Er
         .to_usize()
         .filter(|&s| s <= limits.stages)
         .ok_or_else(|| ErrorKind::TooManyStages {
-            stages: crate::expression::shown(&stages.to_string()),
+            stages: shown(&stages.to_string()),
             limit: limits.stages,
         })
 }

@@ -49,12 +49,12 @@ const _: () = {
         const STAGES: usize = 2;
         const BASIS: &'static str = "polynomial(2)";
         const NODES: &'static str = "gauss(2)";
-        type General = GeneralPlan;
-        type Separable = SeparablePlan;
+        type General = Gauss2General;
+        type Separable = Gauss2Separable;
     }
-    pub struct GeneralPlan;
+    pub struct Gauss2General;
     #[allow(unused_variables)]
-    impl ::symplectic::Plan for GeneralPlan {
+    impl ::symplectic::Plan for Gauss2General {
         type Class = ::symplectic::General;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;
@@ -158,9 +158,9 @@ const _: () = {
             false
         }
     }
-    pub struct SeparablePlan;
+    pub struct Gauss2Separable;
     #[allow(unused_variables)]
-    impl ::symplectic::Plan for SeparablePlan {
+    impl ::symplectic::Plan for Gauss2Separable {
         type Class = ::symplectic::Separable;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;

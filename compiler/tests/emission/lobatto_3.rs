@@ -57,12 +57,12 @@ const _: () = {
         const STAGES: usize = 3;
         const BASIS: &'static str = "polynomial(3)";
         const NODES: &'static str = "lobatto(3)";
-        type General = GeneralPlan;
-        type Separable = SeparablePlan;
+        type General = Lobatto3General;
+        type Separable = Lobatto3Separable;
     }
-    pub struct GeneralPlan;
+    pub struct Lobatto3General;
     #[allow(unused_variables)]
-    impl ::symplectic::Plan for GeneralPlan {
+    impl ::symplectic::Plan for Lobatto3General {
         type Class = ::symplectic::General;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 3, 3>;
@@ -176,9 +176,9 @@ const _: () = {
             false
         }
     }
-    pub struct SeparablePlan;
+    pub struct Lobatto3Separable;
     #[allow(unused_variables)]
-    impl ::symplectic::Plan for SeparablePlan {
+    impl ::symplectic::Plan for Lobatto3Separable {
         type Class = ::symplectic::Separable;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 3, 3>;

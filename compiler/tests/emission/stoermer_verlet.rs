@@ -44,12 +44,12 @@ const _: () = {
         const STAGES: usize = 2;
         const BASIS: &'static str = "polynomial(2)";
         const NODES: &'static str = "lobatto(2)";
-        type General = GeneralPlan;
-        type Separable = SeparablePlan;
+        type General = StoermerVerletGeneral;
+        type Separable = StoermerVerletSeparable;
     }
-    pub struct GeneralPlan;
+    pub struct StoermerVerletGeneral;
     #[allow(unused_variables)]
-    impl ::symplectic::Plan for GeneralPlan {
+    impl ::symplectic::Plan for StoermerVerletGeneral {
         type Class = ::symplectic::General;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;
@@ -134,9 +134,9 @@ const _: () = {
             false
         }
     }
-    pub struct SeparablePlan;
+    pub struct StoermerVerletSeparable;
     #[allow(unused_variables)]
-    impl ::symplectic::Plan for SeparablePlan {
+    impl ::symplectic::Plan for StoermerVerletSeparable {
         type Class = ::symplectic::Separable;
         type Coupling = ::symplectic::Explicit;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 1>;

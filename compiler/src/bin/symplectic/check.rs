@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use symplectic_compiler::{Error, ErrorKind, Limits, check};
+use symplectic_compiler::{Error, Limits, check, export};
 
 use crate::output;
 use crate::report;
@@ -16,8 +16,8 @@ pub(crate) struct Arguments {
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// The most stages that a file may have.
-    #[arg(long, value_name = "S")]
-    max_stages: Option<usize>,
+    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    max_stages: Option<u16>,
 }
 
 /// Checks every file; the exit status is that of the worst.
@@ -40,16 +40,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
 }
 
 fn check_file(path: &Path, limits: &Limits) -> Result<String, Error> {
-    let bad = |message: String| Error::from(ErrorKind::Document { message });
     let name = path.display().to_string();
-    let bytes =
-        std::fs::read(path).map_err(|error| bad(format!("cannot read `{name}`: {error}")))?;
-    let text = String::from_utf8(bytes).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        bad(format!(
-            "`{name}` is no UTF-8 text: the byte at offset {valid} is wrong"
-        ))
-    })?;
+    let text = export::read_text(path)?;
     let tableau = check(&name, &text, limits)?;
     let called = tableau.name().unwrap_or("a tableau without a name");
     Ok(match tableau.stages() {

@@ -28,8 +28,8 @@ pub(crate) struct OutputOptions {
     #[arg(long, value_name = "D", value_parser = digits)]
     digits: Option<usize>,
     /// The most stages that are derived [default: 32].
-    #[arg(long, value_name = "S")]
-    max_stages: Option<usize>,
+    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    max_stages: Option<u16>,
 }
 
 impl OutputOptions {
@@ -47,10 +47,10 @@ impl OutputOptions {
     }
 }
 
-pub(crate) fn limits(max_stages: Option<usize>) -> Limits {
+pub(crate) fn limits(max_stages: Option<u16>) -> Limits {
     let mut limits = Limits::default();
     if let Some(stages) = max_stages {
-        limits.stages = stages;
+        limits.stages = stages.into();
     }
     limits
 }

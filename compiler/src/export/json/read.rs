@@ -77,7 +77,8 @@ struct Document<'a> {
     stages: Leaf<'a>,
     basis: Leaf<'a>,
     nodes: Leaf<'a>,
-    source: Leaf<'a>,
+    #[serde(default)]
+    source: Option<Leaf<'a>>,
     c: Vec<Number<'a>>,
     c_tilde: Vec<Number<'a>>,
     b: Vec<Number<'a>>,
@@ -144,6 +145,28 @@ impl<'de: 'a, 'a> Deserialize<'de> for PropertyList<'a> {
     }
 }
 
+/// What a value may be.
+#[derive(Clone, Copy)]
+enum Types {
+    Bool,
+    Number,
+    NumberOrNull,
+    String,
+    StringOrNull,
+}
+
+impl Types {
+    fn expected(self) -> &'static str {
+        match self {
+            Types::Bool => "expected true or false",
+            Types::Number => "expected a number",
+            Types::NumberOrNull => "expected a number or null",
+            Types::String => "expected a string",
+            Types::StringOrNull => "expected a string or null",
+        }
+    }
+}
+
 impl<'a> Leaf<'a> {
     /// The bytes of the text that the value stands in.
     fn span(&self, text: &str) -> Range<usize> {
@@ -153,16 +176,28 @@ impl<'a> Leaf<'a> {
     }
 
     fn value(&self) -> Value {
-        // It was read as JSON before; only a depth that no tableau has can be refused here.
-        serde_json::from_str(self.0.get()).unwrap_or(Value::Null)
+        // It was read as JSON before; only a depth that no tableau has can be refused here, and what
+        // is as deep as that has no type that a tableau has.
+        serde_json::from_str(self.0.get()).unwrap_or(Value::Array(Vec::new()))
     }
 
-    fn entry(&self, file: Input<'a>, name: impl Into<String>) -> Entry {
-        let value = match self.value() {
-            Value::String(text) => text,
-            other => other.to_string(),
+    /// The value for comparison, which has to be of the type that its key has.
+    fn entry(
+        &self,
+        file: Input<'a>,
+        name: impl Into<String>,
+        types: Types,
+    ) -> Result<Entry, Error> {
+        let value = match (self.value(), types) {
+            // Not the same as no value.
+            (Value::String(text), Types::StringOrNull) if text == "null" => format!("{text:?}"),
+            (Value::String(text), Types::String | Types::StringOrNull) => text,
+            (value @ Value::Bool(_), Types::Bool) => value.to_string(),
+            (value @ Value::Number(_), Types::Number | Types::NumberOrNull) => value.to_string(),
+            (value @ Value::Null, Types::StringOrNull | Types::NumberOrNull) => value.to_string(),
+            _ => return Err(self.error(file, types.expected())),
         };
-        Entry::new(name, value, self.span(file.text))
+        Ok(Entry::new(name, value, self.span(file.text)))
     }
 
     fn error(&self, file: Input<'_>, message: &str) -> Error {
@@ -205,7 +240,10 @@ impl<'a> Document<'a> {
             name: self.name.optional_string(file)?,
             basis: (self.basis.string(file)?, self.basis.span(file.text)),
             nodes: (self.nodes.string(file)?, self.nodes.span(file.text)),
-            source: self.source.optional_string(file)?,
+            source: self
+                .source
+                .as_ref()
+                .map_or(Ok(None), |source| source.optional_string(file))?,
         })
     }
 
@@ -235,9 +273,9 @@ impl<'a> Document<'a> {
             return Err(file.error(&self.stages.span(file.text), kind));
         }
         let mut entries = vec![
-            self.stages.entry(file, "stages"),
-            self.basis.entry(file, "basis"),
-            self.nodes.entry(file, "nodes"),
+            self.stages.entry(file, "stages", Types::Number)?,
+            self.basis.entry(file, "basis", Types::String)?,
+            self.nodes.entry(file, "nodes", Types::String)?,
         ];
         let shape = |name: &str, found: usize| {
             let message = format!("`{name}` has {found} entries, but there are {stages} stages");
@@ -248,16 +286,29 @@ impl<'a> Document<'a> {
             }
         };
         let mut number = |name: String, number: &Number<'a>| {
-            entries.push(number.exact.entry(file, format!("{name} (exact)")));
-            entries.push(number.decimal.entry(file, format!("{name} (decimal)")));
-            entries.push(number.f64.entry(file, format!("{name} (f64)")));
+            entries.push(number.exact.entry(
+                file,
+                format!("{name} (exact)"),
+                Types::StringOrNull,
+            )?);
+            entries.push(
+                number
+                    .decimal
+                    .entry(file, format!("{name} (decimal)"), Types::String)?,
+            );
+            entries.push(
+                number
+                    .f64
+                    .entry(file, format!("{name} (f64)"), Types::String)?,
+            );
+            Ok::<_, Error>(())
         };
         for (name, table) in self.tables() {
             match table {
                 Table::Vector(vector) => {
                     shape(name, vector.len())?;
                     for (i, entry) in vector.iter().enumerate() {
-                        number(format!("{name}_{}", i + 1), entry);
+                        number(format!("{name}_{}", i + 1), entry)?;
                     }
                 }
                 Table::Matrix(rows) => {
@@ -265,7 +316,7 @@ impl<'a> Document<'a> {
                     for (i, row) in rows.iter().enumerate() {
                         shape(&format!("row {} of {name}", i + 1), row.len())?;
                         for (j, entry) in row.iter().enumerate() {
-                            number(format!("{name}_{}", subscript(i + 1, j + 1)), entry);
+                            number(format!("{name}_{}", subscript(i + 1, j + 1)), entry)?;
                         }
                     }
                 }
@@ -273,13 +324,13 @@ impl<'a> Document<'a> {
         }
         for (name, property) in &self.properties.0 {
             let fields = [
-                ("holds", &property.holds),
-                ("evidence", &property.evidence),
-                ("bits", &property.bits),
-                ("witness", &property.witness),
+                ("holds", &property.holds, Types::Bool),
+                ("evidence", &property.evidence, Types::String),
+                ("bits", &property.bits, Types::NumberOrNull),
+                ("witness", &property.witness, Types::StringOrNull),
             ];
-            for (field, leaf) in fields {
-                entries.push(leaf.entry(file, format!("{name} ({field})")));
+            for (field, leaf, types) in fields {
+                entries.push(leaf.entry(file, format!("{name} ({field})"), types)?);
             }
         }
         Ok(entries)

@@ -70,6 +70,9 @@ struct PropertyEntry {
     witness: Option<Spanned<String>>,
 }
 
+/// What stands for a key that is not there.
+const ABSENT: &str = "nothing";
+
 impl Document {
     /// Reads the keys and shapes of a file.
     ///
@@ -242,17 +245,22 @@ impl Document {
             for (key, property) in properties.filter(|(key, _)| key.get_ref() == name) {
                 // An absent key has the place of the property.
                 let absent =
-                    |field: &str| Entry::new(format!("{name} ({field})"), "nothing", key.span());
+                    |field: &str| Entry::new(format!("{name} ({field})"), ABSENT, key.span());
                 let optional =
                     |field: &str, entry: Option<Entry>| entry.unwrap_or_else(|| absent(field));
                 let label = |field: &str| format!("{name} ({field})");
+                // A witness that says so is not the same as none.
+                let stated = |text: &Spanned<String>| match text.get_ref().as_str() {
+                    ABSENT => Entry::new(label("witness"), format!("{ABSENT:?}"), text.span()),
+                    _ => one(label("witness"), text),
+                };
                 let bits = property.bits.as_ref();
                 let witness = property.witness.as_ref();
                 entries.extend([
                     one(label("holds"), &property.holds),
                     one(label("evidence"), &property.evidence),
                     optional("bits", bits.map(|bits| one(label("bits"), bits))),
-                    optional("witness", witness.map(|text| one(label("witness"), text))),
+                    optional("witness", witness.map(stated)),
                 ]);
             }
         }

@@ -1,0 +1,48 @@
+//! What a step leaves for the next one is what the next one would compute.
+
+use symplectic::nalgebra::Vector1;
+use symplectic::{Error, Integrator, Method, State, separable};
+use symplectic_tests::methods::{Lobatto3, Lobatto4, StoermerVerlet, SymplecticEuler};
+
+symplectic::tableau! {
+    /// b = (1/2, −1/2, 1/2, 1/2) and a_ij = μ_ij b_j with rows (0 0 0 0), (1 1 0 0), (1 1 1 1), (1 1 1 1) of μ: the
+    /// velocities of the first two stages cancel, so that both of these stages start the step, and both of the others
+    /// end it.
+    TwoAtEachEnd {
+        basis: [347/4 - 52085/16*t + 10744775/288*t^2 - 58609625/288*t^3 + 355821875/576*t^4 - 106028125/96*t^5 + 13890625/12*t^6 - 94765625/144*t^7 + 30078125/192*t^8,
+            -667/4 + 299935/48*t - 20764775/288*t^2 + 114727625/288*t^3 - 706859375/576*t^4 + 213728125/96*t^5 - 18921875/8*t^6 + 196015625/144*t^7 - 62890625/192*t^8,
+            467/4 - 221935/48*t + 16333475/288*t^2 - 32023375/96*t^3 + 627165625/576*t^4 - 66471875/32*t^5 + 331515625/144*t^6 - 21953125/16*t^7 + 65234375/192*t^8,
+            607/4 - 289495/48*t + 21399275/288*t^2 - 42176375/96*t^3 + 830978125/576*t^4 - 88646875/32*t^5 + 445046875/144*t^6 - 88984375/48*t^7 + 88671875/192*t^8],
+        nodes: [1/5, 2/5, 3/5, 4/5],
+        require: [symplectic, explicit]
+    }
+}
+
+/// Runs a few steps in a row, and the same steps each begun anew from the state so far.
+fn compare<M: Method>(method: M) -> Result<(), Error> {
+    let system = || {
+        separable::<Vector1<f64>, _, _>(
+            |_, p, velocity| velocity[0] = p[0] + p[0].powi(3) / 7.0,
+            |_, q, force| force[0] = -q[0].sin(),
+        )
+    };
+    let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.25));
+    let mut in_a_row = Integrator::new(method, system(), start.clone(), 0.125)?;
+    let mut anew = Integrator::new(method, system(), start, 0.125)?;
+    for _ in 0..5 {
+        let state = in_a_row.step()?.clone();
+        assert_eq!(*anew.step()?, state, "{}", M::NAME);
+        // A state that is put in carries nothing over.
+        anew.set_state(state)?;
+    }
+    Ok(())
+}
+
+#[test]
+fn steps_in_a_row_are_steps_begun_anew() -> Result<(), Error> {
+    compare(TwoAtEachEnd)?;
+    compare(StoermerVerlet)?;
+    compare(SymplecticEuler)?;
+    compare(Lobatto3)?;
+    compare(Lobatto4)
+}
