@@ -236,6 +236,19 @@ mod tests {
         assert_eq!(nodes[1].to_f64(), 0.5 + 3f64.sqrt() / 6.0);
     }
 
+    /// At these lengths an early enclosure often meets the middle between two decimals by chance.
+    #[test]
+    fn near_ties_are_not_taken_for_ties() {
+        let gauss = crate::derive("polynomial(8)", "gauss(8)").expect("derived");
+        for digits in [55, 56, 57, 58, 59, 60, 61, 62, 121, 122, 123] {
+            for number in gauss.numbers().iter() {
+                // Far more places than it takes, and another route.
+                let fine = Decimal::round(&number.enclose(2000).low(), digits);
+                assert_eq!(number.decimal(digits), fine);
+            }
+        }
+    }
+
     #[test]
     fn ties_and_zeros_of_irrational_nodes_are_decided() {
         let k = algebra();
