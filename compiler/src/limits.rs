@@ -2,7 +2,7 @@
 
 /// Bounds on the work that an input can ask for.
 ///
-/// The derivation of `s` stages takes time that grows like `s³` to `s⁴`, and with the length of the
+/// The derivation of `s` stages takes time that grows roughly like `s³`, and with the length of the
 /// nodes (the README has measured figures).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
