@@ -96,12 +96,6 @@ impl Tensor {
         }
     }
 
-    /// The matrix with column `j` multiplied by `f(c_j)`.
-    #[must_use]
-    pub fn scale_columns(&self, algebra: &NodeAlgebra, factor: &Polynomial) -> Tensor {
-        self.transpose().scale_rows(algebra, factor).transpose()
-    }
-
     /// The sums along the rows `Σ_j T(x, c_j) f(c_j)`, by the trace in `y`.
     pub fn apply(&self, algebra: &NodeAlgebra, factor: &Polynomial) -> Polynomial {
         self.columns
@@ -237,7 +231,6 @@ mod tests {
                     prop_assert_eq!(entry(&t.add(&u), x, y), &a + &b);
                     prop_assert_eq!(entry(&t.subtract(&u), x, y), &a - &b);
                     prop_assert_eq!(entry(&t.scale_rows(&k, &f), x, y), &a * f.evaluate(x));
-                    prop_assert_eq!(entry(&t.scale_columns(&k, &f), x, y), &a * f.evaluate(y));
                     let mirrored = t.substitute(&k, &reflection);
                     prop_assert_eq!(entry(&mirrored, x, y), entry(&t, &reflection.evaluate(x), &reflection.evaluate(y)));
                 }
