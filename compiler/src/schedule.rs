@@ -94,46 +94,22 @@ impl<'a> StepGraph<'a> {
         let algebra = &*tableau.algebra;
         let groups = Groups::new(class, tableau);
         let adjoint = tableau.adjoint();
-        // The sum of one row's entries over the stages that an evaluation stands for.
-        let merged =
-            |matrix: &Tensor, entries: &[Vec<Number<'a>>], row: usize, group: &[usize]| match group
-            {
-                [single] => entries[row][*single].clone(),
-                _ => Number::at(
-                    algebra,
-                    sum(group, |j| {
-                        rational(algebra, j).map(|node| matrix.column_at(node))
-                    }),
-                    row,
-                ),
-            };
         let values = |stages: &[Vec<usize>],
                       evaluations: &[Vec<usize>],
                       (matrix, entries): (&Tensor, &[Vec<Number<'a>>]),
                       complement: &Tensor| {
             let rest = Number::of_tensor(algebra, complement);
-            // Whether a row is the row of weights: nothing is left of the complement b_j − a_ij.
-            let is_end = |row: usize| {
-                let vanishes = |group: &Vec<usize>| match group.as_slice() {
-                    [single] => rest[row][*single].is_zero(),
-                    _ => Number::at(
-                        algebra,
-                        sum(group, |j| {
-                            rational(algebra, j).map(|node| complement.column_at(node))
-                        }),
-                        row,
-                    )
-                    .is_zero(),
-                };
-                evaluations.iter().all(vanishes)
-            };
-            let value = |stages: &Vec<usize>| StageValue {
-                coefficients: evaluations
-                    .iter()
-                    .map(|group| merged(matrix, entries, stages[0], group))
-                    .collect(),
-                is_end: is_end(stages[0]),
-                stages: stages.clone(),
+            let value = |stages: &Vec<usize>| {
+                let row = stages[0];
+                // The row of weights is the one of whose complement b_j − a_ij nothing is left.
+                let vanishes =
+                    |group: &Vec<usize>| merged(algebra, complement, &rest, row, group).is_zero();
+                let coefficient = |group: &Vec<usize>| merged(algebra, matrix, entries, row, group);
+                StageValue {
+                    coefficients: evaluations.iter().map(coefficient).collect(),
+                    is_end: evaluations.iter().all(vanishes),
+                    stages: stages.clone(),
+                }
             };
             stages.iter().map(value).collect::<Vec<_>>()
         };
@@ -299,6 +275,24 @@ fn index_of(groups: &[Vec<usize>], stage: usize) -> usize {
 
 fn rational(algebra: &NodeAlgebra, node: usize) -> Option<&BigRational> {
     algebra.roots()[node].rational()
+}
+
+/// The sum of one row's entries over the stages that an evaluation stands for; only stages at rational
+/// nodes are ever joined.
+fn merged<'n>(
+    algebra: &'n NodeAlgebra,
+    matrix: &Tensor,
+    entries: &[Vec<Number<'n>>],
+    row: usize,
+    group: &[usize],
+) -> Number<'n> {
+    match group {
+        [single] => entries[row][*single].clone(),
+        _ => {
+            let column = |j| rational(algebra, j).map(|node| matrix.column_at(node));
+            Number::at(algebra, sum(group, column), row)
+        }
+    }
 }
 
 fn sum(group: &[usize], value: impl Fn(usize) -> Option<Polynomial>) -> Polynomial {
