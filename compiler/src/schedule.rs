@@ -1,10 +1,9 @@
 //! Which stages coincide, which need which, and in what order they can be computed.
 
-use num_rational::BigRational;
-
-use crate::algebra::{NodeAlgebra, Number, Tensor};
-use crate::arithmetic::polynomial::Polynomial;
-use crate::tableau::{Coefficients, Tableau};
+use crate::algebra::{Number, StageAlgebra, group_by};
+use crate::coefficients::Coefficients;
+use crate::pair::Pair;
+use crate::tableau::{Tableau, over_algebra};
 
 /// What the derivatives of a Hamiltonian depend on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,20 +90,36 @@ pub struct Schedule {
 impl<'a> StepGraph<'a> {
     /// The graph of a tableau.
     pub fn new(class: Class, tableau: &'a Tableau, numbers: &Coefficients<Number<'a>>) -> Self {
-        let algebra = &*tableau.algebra;
-        let groups = Groups::new(class, tableau);
-        let adjoint = tableau.adjoint();
+        over_algebra!(tableau, pair => Self::of_pair(class, pair, numbers))
+    }
+
+    pub(crate) fn of_pair<A: StageAlgebra>(
+        class: Class,
+        pair: &'a Pair<A>,
+        numbers: &Coefficients<Number<'a>>,
+    ) -> Self {
+        let algebra = &*pair.algebra;
+        let groups = Groups::new(class, pair);
+        let adjoint = pair.adjoint();
+        let merged = |matrix: &A::Matrix, row: usize, group: &[usize]| {
+            algebra.merged_entry(matrix, row, group)
+        };
         let values = |stages: &[Vec<usize>],
                       evaluations: &[Vec<usize>],
-                      (matrix, entries): (&Tensor, &[Vec<Number<'a>>]),
-                      complement: &Tensor| {
-            let rest = Number::of_tensor(algebra, complement);
+                      (matrix, entries): (&A::Matrix, &[Vec<Number<'a>>]),
+                      complement: &A::Matrix| {
+            let rest = algebra.entries(complement);
             let value = |stages: &Vec<usize>| {
                 let row = stages[0];
                 // The row of weights is the one of whose complement b_j − a_ij nothing is left.
-                let vanishes =
-                    |group: &Vec<usize>| merged(algebra, complement, &rest, row, group).is_zero();
-                let coefficient = |group: &Vec<usize>| merged(algebra, matrix, entries, row, group);
+                let vanishes = |group: &Vec<usize>| match group.as_slice() {
+                    [single] => rest[row][*single].is_zero(),
+                    _ => merged(complement, row, group).is_zero(),
+                };
+                let coefficient = |group: &Vec<usize>| match group.as_slice() {
+                    [single] => entries[row][*single].clone(),
+                    _ => merged(matrix, row, group),
+                };
                 StageValue {
                     coefficients: evaluations.iter().map(coefficient).collect(),
                     is_end: evaluations.iter().all(vanishes),
@@ -115,7 +130,7 @@ impl<'a> StepGraph<'a> {
         };
         let evaluations = |stages: &[Vec<usize>],
                            times: &[Number<'a>],
-                           (weights, element): (&[Number<'a>], &Polynomial),
+                           (weights, vector): (&[Number<'a>], &A::Vector),
                            [sees_position, sees_momentum]: [bool; 2]| {
             let evaluation = |group: &Vec<usize>| Evaluation {
                 position: sees_position.then(|| index_of(&groups.positions, group[0])),
@@ -123,13 +138,7 @@ impl<'a> StepGraph<'a> {
                 time: times[group[0]].clone(),
                 weight: match group.as_slice() {
                     [single] => weights[*single].clone(),
-                    _ => {
-                        let value = |j| {
-                            rational(algebra, j)
-                                .map(|node| Polynomial::constant(element.evaluate(node)))
-                        };
-                        Number::at(algebra, sum(group, value), group[0])
-                    }
+                    _ => algebra.merged_value(vector, group),
                 },
             };
             stages.iter().map(evaluation).collect::<Vec<_>>()
@@ -141,25 +150,25 @@ impl<'a> StepGraph<'a> {
             velocities: evaluations(
                 velocities,
                 &numbers.c_tilde,
-                (&numbers.b, &tableau.b),
+                (&numbers.b, &pair.b),
                 [general, true],
             ),
             forces: evaluations(
                 forces,
                 &numbers.c,
-                (&numbers.b_tilde, &tableau.b_tilde),
+                (&numbers.b_tilde, &pair.b_tilde),
                 [true, general],
             ),
             positions: values(
                 &groups.positions,
                 velocities,
-                (&tableau.a, &numbers.a),
+                (&pair.a, &numbers.a),
                 &adjoint.a,
             ),
             momenta: values(
                 &groups.momenta,
                 forces,
-                (&tableau.a_tilde, &numbers.a_tilde),
+                (&pair.a_tilde, &numbers.a_tilde),
                 &adjoint.a_tilde,
             ),
         }
@@ -273,35 +282,6 @@ fn index_of(groups: &[Vec<usize>], stage: usize) -> usize {
         .unwrap_or_default()
 }
 
-fn rational(algebra: &NodeAlgebra, node: usize) -> Option<&BigRational> {
-    algebra.roots()[node].rational()
-}
-
-/// The sum of one row's entries over the stages that an evaluation stands for; only stages at rational
-/// nodes are ever joined.
-fn merged<'n>(
-    algebra: &'n NodeAlgebra,
-    matrix: &Tensor,
-    entries: &[Vec<Number<'n>>],
-    row: usize,
-    group: &[usize],
-) -> Number<'n> {
-    match group {
-        [single] => entries[row][*single].clone(),
-        _ => {
-            let column = |j| rational(algebra, j).map(|node| matrix.column_at(node));
-            Number::at(algebra, sum(group, column), row)
-        }
-    }
-}
-
-fn sum(group: &[usize], value: impl Fn(usize) -> Option<Polynomial>) -> Polynomial {
-    group
-        .iter()
-        .filter_map(|&j| value(j))
-        .fold(Polynomial::zero(), |sum, value| &sum + &value)
-}
-
 /// Stages that coincide, as lists of the stages of the tableau.
 struct Groups {
     positions: Vec<Vec<usize>>,
@@ -312,10 +292,10 @@ struct Groups {
 
 impl Groups {
     /// Joins stages with equal rows, then evaluations at equal stages, then the stages whose rows have
-    /// become equal by that, until nothing more coincides. Stages at irrational nodes stay alone.
-    fn new(class: Class, tableau: &Tableau) -> Self {
-        let algebra = &*tableau.algebra;
-        let single: Vec<Vec<usize>> = (0..algebra.dimension()).map(|stage| vec![stage]).collect();
+    /// become equal by that, until nothing more coincides.
+    fn new<A: StageAlgebra>(class: Class, pair: &Pair<A>) -> Self {
+        let algebra = &*pair.algebra;
+        let single: Vec<Vec<usize>> = (0..algebra.stages()).map(|stage| vec![stage]).collect();
         let mut groups = Groups {
             positions: single.clone(),
             momenta: single.clone(),
@@ -323,8 +303,8 @@ impl Groups {
             forces: single,
         };
         loop {
-            let positions = equal_rows(algebra, &tableau.a, &groups.velocities);
-            let momenta = equal_rows(algebra, &tableau.a_tilde, &groups.forces);
+            let positions = algebra.equal_rows(&pair.a, &groups.velocities);
+            let momenta = algebra.equal_rows(&pair.a_tilde, &groups.forces);
             if positions == groups.positions && momenta == groups.momenta {
                 return groups;
             }
@@ -332,51 +312,13 @@ impl Groups {
                 Class::Separable => (momenta.clone(), positions.clone()),
                 Class::General => {
                     let at = |stage| (index_of(&positions, stage), index_of(&momenta, stage));
-                    let both = group_by(algebra.dimension(), |stage| Some(at(stage)));
+                    let both = group_by(algebra.stages(), |stage| Some(at(stage)), PartialEq::eq);
                     (both.clone(), both)
                 }
             };
             (groups.positions, groups.momenta) = (positions, momenta);
         }
     }
-}
-
-/// Groups the stages whose rows of a matrix are equal when the columns of each group are added.
-fn equal_rows(algebra: &NodeAlgebra, matrix: &Tensor, columns: &[Vec<usize>]) -> Vec<Vec<usize>> {
-    // The factor of the node polynomial whose roots are the irrational nodes.
-    let linear = |node: &BigRational| {
-        Polynomial::from_rationals(&[-node, BigRational::from_integer(1.into())])
-    };
-    let rational_nodes = (0..algebra.dimension()).filter_map(|stage| rational(algebra, stage));
-    let irrational = rational_nodes.fold(algebra.modulus().clone(), |rest, node| {
-        rest.div_rem(&linear(node))
-            .map_or(Polynomial::zero(), |(quotient, _)| quotient)
-    });
-    group_by(algebra.dimension(), |stage| {
-        let row = matrix.row_at(rational(algebra, stage)?);
-        let value = |j: &usize| rational(algebra, *j).map(|node| row.evaluate(node));
-        let sums: Vec<BigRational> = columns
-            .iter()
-            .map(|group| group.iter().filter_map(value).sum())
-            .collect();
-        Some((row.remainder(&irrational), sums))
-    })
-}
-
-/// Groups what has equal keys; what has none stays alone.
-fn group_by<K: PartialEq>(count: usize, key: impl Fn(usize) -> Option<K>) -> Vec<Vec<usize>> {
-    let mut groups: Vec<(Option<K>, Vec<usize>)> = Vec::new();
-    for item in 0..count {
-        let key = key(item);
-        match groups
-            .iter_mut()
-            .find(|(known, _)| key.is_some() && *known == key)
-        {
-            Some((_, group)) => group.push(item),
-            None => groups.push((key, vec![item])),
-        }
-    }
-    groups.into_iter().map(|(_, group)| group).collect()
 }
 
 type Entry = (Node, Vec<Node>);

@@ -1,144 +1,104 @@
-//! One coefficient of a tableau: an exact real number that can be enclosed and correctly rounded.
+//! One coefficient of a tableau: a real number that can be enclosed and correctly rounded.
 
-use std::borrow::Cow;
 use std::cmp::Ordering;
 
 use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::Zero as _;
 
-use super::tensor::magnitude_bits;
-use super::{NodeAlgebra, Tensor, divisor};
+use super::node::{NodeNumber, short_rational};
 use crate::arithmetic::interval::Interval;
-use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::ratio;
-use crate::arithmetic::rounding::{Decimal, exact, to_f64};
+use crate::arithmetic::rounding::{self, Decimal, exact};
 
-/// The value of an element of `K` at a node, or of an element of `K ⊗ K` at two: an algebraic number.
-///
-/// Questions about it are answered exactly: its sign, whether it equals a rational, its value rounded
-/// to a double or to any number of digits.
-#[derive(Debug, Clone)]
-pub struct Number<'a> {
-    algebra: &'a NodeAlgebra,
-    source: Source<'a>,
-    /// A first enclosure.
-    start: Interval,
+/// What is known about whether a number is zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Zero {
+    /// It is, by exact arithmetic.
+    Yes,
+    /// It is not: some enclosure excludes it.
+    No,
+    /// It is at most `2⁻ᵇⁱᵗˢ` in size, which no exact argument decides.
+    Within(u32),
 }
 
-#[derive(Debug, Clone)]
-enum Source<'a> {
-    Element(Cow<'a, Polynomial>, usize),
-    Entry(&'a Tensor, usize, usize),
+impl Zero {
+    /// Whether the number is zero as far as is known.
+    pub fn may_be(self) -> bool {
+        self != Zero::No
+    }
 }
 
-/// Binary places of the first enclosure, beyond the cancellation that the coefficients suggest.
+/// A real number: a coefficient of a tableau, or something computed from its coefficients.
+#[derive(Debug, Clone)]
+pub enum Number<'a> {
+    /// A rational.
+    Rational(BigRational),
+    /// The value of a function of the nodes.
+    Node(NodeNumber<'a>),
+}
+
+/// Binary places of enclosures of numbers that have no better start.
 const FIRST_BITS: u32 = 192;
 
-impl<'a> Number<'a> {
-    /// The values of an element at all nodes.
-    pub fn of_element(algebra: &'a NodeAlgebra, element: Cow<'a, Polynomial>) -> Vec<Self> {
-        let bits = FIRST_BITS + magnitude_bits(&element);
-        let starts = algebra.enclose(&element, bits);
-        let number = |(node, start)| Number {
-            algebra,
-            source: Source::Element(element.clone(), node),
-            start,
-        };
-        starts.into_iter().enumerate().map(number).collect()
-    }
-
-    /// The value of an element at one node.
-    pub fn at(algebra: &'a NodeAlgebra, element: Polynomial, node: usize) -> Self {
-        let bits = FIRST_BITS + magnitude_bits(&element);
-        let start = algebra.enclose_nodes(bits)[node].evaluate(&element);
-        Number {
-            algebra,
-            source: Source::Element(Cow::Owned(element), node),
-            start,
-        }
-    }
-
-    /// The entries of a matrix.
-    pub fn of_tensor(algebra: &'a NodeAlgebra, tensor: &'a Tensor) -> Vec<Vec<Self>> {
-        let nodes = algebra.enclose_nodes(FIRST_BITS + tensor.bits());
-        (0..algebra.dimension())
-            .map(|row| {
-                let starts = tensor.enclose_row(&nodes, row).into_iter().enumerate();
-                starts
-                    .map(|(column, start)| Number {
-                        algebra,
-                        source: Source::Entry(tensor, row, column),
-                        start,
-                    })
-                    .collect()
-            })
-            .collect()
-    }
-
-    /// An enclosure with at least this many binary places.
-    ///
-    /// Its width tends to zero as `bits` grows.
+impl Number<'_> {
+    /// An enclosure with at least this many binary places; its width tends to zero as `bits` grows.
     pub fn enclose(&self, bits: u32) -> Interval {
-        if bits <= self.start.bits() {
-            return self.start.clone();
-        }
-        let nodes = self.algebra.enclose_nodes(bits);
-        match &self.source {
-            Source::Element(element, node) => nodes[*node].evaluate(element),
-            Source::Entry(tensor, row, column) => {
-                tensor.enclose_row(&nodes, *row).swap_remove(*column)
-            }
+        match self {
+            Number::Rational(value) => Interval::enclosing(value, bits.max(FIRST_BITS)),
+            Number::Node(number) => number.enclose(bits),
         }
     }
 
-    /// Whether the number equals a rational, decided exactly.
+    /// What is known about whether the number equals a rational.
+    pub fn difference(&self, value: &BigRational) -> Zero {
+        let equal = match self {
+            Number::Rational(known) => known == value,
+            Number::Node(number) => number.equals(value),
+        };
+        if equal { Zero::Yes } else { Zero::No }
+    }
+
+    /// Whether the number equals a rational, as far as is known.
     pub fn equals(&self, value: &BigRational) -> bool {
-        if !self.start.contains(value) {
-            return false;
-        }
-        match &self.source {
-            Source::Element(element, node) => element_vanishes(
-                self.algebra,
-                &(&**element - &Polynomial::constant(value.clone())),
-                *node,
-            ),
-            Source::Entry(tensor, row, column) => {
-                let shifted = tensor.subtract(&Tensor::from_products(
-                    self.algebra,
-                    &[(Polynomial::constant(value.clone()), Polynomial::one())],
-                ));
-                entry_vanishes(self.algebra, &shifted, *row, *column)
-            }
-        }
+        self.difference(value).may_be()
     }
 
-    /// The number, if it is a rational with a short numerator and denominator; proved.
-    pub fn short_rational(&self) -> Option<BigRational> {
-        super::closed_form::short_rational(&self.start).filter(|candidate| self.equals(candidate))
+    /// What is known about whether the number is zero.
+    pub fn zero(&self) -> Zero {
+        self.difference(&BigRational::zero())
     }
 
-    /// Whether the number is zero, decided exactly.
+    /// Whether the number is zero, as far as is known.
     pub fn is_zero(&self) -> bool {
-        self.equals(&BigRational::zero())
+        self.zero().may_be()
     }
 
-    /// The sign of the number, decided exactly.
+    /// The number, if it is known to be a rational with a short numerator and denominator.
+    pub fn short_rational(&self) -> Option<BigRational> {
+        if let Number::Rational(value) = self {
+            return Some(value.clone());
+        }
+        let candidate = short_rational(&self.enclose(0))?;
+        (self.difference(&candidate) == Zero::Yes).then_some(candidate)
+    }
+
+    /// The sign of the number; equal to zero where it is not known to differ from it.
     pub fn sign(&self) -> Ordering {
         if self.is_zero() {
             return Ordering::Equal;
         }
-        let mut bits = self.start.bits();
+        let mut interval = self.enclose(0);
         loop {
-            if let Some(sign) = self.enclose(bits).sign() {
+            if let Some(sign) = interval.sign() {
                 return sign;
             }
-            bits *= 2;
+            interval = self.enclose(interval.bits() * 2);
         }
     }
 
     /// The nearest double, ties to even.
     pub fn to_f64(&self) -> f64 {
-        self.round(to_f64, |&double| exact(double))
+        self.round(rounding::to_f64, |&double| exact(double))
     }
 
     /// The number rounded to `digits` significant decimal digits, ties to even.
@@ -149,16 +109,19 @@ impl<'a> Number<'a> {
     /// Rounds by refining the enclosure until both ends round to the same.
     ///
     /// That ends unless the number is zero or the middle between two neighbours of the target format,
-    /// which is decided exactly when an enclosure has become narrow and does not exclude it.
+    /// which is decided as far as it can be when an enclosure has become narrow and does not exclude it.
     fn round<T: PartialEq>(
         &self,
         round: impl Fn(&BigRational) -> T,
         value: impl Fn(&T) -> BigRational,
     ) -> T {
+        if let Number::Rational(value) = self {
+            return round(value);
+        }
         if self.is_zero() {
             return round(&BigRational::zero());
         }
-        let mut interval = self.start.clone();
+        let mut interval = self.enclose(0);
         let mut excluded = None;
         loop {
             let (low, high) = (interval.low(), interval.high());
@@ -172,7 +135,7 @@ impl<'a> Number<'a> {
             // Ends that are close compared with the distance of what they round to are on both sides of
             // the middle between neighbours. That close, they hardly ever are unless the number is the
             // middle: the exact test is expensive, so it has to be worth it.
-            let narrow = (high - low) * exact(2f64.powi(64)) < (b - a).abs();
+            let narrow = (high - low) * exact(2f64.powi(64)) < num_traits::Signed::abs(&(b - a));
             if decided && narrow && excluded.as_ref() != Some(&middle) {
                 if self.equals(&middle) {
                     return round(&middle);
@@ -184,35 +147,13 @@ impl<'a> Number<'a> {
     }
 }
 
-/// Whether `f(c_node) = 0`.
-fn element_vanishes(algebra: &NodeAlgebra, element: &Polynomial, node: usize) -> bool {
-    if element.is_zero() {
-        return true;
-    }
-    let root = &algebra.roots()[node];
-    match root.rational() {
-        Some(value) => element.evaluate(value).is_zero(),
-        None => root.is_root_of_divisor(&algebra.modulus().gcd(element)),
-    }
-}
-
-/// Whether `T(c_row, c_column) = 0`.
-fn entry_vanishes(algebra: &NodeAlgebra, tensor: &Tensor, row: usize, column: usize) -> bool {
-    let roots = algebra.roots();
-    if let Some(node) = roots[row].rational() {
-        element_vanishes(algebra, &tensor.row_at(node), column)
-    } else if let Some(node) = roots[column].rational() {
-        element_vanishes(algebra, &tensor.column_at(node), row)
-    } else if row == column {
-        element_vanishes(algebra, &tensor.on_graph(algebra, &algebra.variable()), row)
-    } else {
-        divisor::vanishes(algebra, tensor, row, column)
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use std::borrow::Cow;
+
     use super::*;
+    use crate::algebra::{NodeAlgebra, StageAlgebra, Tensor};
+    use crate::arithmetic::polynomial::Polynomial;
     use num_traits::One;
 
     /// Nodes 1/2 ∓ √3/6.
@@ -224,7 +165,7 @@ mod tests {
     fn decimals_agree_with_known_digits() {
         let k = algebra();
         let x = k.variable();
-        let nodes = Number::of_element(&k, Cow::Borrowed(&x));
+        let nodes = NodeAlgebra::values(&k, Cow::Borrowed(&x));
         // 1/2 + √3/6, from the known digits of √3.
         let sqrt3 = "1.73205080756887729352744634150587236694280525381038062805580697945193301690880003708114618675724857567562614142";
         let digits = nodes[1].decimal(60).to_string();
@@ -256,7 +197,7 @@ mod tests {
         // among two indices instead: x·(1 − y) on the antidiagonal y = 1 − x gives x² = x − 1/6.
         let x = k.variable();
         let product = Tensor::from_products(&k, &[(x.clone(), x.clone())]);
-        let entries = Number::of_tensor(&k, &product);
+        let entries = NodeAlgebra::entries(&k, &product);
         // c_1 c_2 = 1/6 exactly.
         assert!(entries[0][1].equals(&ratio(1, 6)));
         assert!(!entries[0][0].equals(&ratio(1, 6)));
@@ -267,7 +208,7 @@ mod tests {
                 Polynomial::one(),
             )],
         ));
-        let quarter = &Number::of_tensor(&k, &shifted)[0][1];
+        let quarter = &NodeAlgebra::entries(&k, &shifted)[0][1];
         // 1/4 to one digit is a tie; to even it is 0.2. Its neighbours are not ties.
         assert_eq!(quarter.decimal(1).to_string(), "0.2");
         let hair = BigRational::new(One::one(), num_bigint::BigInt::one() << 500);
@@ -276,7 +217,9 @@ mod tests {
             &[(Polynomial::constant(hair.clone()), Polynomial::one())],
         ));
         assert_eq!(
-            Number::of_tensor(&k, &above)[0][1].decimal(1).to_string(),
+            NodeAlgebra::entries(&k, &above)[0][1]
+                .decimal(1)
+                .to_string(),
             "0.3"
         );
         let double_tie = exact(1.0) + exact(f64::EPSILON) / ratio(2, 1) - ratio(1, 4);
@@ -284,24 +227,24 @@ mod tests {
             &k,
             &[(Polynomial::constant(double_tie.clone()), Polynomial::one())],
         ));
-        assert_eq!(Number::of_tensor(&k, &tie)[0][1].to_f64(), 1.0);
+        assert_eq!(NodeAlgebra::entries(&k, &tie)[0][1].to_f64(), 1.0);
         let above = tie.add(&Tensor::from_products(
             &k,
             &[(Polynomial::constant(hair), Polynomial::one())],
         ));
         assert_eq!(
-            Number::of_tensor(&k, &above)[0][1].to_f64(),
+            NodeAlgebra::entries(&k, &above)[0][1].to_f64(),
             1.0 + f64::EPSILON
         );
         let zero = shifted.subtract(&Tensor::from_products(
             &k,
             &[(Polynomial::constant(ratio(1, 4)), Polynomial::one())],
         ));
-        assert!(Number::of_tensor(&k, &zero)[0][1].is_zero());
+        assert!(NodeAlgebra::entries(&k, &zero)[0][1].is_zero());
         assert_eq!(
-            Number::of_tensor(&k, &zero)[0][1].decimal(5).to_string(),
+            NodeAlgebra::entries(&k, &zero)[0][1].decimal(5).to_string(),
             "0"
         );
-        assert_eq!(Number::of_tensor(&k, &zero)[0][0].sign(), Ordering::Less);
+        assert_eq!(NodeAlgebra::entries(&k, &zero)[0][0].sign(), Ordering::Less);
     }
 }

@@ -11,6 +11,7 @@ mod plan;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use crate::definition::Key;
 use crate::error::ErrorKind;
 use crate::schedule::Class;
 use crate::tableau::Tableau;
@@ -46,7 +47,8 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
     let stages = literal::count(tableau.stages());
     let text = name.to_string();
     let provenance = tableau.provenance();
-    let (basis, nodes) = (&provenance.basis, &provenance.nodes);
+    let part = |key| provenance.definition.get(key).unwrap_or_default();
+    let (basis, nodes) = (part(Key::Basis), part(Key::Nodes));
     let numbers = tableau.numbers();
     // The plans are named after the method, so that they are not the method.
     let [general_plan, separable_plan] =
@@ -85,7 +87,7 @@ fn constants(tableau: &Tableau) -> TokenStream {
     let values = tableau.to_f64();
     let stages = literal::count(tableau.stages());
     // Where both halves are the same, the second is written as the first.
-    let same = (tableau.a == tableau.a_tilde, tableau.b == tableau.b_tilde);
+    let same = tableau.equal_halves();
     let vector = |name: &str, doc: &str, values: TokenStream| {
         let name = literal::identifier(name);
         quote! {

@@ -6,8 +6,9 @@ use quote::quote;
 use super::literal::{array, identifier};
 use crate::algebra::Number;
 use crate::arithmetic::rational::ratio;
+use crate::coefficients::Coefficients;
 use crate::schedule::{Class, Evaluation, Node, Schedule, StageValue, StepGraph};
-use crate::tableau::{Coefficients, Tableau};
+use crate::tableau::Tableau;
 
 /// The type of a plan and its implementation of `Plan`.
 pub(super) fn implementation(

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::definition::{Definition, Key};
 use crate::derive::derive_within;
 use crate::error::{Error, Place};
 use crate::expression::Input;
@@ -17,6 +18,11 @@ pub(super) struct Origin {
 }
 
 impl Origin {
+    /// What the file says that its tableau is derived from.
+    pub fn definition(&self) -> Definition {
+        Definition::new([(Key::Basis, &*self.basis.0), (Key::Nodes, &*self.nodes.0)])
+    }
+
     /// Derives the tableau anew.
     ///
     /// # Errors

@@ -1,8 +1,9 @@
 //! The table for people: the partitioned Butcher tableau of LZ §4.4 and the properties.
 
 use super::layout::{left, right, width, widths};
+use crate::coefficients::Coefficients;
 use crate::properties::{Evidence, Properties};
-use crate::tableau::{Coefficients, Tableau};
+use crate::tableau::Tableau;
 
 /// Exact forms that are longer than this give way to decimals.
 const LONGEST_EXACT: usize = 28;
@@ -29,11 +30,9 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
         stages => format!("{stages} stages"),
     };
     let mut title: Vec<String> = tableau.name().map(str::to_owned).into_iter().collect();
-    title.extend([
-        stages,
-        format!("basis {}", provenance.basis),
-        format!("nodes {}", provenance.nodes),
-    ]);
+    title.push(stages);
+    let parts = provenance.definition.parts();
+    title.extend(parts.map(|(key, text)| format!("{} {text}", key.name())));
     let mut text = title.join(", ") + "\n";
     if let Some(source) = &provenance.source {
         // One paper a line.
@@ -46,7 +45,7 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
 
     let (cells, rounded) = cells(tableau, digits);
     let positions = table(["c", "a", "b"], &cells.c, &cells.a, &cells.b);
-    if tableau.a() == tableau.a_tilde() && tableau.b() == tableau.b_tilde() {
+    if tableau.equal_halves() == (true, true) {
         push_lines(&mut text, &positions);
         text.push_str("\nã = a, b̃ = b, c̃ = c: the same for momenta.\n");
     } else {
@@ -89,9 +88,9 @@ fn push_lines(text: &mut String, lines: &[String]) {
 
 /// Every coefficient as it is shown, and whether any of them is rounded.
 fn cells(tableau: &Tableau, digits: usize) -> (Coefficients<String>, bool) {
-    let short = tableau.closed_forms().map(|form| {
-        let exact = form.as_ref().map(ToString::to_string);
-        exact.filter(|exact| width(exact) <= LONGEST_EXACT)
+    let short = tableau.exact_forms().map(|form| {
+        let exact = form.as_ref();
+        exact.filter(|exact| width(exact) <= LONGEST_EXACT).cloned()
     });
     let rounded = short.iter().any(Option::is_none);
     let cells = short.zip(tableau.numbers()).map(|(exact, number)| {

@@ -1,46 +1,45 @@
 //! Stages that coincide with the ends of the step.
 
-use super::{Examined, Property, shown};
-use crate::algebra::Number;
-use crate::tableau::subscript;
+use super::{Examined, Property, shown, vanishing};
+use crate::algebra::StageAlgebra;
+use crate::coefficients::subscript;
 
 /// Decides `a_1j = 0`.
-pub(super) fn first_row_zero(examined: &Examined<'_>) -> Property {
+pub(super) fn first_row_zero<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
     let row = examined.numbers.a.first().map_or(&[][..], Vec::as_slice);
-    match row.iter().enumerate().find(|(_, entry)| !entry.is_zero()) {
-        None => Property::proved(None),
-        Some((j, entry)) => {
-            Property::refuted(format!("a_{} = {}", subscript(1, j + 1), shown(entry)))
-        }
+    match vanishing(row) {
+        Ok(evidence) => Property::holding(evidence, None),
+        Err(j) => Property::refuted(format!("a_{} = {}", subscript(1, j + 1), shown(&row[j]))),
     }
 }
 
 /// Decides `a_sj = b_j`.
-pub(super) fn stiffly_accurate(examined: &Examined<'_>) -> Property {
-    let tableau = examined.tableau;
-    let last = tableau.stages() - 1;
-    // b_j − a_ij is an element of K ⊗ K whose last row is in question.
-    let residual = tableau.adjoint().a;
-    let differences = Number::of_tensor(&tableau.algebra, &residual).swap_remove(last);
-    match differences
-        .iter()
-        .enumerate()
-        .find(|(_, entry)| !entry.is_zero())
-    {
-        None => Property::proved(None),
-        Some((j, entry)) => Property::refuted(format!(
+pub(super) fn stiffly_accurate<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
+    let algebra = &*examined.pair.algebra;
+    let last = algebra.stages() - 1;
+    // b_j − a_ij is a matrix whose last row is in question.
+    let residual = examined.pair.adjoint().a;
+    let differences = algebra.entries(&residual).swap_remove(last);
+    match vanishing(&differences) {
+        Ok(evidence) => Property::holding(evidence, None),
+        Err(j) => Property::refuted(format!(
             "b_{} − a_{} = {}",
             j + 1,
             subscript(last + 1, j + 1),
-            shown(entry)
+            shown(&differences[j])
         )),
     }
 }
 
 /// Decides whether the last position stage of a step is the first of the next.
-pub(super) fn first_same_as_last(examined: &Examined<'_>) -> Property {
-    let ends = [first_row_zero(examined), stiffly_accurate(examined)];
-    ends.into_iter()
-        .find(|end| !end.holds)
-        .unwrap_or_else(|| Property::proved(Some("Q_s = q1 is Q_1 of the next step".to_owned())))
+pub(super) fn first_same_as_last<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
+    let [first, last] = [first_row_zero(examined), stiffly_accurate(examined)];
+    if !first.holds {
+        return first;
+    }
+    if !last.holds {
+        return last;
+    }
+    let witness = "Q_s = q1 is Q_1 of the next step".to_owned();
+    Property::holding(first.evidence.and(last.evidence), Some(witness))
 }

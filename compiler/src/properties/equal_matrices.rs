@@ -1,19 +1,24 @@
 //! One matrix for positions and momenta.
 
-use super::{Entry, Examined, Property, first_nonzero_entry, first_nonzero_value};
+use super::{Entry, Evidence, Examined, Property, vanishing_matrix, vanishing_vector};
+use crate::algebra::StageAlgebra;
 
-/// Decides `ã = a` in `K ⊗ K` and `b̃ = b` in `K`.
-pub(super) fn decide(examined: &Examined<'_>) -> Property {
-    let tableau = examined.tableau;
-    let algebra = &tableau.algebra;
-    if let Some(Entry { index, value, .. }) =
-        first_nonzero_entry(algebra, &tableau.a.subtract(&tableau.a_tilde))
-    {
-        Property::refuted(format!("a_{index} − ã_{index} = {value}"))
-    } else if let Some((i, value)) = first_nonzero_value(algebra, &(&tableau.b - &tableau.b_tilde))
-    {
-        Property::refuted(format!("b_{i} − b̃_{i} = {value}"))
-    } else {
-        Property::proved(None)
+/// Decides `ã = a` and `b̃ = b`.
+pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
+    let pair = examined.pair;
+    let algebra = &*pair.algebra;
+    if pair.equal_halves() == (true, true) {
+        return Property::holding(Evidence::Proved, None);
+    }
+    let matrices = algebra.subtract_matrices(&pair.a, &pair.a_tilde);
+    let evidence = match vanishing_matrix(algebra, &matrices) {
+        Ok(evidence) => evidence,
+        Err(Entry { index, value, .. }) => {
+            return Property::refuted(format!("a_{index} − ã_{index} = {value}"));
+        }
+    };
+    match vanishing_vector(algebra, &algebra.subtract(&pair.b, &pair.b_tilde)) {
+        Ok(weights) => Property::holding(evidence.and(weights), None),
+        Err((i, value)) => Property::refuted(format!("b_{i} − b̃_{i} = {value}")),
     }
 }

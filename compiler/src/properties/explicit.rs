@@ -1,7 +1,7 @@
 //! Explicitness for separable Hamiltonians.
 
-use super::{Evidence, Examined, Property};
-use crate::algebra::Number;
+use super::{Evidence, Examined, Property, Zero};
+use crate::algebra::{Number, StageAlgebra};
 use crate::arithmetic::roots::compare;
 use crate::schedule::{Class, StepGraph};
 
@@ -9,28 +9,43 @@ use crate::schedule::{Class, StepGraph};
 /// `H = T(p) + U(q)`, where `Q_i` needs the velocities at the `P_j` with `a_ij ≠ 0` and `P_i` needs the
 /// forces at the `Q_j` with `ã_ij ≠ 0`. Stages that coincide are one.
 ///
-/// Coincidences at irrational nodes are not looked for. Stages can coincide only where their `c` or `c̃`
-/// do, so that without such a pair the property is refuted for certain.
-pub(super) fn decide(examined: &Examined<'_>) -> Property {
-    let graph = StepGraph::new(Class::Separable, examined.tableau, examined.numbers);
+/// Where the algebra does not look for coincidences of some stages, the property is refuted for certain
+/// only if they cannot coincide, because their `c` and `c̃` differ.
+pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
+    let (pair, numbers) = (examined.pair, examined.numbers);
+    let algebra = &*pair.algebra;
+    let graph = StepGraph::of_pair(Class::Separable, pair, numbers);
     let mut cycle = match graph.order() {
-        Ok(order) => return Property::proved(Some(order.join(", "))),
+        // Numbers that are zero only as far as is known make it known only as far.
+        Ok(order) => {
+            let values: Vec<_> = graph.positions.iter().chain(&graph.momenta).collect();
+            let joined = values.iter().any(|value| value.stages.len() > 1);
+            let evidence = match algebra.verified_bits() {
+                Some(bits) if joined => Evidence::Verified { bits },
+                _ => Evidence::Proved,
+            };
+            let zeros = values.iter().flat_map(|value| &value.coefficients);
+            let evidence = zeros.fold(evidence, |evidence, zero| match zero.zero() {
+                Zero::Within(bits) => evidence.and(Evidence::Verified { bits }),
+                Zero::Yes | Zero::No => evidence,
+            });
+            return Property::holding(evidence, Some(order.join(", ")));
+        }
         Err(cycle) => cycle,
     };
     cycle.extend(cycle.first().cloned());
     let cycle = format!("these stages need one another: {}", cycle.join(" → "));
-    let roots = examined.tableau.algebra().roots();
     let coincide = |times: &[Number<'_>]| {
         let enclosures: Vec<_> = times.iter().map(|time| time.enclose(0)).collect();
         (0..times.len())
             .flat_map(|i| (0..i).map(move |j| (i, j)))
             .any(|(i, j)| {
-                let irrational = roots[i].rational().is_none() || roots[j].rational().is_none();
-                irrational && compare(&enclosures[i], &enclosures[j]).is_none()
+                let seen = algebra.sees_coincidences_of(i) && algebra.sees_coincidences_of(j);
+                !seen && compare(&enclosures[i], &enclosures[j]).is_none()
             })
     };
-    if coincide(&examined.numbers.c) || coincide(&examined.numbers.c_tilde) {
-        let bits = examined.numbers.c[0].enclose(0).bits();
+    if coincide(&numbers.c) || coincide(&numbers.c_tilde) {
+        let bits = numbers.c[0].enclose(0).bits();
         let witness = format!("{cycle}, unless stages at irrational nodes coincide");
         return Property {
             holds: false,

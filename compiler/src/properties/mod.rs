@@ -14,9 +14,11 @@ mod symplectic;
 use std::borrow::Cow;
 use std::fmt;
 
-use crate::algebra::{NodeAlgebra, Number, Tensor, closed_form};
-use crate::arithmetic::polynomial::Polynomial;
-use crate::tableau::{Coefficients, Tableau, subscript};
+use self::symmetric::Symmetry;
+use crate::algebra::{Number, StageAlgebra, Zero};
+use crate::coefficients::{Coefficients, subscript};
+use crate::pair::Pair;
+use crate::tableau::{Tableau, over_algebra};
 
 /// How it is known whether a property holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,6 +34,21 @@ pub enum Evidence {
     },
 }
 
+impl Evidence {
+    /// The evidence for two statements that both hold.
+    fn and(self, other: Evidence) -> Evidence {
+        match (self, other) {
+            (Evidence::Verified { bits }, Evidence::Verified { bits: others }) => {
+                Evidence::Verified {
+                    bits: bits.min(others),
+                }
+            }
+            (Evidence::Proved, other) => other,
+            (known, _) => known,
+        }
+    }
+}
+
 /// Whether a property holds, how that is known, and an example.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Property {
@@ -45,10 +62,10 @@ pub struct Property {
 }
 
 impl Property {
-    fn proved(witness: Option<String>) -> Self {
+    fn holding(evidence: Evidence, witness: Option<String>) -> Self {
         Property {
             holds: true,
-            evidence: Evidence::Proved,
+            evidence,
             witness,
         }
     }
@@ -88,7 +105,7 @@ macro_rules! properties {
             /// The names of the properties, as in `require: […]` and in the exports.
             pub const NAMES: &[&str] = &[$(stringify!($name)),*];
 
-            fn decide(examined: &Examined<'_>) -> Self {
+            fn decide<A: Symmetry>(examined: &Examined<'_, A>) -> Self {
                 Properties { $($name: $decide(examined),)* }
             }
 
@@ -138,40 +155,61 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn properties(&self) -> Properties {
-        let numbers = &self.numbers();
-        Properties::decide(&Examined {
-            tableau: self,
-            numbers,
+        over_algebra!(self, pair => {
+            let numbers = &pair.numbers();
+            Properties::decide(&Examined { pair, numbers })
         })
     }
 }
 
-/// A tableau with its coefficients as numbers, which several properties look at.
-struct Examined<'a> {
-    tableau: &'a Tableau,
+/// A pair with its coefficients as numbers, which several properties look at.
+struct Examined<'a, A: StageAlgebra> {
+    pair: &'a Pair<A>,
     numbers: &'a Coefficients<Number<'a>>,
 }
 
-/// The first entry of a matrix that is not zero.
-fn first_nonzero_entry(algebra: &NodeAlgebra, residual: &Tensor) -> Option<Entry> {
-    if residual.is_zero() {
-        return None;
+/// What is known of numbers that should all be zero: how it is known that they are, or the first that
+/// is not.
+fn vanishing<'a, 'n: 'a>(
+    numbers: impl IntoIterator<Item = &'a Number<'n>>,
+) -> Result<Evidence, usize> {
+    let mut evidence = Evidence::Proved;
+    for (index, number) in numbers.into_iter().enumerate() {
+        match number.zero() {
+            Zero::Yes => {}
+            Zero::Within(bits) => evidence = evidence.and(Evidence::Verified { bits }),
+            Zero::No => return Err(index),
+        }
     }
-    let numbers = Number::of_tensor(algebra, residual);
-    let position = numbers.iter().enumerate().find_map(|(i, row)| {
-        let column = row.iter().position(|entry| !entry.is_zero())?;
-        Some((i, column))
-    });
-    position.map(|(i, j)| {
-        let exact = closed_form::of_tensor(algebra, residual)[i].swap_remove(j);
-        let value = exact.map_or_else(|| shown(&numbers[i][j]), |form| form.to_string());
+    Ok(evidence)
+}
+
+/// How it is known that a matrix vanishes, or its first entry that does not.
+fn vanishing_matrix<A: StageAlgebra>(algebra: &A, residual: &A::Matrix) -> Result<Evidence, Entry> {
+    let numbers = algebra.entries(residual);
+    vanishing(numbers.iter().flatten()).map_err(|index| {
+        let (i, j) = (index / algebra.stages(), index % algebra.stages());
+        let exact = algebra.exact_entries(residual)[i].swap_remove(j);
         Entry {
             index: subscript(i + 1, j + 1),
             transposed: subscript(j + 1, i + 1),
             row: i + 1,
             column: j + 1,
-            value,
+            value: exact.unwrap_or_else(|| shown(&numbers[i][j])),
         }
+    })
+}
+
+/// How it is known that a vector vanishes, or its first value that does not with its stage, counted
+/// from 1.
+fn vanishing_vector<A: StageAlgebra>(
+    algebra: &A,
+    residual: &A::Vector,
+) -> Result<Evidence, (usize, String)> {
+    let numbers = algebra.values(Cow::Borrowed(residual));
+    vanishing(&numbers).map_err(|index| {
+        let exact = algebra.exact_values(residual).swap_remove(index);
+        (index + 1, exact.unwrap_or_else(|| shown(&numbers[index])))
     })
 }
 
@@ -187,17 +225,6 @@ struct Entry {
     column: usize,
     /// The value.
     value: String,
-}
-
-/// The first value of an element that is not zero, with its node, counted from 1.
-fn first_nonzero_value(algebra: &NodeAlgebra, residual: &Polynomial) -> Option<(usize, String)> {
-    let numbers = Number::of_element(algebra, Cow::Borrowed(residual));
-    let index = numbers.iter().position(|value| !value.is_zero())?;
-    let exact = closed_form::of_element(algebra, residual).swap_remove(index);
-    Some((
-        index + 1,
-        exact.map_or_else(|| shown(&numbers[index]), |form| form.to_string()),
-    ))
 }
 
 /// A number for a message: a short rational exactly, anything else by its first digits.

@@ -2,20 +2,29 @@
 
 use std::cmp::Ordering;
 
-use super::{Examined, Property, shown};
+use super::{Evidence, Examined, Property, Zero, shown};
+use crate::algebra::StageAlgebra;
 
 /// Decides the sign of every weight.
-pub(super) fn decide(examined: &Examined<'_>) -> Property {
+pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
     for (name, weights) in [("b", &examined.numbers.b), ("b̃", &examined.numbers.b_tilde)] {
         for (i, weight) in weights.iter().enumerate() {
-            match weight.sign() {
-                Ordering::Greater => {}
-                Ordering::Equal => return Property::refuted(format!("{name}_{} = 0", i + 1)),
-                Ordering::Less => {
-                    return Property::refuted(format!("{name}_{} = {}", i + 1, shown(weight)));
+            let name = format!("{name}_{}", i + 1);
+            match (weight.sign(), weight.zero()) {
+                (Ordering::Greater, _) => {}
+                (Ordering::Equal, Zero::Within(bits)) => {
+                    return Property {
+                        holds: false,
+                        evidence: Evidence::Verified { bits },
+                        witness: Some(format!("{name} cannot be told from zero")),
+                    };
+                }
+                (Ordering::Equal, _) => return Property::refuted(format!("{name} = 0")),
+                (Ordering::Less, _) => {
+                    return Property::refuted(format!("{name} = {}", shown(weight)));
                 }
             }
         }
     }
-    Property::proved(None)
+    Property::holding(Evidence::Proved, None)
 }

@@ -11,13 +11,14 @@ mod lobatto;
 mod newton_cotes;
 mod radau;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use crate::algebra::{ClosedForm, NodeAlgebra, closed_form};
+use crate::algebra::{NodeAlgebra, StageAlgebra};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Expression, ExpressionKind, Input, parse_list, shown};
@@ -309,16 +310,12 @@ pub(crate) fn first_outside(algebra: &NodeAlgebra) -> Option<usize> {
 
 /// A node as it is shown in messages: exactly where that is short.
 pub(crate) fn node_text(algebra: &NodeAlgebra, index: usize) -> String {
-    let exact: Option<ClosedForm> =
-        closed_form::of_element(algebra, &algebra.variable()).swap_remove(index);
-    exact.map_or_else(
-        || {
-            crate::algebra::Number::at(algebra, algebra.variable(), index)
-                .decimal(10)
-                .to_string()
-        },
-        |form| form.to_string(),
-    )
+    let variable = algebra.variable();
+    let exact = algebra.exact_values(&variable).swap_remove(index);
+    exact.unwrap_or_else(|| {
+        let node = &algebra.values(Cow::Owned(variable))[index];
+        node.decimal(10).to_string()
+    })
 }
 
 /// The exact degree of precision of a rule, by traces.

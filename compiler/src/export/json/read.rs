@@ -10,6 +10,7 @@ use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::Value;
 use serde_json::value::RawValue;
 
+use crate::coefficients::subscript;
 use crate::error::{Error, ErrorKind};
 use crate::export::MAX_DIGITS;
 use crate::export::entries::{Entry, compare, offset};
@@ -18,7 +19,6 @@ use crate::expression::Input;
 use crate::limits::Limits;
 use crate::properties::Properties;
 use crate::tableau::Tableau;
-use crate::tableau::subscript;
 
 /// Reads a tableau from JSON.
 ///

@@ -1,12 +1,12 @@
 //! Writing JSON.
 
-use crate::algebra::ClosedForm;
 use crate::arithmetic::rounding::shortest;
+use crate::definition::Key;
 use crate::properties::{Evidence, Property};
 use crate::tableau::Tableau;
 
 /// The three forms of a coefficient.
-type Forms = (Option<ClosedForm>, (String, f64));
+type Forms = (Option<String>, (String, f64));
 
 /// Writes a tableau as JSON with decimals of `digits ≥ 1` significant digits.
 ///
@@ -23,7 +23,7 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
     let rounded = tableau
         .numbers()
         .map(|number| (number.decimal(digits).to_string(), number.to_f64()));
-    let forms = tableau.closed_forms().zip(rounded);
+    let forms = tableau.exact_forms().zip(rounded);
     let provenance = tableau.provenance();
     let properties = tableau.properties();
     let properties: Vec<String> = properties
@@ -34,8 +34,8 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
     let members = [
         ("name", optional(tableau.name())),
         ("stages", tableau.stages().to_string()),
-        ("basis", string(&provenance.basis)),
-        ("nodes", string(&provenance.nodes)),
+        ("basis", optional(provenance.definition.get(Key::Basis))),
+        ("nodes", optional(provenance.definition.get(Key::Nodes))),
         ("source", optional(provenance.source.as_deref())),
         ("c", vector(&forms.c, "  ")),
         ("c_tilde", vector(&forms.c_tilde, "  ")),
@@ -61,7 +61,6 @@ fn optional(text: Option<&str>) -> String {
 }
 
 fn number((exact, (decimal, double)): &Forms) -> String {
-    let exact = exact.as_ref().map(ToString::to_string);
     format!(
         "{{\"exact\": {}, \"decimal\": {}, \"f64\": {}}}",
         optional(exact.as_deref()),

@@ -6,6 +6,7 @@ use std::ops::Range;
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::coefficients::subscript;
 use crate::error::{Error, ErrorKind};
 use crate::export::MAX_DIGITS;
 use crate::export::entries::{Entry, first_line};
@@ -14,7 +15,6 @@ use crate::expression::Input;
 use crate::limits::Limits;
 use crate::properties::Properties;
 use crate::tableau::Tableau;
-use crate::tableau::subscript;
 
 pub(super) type List = Spanned<Vec<Spanned<String>>>;
 pub(super) type Matrix = Spanned<Vec<List>>;

@@ -13,8 +13,9 @@ use crate::arithmetic::rational;
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Input, MAX_BITS};
 use crate::limits::Limits;
+use crate::pair::Pair;
 use crate::quadrature::{first_outside, node_text};
-use crate::tableau::{Provenance, Tableau};
+use crate::tableau::{Exact, Provenance, Tableau};
 
 /// Reads a tableau from the exact data of a TOML file.
 ///
@@ -51,17 +52,18 @@ pub fn read(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Err
     })?;
     let origin = document.origin();
     Ok(Tableau {
-        name: origin.name,
+        name: origin.name.clone(),
         provenance: Provenance {
-            basis: origin.basis.0,
-            nodes: origin.nodes.0,
-            source: origin.source,
+            definition: origin.definition(),
+            source: origin.source.clone(),
         },
-        algebra: Arc::new(algebra),
-        a: tensor(file, &exact.a)?,
-        a_tilde: tensor(file, &exact.a_tilde)?,
-        b: polynomial(file, &exact.b)?,
-        b_tilde: polynomial(file, &exact.b_tilde)?,
+        exact: Exact::Nodes(Pair {
+            algebra: Arc::new(algebra),
+            a: tensor(file, &exact.a)?,
+            a_tilde: tensor(file, &exact.a_tilde)?,
+            b: polynomial(file, &exact.b)?,
+            b_tilde: polynomial(file, &exact.b_tilde)?,
+        }),
     })
 }
 

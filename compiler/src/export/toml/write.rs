@@ -1,11 +1,12 @@
 //! Writing TOML.
 
-use crate::algebra::Tensor;
+use crate::algebra::{NodeAlgebra, Tensor};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::export::json::evidence;
 use crate::export::layout::{right, widths};
+use crate::pair::Pair;
 use crate::properties::Property;
-use crate::tableau::Tableau;
+use crate::tableau::{Exact, Tableau};
 
 /// Rows that are wider than this have one entry a line.
 const WIDEST: usize = 110;
@@ -48,16 +49,17 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
     text.push_str(&format!("stages = {}\n", tableau.stages()));
 
     let provenance = tableau.provenance();
-    text.push_str(&format!(
-        "\n[provenance]\nbasis = {}\nnodes = {}\n",
-        string(&provenance.basis),
-        string(&provenance.nodes)
-    ));
+    text.push_str("\n[provenance]\n");
+    for (key, part) in provenance.definition.parts() {
+        text.push_str(&format!("{} = {}\n", key.name(), string(part)));
+    }
     if let Some(source) = &provenance.source {
         text.push_str(&format!("source = {}\n", string(source)));
     }
 
-    write_exact(&mut text, tableau);
+    match &tableau.exact {
+        Exact::Nodes(pair) => write_functions_of_nodes(&mut text, pair),
+    }
     write_decimals(&mut text, tableau, digits);
 
     text.push_str("\n[properties]\n");
@@ -70,15 +72,15 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
     text
 }
 
-fn write_exact(text: &mut String, tableau: &Tableau) {
-    let stages = tableau.stages();
+fn write_functions_of_nodes(text: &mut String, pair: &Pair<NodeAlgebra>) {
+    let stages = pair.algebra.dimension();
     text.push_str("\n[exact]\n");
     text.push_str(EXACT);
-    let modulus = coefficients(tableau.algebra().modulus(), stages + 1);
+    let modulus = coefficients(pair.algebra.modulus(), stages + 1);
     write_vector(text, "node_polynomial", &modulus);
     text.push_str(ONE_INDEX);
-    write_vector(text, "b", &coefficients(tableau.b(), stages));
-    write_vector(text, "b_tilde", &coefficients(tableau.b_tilde(), stages));
+    write_vector(text, "b", &coefficients(&pair.b, stages));
+    write_vector(text, "b_tilde", &coefficients(&pair.b_tilde, stages));
     text.push_str(TWO_INDICES);
     let rows = |tensor: &Tensor| -> Vec<Vec<String>> {
         (0..stages)
@@ -88,8 +90,8 @@ fn write_exact(text: &mut String, tableau: &Tableau) {
             })
             .collect()
     };
-    write_matrix(text, "a", &rows(tableau.a()), power_of_y);
-    write_matrix(text, "a_tilde", &rows(tableau.a_tilde()), power_of_y);
+    write_matrix(text, "a", &rows(&pair.a), power_of_y);
+    write_matrix(text, "a_tilde", &rows(&pair.a_tilde), power_of_y);
 }
 
 fn write_decimals(text: &mut String, tableau: &Tableau, digits: usize) {

@@ -8,7 +8,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::tensor::magnitude_bits;
-use super::{NodeAlgebra, Number, Tensor};
+use super::{NodeAlgebra, NodeNumber, Tensor};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::{ratio, simplest_between};
@@ -208,7 +208,9 @@ fn search(
     if let Some(rational) = algebra.roots()[node].rational() {
         return Some(ClosedForm::rational(element.evaluate(rational)));
     }
-    let vanishes = |f: Polynomial| Number::at(algebra, algebra.reduce(&f), node).is_zero();
+    let vanishes = |f: Polynomial| {
+        NodeNumber::at(algebra, algebra.reduce(&f), node).equals(&BigRational::zero())
+    };
     let value = &values[node];
     if let Some(candidate) = short_rational(value)
         && vanishes(element - &Polynomial::constant(candidate.clone()))
@@ -238,7 +240,7 @@ fn search(
 }
 
 /// The simplest rational in an interval, if it is short.
-pub(super) fn short_rational(interval: &Interval) -> Option<BigRational> {
+pub fn short_rational(interval: &Interval) -> Option<BigRational> {
     let candidate = simplest_between(&interval.low(), &interval.high());
     let short = candidate.numer().bits() <= SHORT_BITS && candidate.denom().bits() <= SHORT_BITS;
     short.then_some(candidate)

@@ -1,0 +1,188 @@
+//! Vectors and matrices that are lists of numbers in a field.
+
+use std::borrow::Cow;
+use std::fmt::Debug;
+
+use num_rational::BigRational;
+
+use super::stage_algebra::group_by;
+use super::{Number, StageAlgebra, Zero};
+
+/// A field of real numbers.
+pub trait Field: Debug + PartialEq {
+    /// Its elements. Equal elements are equal numbers; where not all equal numbers are equal elements,
+    /// [`Field::zero`] says what is known.
+    type Element: Clone + Debug + PartialEq;
+
+    /// A rational number.
+    fn rational(&self, value: &BigRational) -> Self::Element;
+    /// The sum.
+    fn add(&self, x: &Self::Element, y: &Self::Element) -> Self::Element;
+    /// The difference.
+    fn subtract(&self, x: &Self::Element, y: &Self::Element) -> Self::Element;
+    /// The product.
+    fn multiply(&self, x: &Self::Element, y: &Self::Element) -> Self::Element;
+    /// The inverse; `None` for zero and for what cannot be told from it.
+    fn inverse(&self, x: &Self::Element) -> Option<Self::Element>;
+    /// The binary places to which equations are verified; `None` where they are decided.
+    fn verified_bits(&self) -> Option<u32>;
+    /// Whether an element is zero.
+    fn zero(&self, x: &Self::Element) -> Zero;
+    /// An element as a number.
+    fn number(&self, x: &Self::Element) -> Number<'_>;
+    /// A readable exact form, where there is one.
+    fn exact(&self, x: &Self::Element) -> Option<String>;
+}
+
+/// The algebra of functions of `stages` stages with values in a field, value by value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dense<F> {
+    field: F,
+    stages: usize,
+}
+
+impl<F: Field> Dense<F> {
+    /// The functions of this many stages with values in a field.
+    pub fn new(field: F, stages: usize) -> Self {
+        Dense { field, stages }
+    }
+
+    /// The field of the values.
+    pub fn field(&self) -> &F {
+        &self.field
+    }
+
+    fn total<'a>(&self, values: impl Iterator<Item = &'a F::Element>) -> F::Element
+    where
+        F::Element: 'a,
+    {
+        values
+            .cloned()
+            .reduce(|sum, value| self.field.add(&sum, &value))
+            .unwrap_or_else(|| self.field.rational(&BigRational::default()))
+    }
+}
+
+type Vector<F> = Vec<<F as Field>::Element>;
+type Matrix<F> = Vec<Vector<F>>;
+
+fn zip<T>(x: &[T], y: &[T], operation: impl Fn(&T, &T) -> T) -> Vec<T> {
+    x.iter().zip(y).map(|(x, y)| operation(x, y)).collect()
+}
+
+impl<F: Field> StageAlgebra for Dense<F> {
+    type Vector = Vector<F>;
+    type Matrix = Matrix<F>;
+
+    fn stages(&self) -> usize {
+        self.stages
+    }
+
+    fn constant(&self, value: &BigRational) -> Vector<F> {
+        vec![self.field.rational(value); self.stages]
+    }
+
+    fn add(&self, f: &Vector<F>, g: &Vector<F>) -> Vector<F> {
+        zip(f, g, |x, y| self.field.add(x, y))
+    }
+
+    fn subtract(&self, f: &Vector<F>, g: &Vector<F>) -> Vector<F> {
+        zip(f, g, |x, y| self.field.subtract(x, y))
+    }
+
+    fn multiply(&self, f: &Vector<F>, g: &Vector<F>) -> Vector<F> {
+        zip(f, g, |x, y| self.field.multiply(x, y))
+    }
+
+    fn reciprocal(&self, f: &Vector<F>) -> Result<Vector<F>, usize> {
+        let inverse = |(i, x)| self.field.inverse(x).ok_or(i);
+        f.iter().enumerate().map(inverse).collect()
+    }
+
+    fn sum(&self, f: &Vector<F>) -> Number<'_> {
+        self.field.number(&self.total(f.iter()))
+    }
+
+    fn outer(&self, f: &Vector<F>, g: &Vector<F>) -> Matrix<F> {
+        let row = |x| g.iter().map(|y| self.field.multiply(x, y)).collect();
+        f.iter().map(row).collect()
+    }
+
+    fn add_matrices(&self, m: &Matrix<F>, n: &Matrix<F>) -> Matrix<F> {
+        let rows = m.iter().zip(n);
+        rows.map(|(x, y)| StageAlgebra::add(self, x, y)).collect()
+    }
+
+    fn subtract_matrices(&self, m: &Matrix<F>, n: &Matrix<F>) -> Matrix<F> {
+        let rows = m.iter().zip(n);
+        rows.map(|(x, y)| StageAlgebra::subtract(self, x, y))
+            .collect()
+    }
+
+    fn transpose(&self, m: &Matrix<F>) -> Matrix<F> {
+        let column = |j: usize| m.iter().map(|row| row[j].clone()).collect();
+        (0..self.stages).map(column).collect()
+    }
+
+    fn scale_rows(&self, m: &Matrix<F>, f: &Vector<F>) -> Matrix<F> {
+        let scaled = |(row, x): (&Vector<F>, &F::Element)| {
+            row.iter().map(|y| self.field.multiply(x, y)).collect()
+        };
+        m.iter().zip(f).map(scaled).collect()
+    }
+
+    fn apply(&self, m: &Matrix<F>, f: &Vector<F>) -> Vector<F> {
+        let row = |row: &Vector<F>| {
+            let products = zip(row, f, |x, y| self.field.multiply(x, y));
+            self.total(products.iter())
+        };
+        m.iter().map(row).collect()
+    }
+
+    fn values<'a>(&'a self, f: Cow<'a, Vector<F>>) -> Vec<Number<'a>> {
+        f.iter().map(|x| self.field.number(x)).collect()
+    }
+
+    fn entries<'a>(&'a self, m: &'a Matrix<F>) -> Vec<Vec<Number<'a>>> {
+        let row = |row| self.values(Cow::Borrowed(row));
+        m.iter().map(row).collect()
+    }
+
+    fn exact_values(&self, f: &Vector<F>) -> Vec<Option<String>> {
+        f.iter().map(|x| self.field.exact(x)).collect()
+    }
+
+    fn exact_entries(&self, m: &Matrix<F>) -> Vec<Vec<Option<String>>> {
+        m.iter().map(|row| self.exact_values(row)).collect()
+    }
+
+    fn verified_bits(&self) -> Option<u32> {
+        self.field.verified_bits()
+    }
+
+    fn equal_rows(&self, m: &Matrix<F>, columns: &[Vec<usize>]) -> Vec<Vec<usize>> {
+        let key = |stage: usize| {
+            let row = &m[stage];
+            let sum = |group: &Vec<usize>| self.total(group.iter().map(|&j| &row[j]));
+            Some(columns.iter().map(sum).collect::<Vec<_>>())
+        };
+        let equal = |f: &Vector<F>, g: &Vector<F>| {
+            let mut pairs = f.iter().zip(g);
+            pairs.all(|(x, y)| x == y || self.field.zero(&self.field.subtract(x, y)).may_be())
+        };
+        group_by(self.stages, key, equal)
+    }
+
+    fn sees_coincidences_of(&self, _stage: usize) -> bool {
+        true
+    }
+
+    fn merged_entry(&self, m: &Matrix<F>, row: usize, group: &[usize]) -> Number<'_> {
+        let entries = group.iter().map(|&j| &m[row][j]);
+        self.field.number(&self.total(entries))
+    }
+
+    fn merged_value(&self, f: &Vector<F>, group: &[usize]) -> Number<'_> {
+        self.field.number(&self.total(group.iter().map(|&j| &f[j])))
+    }
+}

@@ -1,0 +1,270 @@
+//! The node algebra `K = Q[x]/(m)`: exact arithmetic on functions of the nodes.
+//!
+//! If the nodes `c_1 < … < c_s` are the roots of a squarefree rational polynomial `m`, a quantity with
+//! one index is a polynomial `f` modulo `m` with `f_i = f(c_i)`, and a quantity with two indices is an
+//! element of `K ⊗ K`, a polynomial in `x` and `y` modulo `m(x)` and `m(y)`. Sums over nodes are
+//! traces. `m` may be reducible; no splitting field is ever built, and no root is approximated to
+//! derive or to prove anything. (theory.md §3.1)
+
+mod closed_form;
+mod divisor;
+mod number;
+mod stages;
+mod tensor;
+
+use std::sync::{Arc, Mutex};
+
+use num_rational::BigRational;
+use num_traits::Zero;
+
+use crate::arithmetic::interval::Interval;
+use crate::arithmetic::polynomial::Polynomial;
+use crate::arithmetic::roots::{Root, enclose, real_roots};
+use crate::error::ErrorKind;
+
+pub use closed_form::ClosedForm;
+pub(super) use closed_form::short_rational;
+pub use number::NodeNumber;
+pub use tensor::Tensor;
+
+/// The algebra `Q[x]/(m)` of functions on the roots of a squarefree polynomial with real roots only.
+///
+/// Its elements are polynomials of degree less than the number of nodes.
+#[derive(Debug)]
+pub struct NodeAlgebra {
+    modulus: Polynomial,
+    roots: Vec<Root>,
+    /// `Tr xᵏ = Σ_i c_iᵏ` for `k < s`.
+    power_sums: Vec<BigRational>,
+    /// The finest enclosures of the nodes so far.
+    enclosures: Mutex<Option<Arc<Vec<Interval>>>>,
+}
+
+impl NodeAlgebra {
+    /// The algebra of functions on the roots of `polynomial`.
+    ///
+    /// # Errors
+    /// Where the roots are not distinct, not real, or there are none.
+    pub fn new(polynomial: &Polynomial) -> Result<Self, ErrorKind> {
+        let modulus = polynomial.primitive();
+        let degree = modulus.degree().unwrap_or(0);
+        if degree == 0 || modulus.gcd(&modulus.derivative()).degree() != Some(0) {
+            return Err(ErrorKind::NotSquarefree {
+                polynomial: modulus.display("x").to_string(),
+            });
+        }
+        let roots = real_roots(&modulus);
+        if roots.len() != degree {
+            return Err(ErrorKind::ComplexRoots {
+                degree,
+                real: roots.len(),
+            });
+        }
+        let power_sums = power_sums(&modulus, degree);
+        Ok(NodeAlgebra {
+            modulus,
+            roots,
+            power_sums,
+            enclosures: Mutex::new(None),
+        })
+    }
+
+    /// The number of nodes, which is the dimension of the algebra.
+    pub fn dimension(&self) -> usize {
+        self.roots.len()
+    }
+
+    /// The node polynomial, primitive: coprime integer coefficients, a positive leading one.
+    pub fn modulus(&self) -> &Polynomial {
+        &self.modulus
+    }
+
+    /// The nodes in ascending order.
+    pub fn roots(&self) -> &[Root] {
+        &self.roots
+    }
+
+    /// The function `c_i ↦ c_i`.
+    pub fn variable(&self) -> Polynomial {
+        self.reduce(&Polynomial::variable())
+    }
+
+    /// A polynomial as a function on the nodes.
+    pub fn reduce(&self, polynomial: &Polynomial) -> Polynomial {
+        polynomial.remainder(&self.modulus)
+    }
+
+    /// The product, node by node.
+    pub fn multiply(&self, left: &Polynomial, right: &Polynomial) -> Polynomial {
+        self.reduce(&(left * right))
+    }
+
+    /// The inverse, node by node.
+    ///
+    /// # Errors
+    /// Where the element is no unit: the common divisor of the element and the node polynomial, whose
+    /// roots are the nodes at which the element vanishes.
+    pub fn inverse(&self, element: &Polynomial) -> Result<Polynomial, Polynomial> {
+        element.inverse_modulo(&self.modulus)
+    }
+
+    /// The trace `Σ_i f(c_i)`.
+    pub fn trace(&self, element: &Polynomial) -> BigRational {
+        let coefficients = self.reduce(element).coefficients();
+        coefficients
+            .iter()
+            .zip(&self.power_sums)
+            .map(|(c, p)| c * p)
+            .sum()
+    }
+
+    /// The basis of `K` that is dual to the powers of `x`: elements `e_k` with
+    /// `Σ_k xᵏ e_k(y) = δ(x, y)`, which is 1 at equal nodes and 0 at different ones.
+    ///
+    /// From `δ(x, y) = (m(x) − m(y))/(x − y) · m'(y)⁻¹`.
+    pub fn dual_basis(&self) -> Vec<Polynomial> {
+        let m = self.modulus.coefficients();
+        // m is squarefree, so its derivative is a unit.
+        let unit = self
+            .inverse(&self.modulus.derivative())
+            .unwrap_or_else(|_| Polynomial::zero());
+        (0..self.dimension())
+            .map(|k| self.multiply(&Polynomial::from_rationals(&m[k + 1..]), &unit))
+            .collect()
+    }
+
+    /// Enclosures of all nodes with this number of binary places.
+    pub(crate) fn enclose_nodes(&self, bits: u32) -> Arc<Vec<Interval>> {
+        let mut cache = self
+            .enclosures
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
+        match &*cache {
+            Some(known) if known.first().is_some_and(|i| i.bits() == bits) => Arc::clone(known),
+            _ => {
+                let nodes = self
+                    .roots
+                    .iter()
+                    .map(|root| enclose(&self.modulus, root, bits))
+                    .collect();
+                Arc::clone(cache.insert(Arc::new(nodes)))
+            }
+        }
+    }
+
+    /// Enclosures of the values of an element at all nodes.
+    pub fn enclose(&self, element: &Polynomial, bits: u32) -> Vec<Interval> {
+        self.enclose_nodes(bits)
+            .iter()
+            .map(|node| node.evaluate(element))
+            .collect()
+    }
+}
+
+impl PartialEq for NodeAlgebra {
+    fn eq(&self, other: &Self) -> bool {
+        self.modulus == other.modulus
+    }
+}
+
+impl Eq for NodeAlgebra {}
+
+/// `Σ_i c_iᵏ` over the roots of a polynomial, for `k < count` (Newton's identities).
+fn power_sums(polynomial: &Polynomial, count: usize) -> Vec<BigRational> {
+    let degree = polynomial.degree().unwrap_or(0);
+    let leading = polynomial.leading();
+    // e_k with sign: the coefficient of x^(degree − k) of the monic polynomial.
+    let e = |k: usize| {
+        if k <= degree {
+            polynomial.coefficient(degree - k) / &leading
+        } else {
+            BigRational::zero()
+        }
+    };
+    let integer = |n: usize| BigRational::from_integer(n.into());
+    let mut sums = vec![integer(degree)];
+    for k in 1..count {
+        let products: BigRational = (1..k).map(|j| e(j) * &sums[k - j]).sum();
+        sums.push(-(products + integer(k) * e(k)));
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::rational::ratio;
+    use num_traits::One;
+    use proptest::prelude::*;
+
+    fn algebra() -> NodeAlgebra {
+        // (6x² − 6x + 1)·x·(3x − 2): reducible, with irrational and rational nodes.
+        let m = [[1, -6, 6].as_slice(), &[0, 1], &[-2, 3]]
+            .iter()
+            .fold(Polynomial::one(), |p, c| &p * &Polynomial::from_integers(c));
+        NodeAlgebra::new(&m).expect("distinct real roots")
+    }
+
+    #[test]
+    fn the_dual_basis_gives_the_identity() {
+        let k = algebra();
+        let dual = k.dual_basis();
+        // Σ_j δ(x, c_j) f(c_j) = f(x) for every f; on powers it is Tr(e_k xˡ) = δ_kl.
+        for (i, e) in dual.iter().enumerate() {
+            for j in 0..k.dimension() {
+                assert_eq!(
+                    k.trace(&k.multiply(e, &Polynomial::monomial(j))),
+                    ratio(i64::from(i == j), 1)
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn an_element_that_vanishes_at_a_node_is_no_unit() {
+        let k = algebra();
+        let f = Polynomial::from_integers(&[-2, 3]);
+        assert_eq!(k.inverse(&f), Err(f.clone()));
+        assert_eq!(k.inverse(&Polynomial::zero()), Err(k.modulus().clone()));
+    }
+
+    #[test]
+    fn bad_node_polynomials_are_refused() {
+        let new = |c: &[i64]| NodeAlgebra::new(&Polynomial::from_integers(c)).err();
+        assert!(matches!(
+            new(&[1, -2, 1]),
+            Some(ErrorKind::NotSquarefree { .. })
+        ));
+        assert!(matches!(new(&[3]), Some(ErrorKind::NotSquarefree { .. })));
+        assert!(matches!(new(&[]), Some(ErrorKind::NotSquarefree { .. })));
+        assert_eq!(
+            new(&[1, 0, 1]),
+            Some(ErrorKind::ComplexRoots { degree: 2, real: 0 })
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn inverses_invert(c in prop::collection::vec(-9i64..9, 4)) {
+            let k = algebra();
+            let f = Polynomial::from_integers(&c);
+            match k.inverse(&f) {
+                Ok(inverse) => prop_assert_eq!(k.multiply(&f, &inverse), Polynomial::one()),
+                Err(divisor) => {
+                    prop_assert!(divisor.degree() > Some(0) || f.is_zero());
+                    prop_assert!(k.modulus().remainder(&divisor).is_zero());
+                    prop_assert!(f.remainder(&divisor).is_zero());
+                }
+            }
+        }
+
+        #[test]
+        fn the_trace_is_the_sum_over_the_nodes(c in prop::collection::vec(-9i64..9, 7)) {
+            let k = algebra();
+            let f = Polynomial::from_integers(&c);
+            let sum = k.enclose(&k.reduce(&f), 80).into_iter().reduce(|a, b| a.add(&b)).expect("nodes");
+            prop_assert!(sum.contains(&k.trace(&f)));
+            prop_assert!(sum.high() - sum.low() < BigRational::new(One::one(), num_bigint::BigInt::one() << 60));
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! The node algebra as an algebra of functions of the stages.
+
+use std::borrow::Cow;
+
+use num_rational::BigRational;
+
+use super::{NodeAlgebra, NodeNumber, Tensor, closed_form};
+use crate::algebra::stage_algebra::group_by;
+use crate::algebra::{Number, StageAlgebra};
+use crate::arithmetic::polynomial::Polynomial;
+
+impl StageAlgebra for NodeAlgebra {
+    type Vector = Polynomial;
+    type Matrix = Tensor;
+
+    fn stages(&self) -> usize {
+        self.dimension()
+    }
+
+    fn constant(&self, value: &BigRational) -> Polynomial {
+        Polynomial::constant(value.clone())
+    }
+
+    fn add(&self, f: &Polynomial, g: &Polynomial) -> Polynomial {
+        f + g
+    }
+
+    fn subtract(&self, f: &Polynomial, g: &Polynomial) -> Polynomial {
+        f - g
+    }
+
+    fn multiply(&self, f: &Polynomial, g: &Polynomial) -> Polynomial {
+        NodeAlgebra::multiply(self, f, g)
+    }
+
+    fn reciprocal(&self, f: &Polynomial) -> Result<Polynomial, usize> {
+        self.inverse(f).map_err(|divisor| {
+            let vanishes = |index: &usize| self.roots()[*index].is_root_of_divisor(&divisor);
+            (0..self.dimension()).find(vanishes).unwrap_or(0)
+        })
+    }
+
+    fn sum(&self, f: &Polynomial) -> Number<'_> {
+        Number::Rational(self.trace(f))
+    }
+
+    fn outer(&self, f: &Polynomial, g: &Polynomial) -> Tensor {
+        Tensor::from_products(self, &[(f.clone(), g.clone())])
+    }
+
+    fn add_matrices(&self, m: &Tensor, n: &Tensor) -> Tensor {
+        m.add(n)
+    }
+
+    fn subtract_matrices(&self, m: &Tensor, n: &Tensor) -> Tensor {
+        m.subtract(n)
+    }
+
+    fn transpose(&self, m: &Tensor) -> Tensor {
+        m.transpose()
+    }
+
+    fn scale_rows(&self, m: &Tensor, f: &Polynomial) -> Tensor {
+        m.scale_rows(self, f)
+    }
+
+    fn apply(&self, m: &Tensor, f: &Polynomial) -> Polynomial {
+        m.apply(self, f)
+    }
+
+    fn values<'a>(&'a self, f: Cow<'a, Polynomial>) -> Vec<Number<'a>> {
+        if let Some(value) = f.as_constant() {
+            return vec![Number::Rational(value); self.dimension()];
+        }
+        let values = NodeNumber::of_element(self, f);
+        values.into_iter().map(Number::Node).collect()
+    }
+
+    fn entries<'a>(&'a self, m: &'a Tensor) -> Vec<Vec<Number<'a>>> {
+        if m.is_zero() {
+            let row = vec![Number::Rational(BigRational::default()); self.dimension()];
+            return vec![row; self.dimension()];
+        }
+        let rows = NodeNumber::of_tensor(self, m).into_iter();
+        rows.map(|row| row.into_iter().map(Number::Node).collect())
+            .collect()
+    }
+
+    fn exact_values(&self, f: &Polynomial) -> Vec<Option<String>> {
+        let forms = closed_form::of_element(self, f).into_iter();
+        forms
+            .map(|form| form.map(|form| form.to_string()))
+            .collect()
+    }
+
+    fn exact_entries(&self, m: &Tensor) -> Vec<Vec<Option<String>>> {
+        let text = |row: Vec<Option<super::ClosedForm>>| {
+            let forms = row.into_iter();
+            forms
+                .map(|form| form.map(|form| form.to_string()))
+                .collect()
+        };
+        closed_form::of_tensor(self, m)
+            .into_iter()
+            .map(text)
+            .collect()
+    }
+
+    fn verified_bits(&self) -> Option<u32> {
+        None
+    }
+
+    /// Stages at irrational nodes stay alone.
+    fn equal_rows(&self, m: &Tensor, columns: &[Vec<usize>]) -> Vec<Vec<usize>> {
+        // The factor of the node polynomial whose roots are the irrational nodes.
+        let linear = |node: &BigRational| {
+            Polynomial::from_rationals(&[-node, BigRational::from_integer(1.into())])
+        };
+        let rational_nodes = (0..self.dimension()).filter_map(|stage| self.rational_node(stage));
+        let irrational = rational_nodes.fold(self.modulus().clone(), |rest, node| {
+            rest.div_rem(&linear(node))
+                .map_or(Polynomial::zero(), |(quotient, _)| quotient)
+        });
+        let key = |stage| {
+            let row = m.row_at(self.rational_node(stage)?);
+            let value = |j: &usize| self.rational_node(*j).map(|node| row.evaluate(node));
+            let sums: Vec<BigRational> = columns
+                .iter()
+                .map(|group| group.iter().filter_map(value).sum())
+                .collect();
+            Some((row.remainder(&irrational), sums))
+        };
+        group_by(self.dimension(), key, |a, b| a == b)
+    }
+
+    fn sees_coincidences_of(&self, stage: usize) -> bool {
+        self.rational_node(stage).is_some()
+    }
+
+    fn merged_entry(&self, m: &Tensor, row: usize, group: &[usize]) -> Number<'_> {
+        let columns = group.iter().filter_map(|&j| self.rational_node(j));
+        let sum = columns.fold(Polynomial::zero(), |sum, node| &sum + &m.column_at(node));
+        Number::Node(NodeNumber::at(self, sum, row))
+    }
+
+    fn merged_value(&self, f: &Polynomial, group: &[usize]) -> Number<'_> {
+        let nodes = group.iter().filter_map(|&j| self.rational_node(j));
+        Number::Rational(nodes.map(|node| f.evaluate(node)).sum())
+    }
+}
+
+impl NodeAlgebra {
+    fn rational_node(&self, stage: usize) -> Option<&BigRational> {
+        self.roots()[stage].rational()
+    }
+}

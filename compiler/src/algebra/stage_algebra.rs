@@ -1,0 +1,94 @@
+//! What all algebras of functions of the stages can do.
+
+use std::borrow::Cow;
+use std::fmt::Debug;
+
+use num_rational::BigRational;
+
+use super::Number;
+
+/// Arithmetic on vectors `f_i` and matrices `f_ij` over the stages of a tableau.
+///
+/// An equation between tableau coefficients, order conditions among them, is a few of these
+/// operations and the question whether the residual vanishes.
+pub trait StageAlgebra: Debug + PartialEq + Sized {
+    /// Quantities with one index.
+    type Vector: Clone + Debug + PartialEq;
+    /// Quantities with two indices.
+    type Matrix: Clone + Debug + PartialEq;
+
+    /// The number of stages.
+    fn stages(&self) -> usize;
+
+    /// The same rational number at every stage.
+    fn constant(&self, value: &BigRational) -> Self::Vector;
+    /// `f_i + g_i`.
+    fn add(&self, f: &Self::Vector, g: &Self::Vector) -> Self::Vector;
+    /// `f_i − g_i`.
+    fn subtract(&self, f: &Self::Vector, g: &Self::Vector) -> Self::Vector;
+    /// `f_i g_i`.
+    fn multiply(&self, f: &Self::Vector, g: &Self::Vector) -> Self::Vector;
+    /// `1/f_i`.
+    ///
+    /// # Errors
+    /// The first stage at which `f` vanishes, or cannot be told from zero.
+    fn reciprocal(&self, f: &Self::Vector) -> Result<Self::Vector, usize>;
+    /// `Σ_i f_i`.
+    fn sum(&self, f: &Self::Vector) -> Number<'_>;
+
+    /// The matrix `f_i g_j`.
+    fn outer(&self, f: &Self::Vector, g: &Self::Vector) -> Self::Matrix;
+    /// `m_ij + n_ij`.
+    fn add_matrices(&self, m: &Self::Matrix, n: &Self::Matrix) -> Self::Matrix;
+    /// `m_ij − n_ij`.
+    fn subtract_matrices(&self, m: &Self::Matrix, n: &Self::Matrix) -> Self::Matrix;
+    /// `m_ji`.
+    fn transpose(&self, m: &Self::Matrix) -> Self::Matrix;
+    /// `f_i m_ij`.
+    fn scale_rows(&self, m: &Self::Matrix, f: &Self::Vector) -> Self::Matrix;
+    /// `Σ_j m_ij f_j`.
+    fn apply(&self, m: &Self::Matrix, f: &Self::Vector) -> Self::Vector;
+
+    /// The values of a vector.
+    fn values<'a>(&'a self, f: Cow<'a, Self::Vector>) -> Vec<Number<'a>>;
+    /// The entries of a matrix.
+    fn entries<'a>(&'a self, m: &'a Self::Matrix) -> Vec<Vec<Number<'a>>>;
+    /// Readable exact forms of the values, where there are any.
+    fn exact_values(&self, f: &Self::Vector) -> Vec<Option<String>>;
+    /// Readable exact forms of the entries, where there are any.
+    fn exact_entries(&self, m: &Self::Matrix) -> Vec<Vec<Option<String>>>;
+
+    /// The binary places to which equations are verified that no exact argument decides; `None` where
+    /// all equations are decided.
+    fn verified_bits(&self) -> Option<u32>;
+
+    /// Groups the stages whose rows are equal when the columns of each group are added.
+    fn equal_rows(&self, m: &Self::Matrix, columns: &[Vec<usize>]) -> Vec<Vec<usize>>;
+    /// Whether [`Self::equal_rows`] looks at this stage, or leaves it alone unseen.
+    fn sees_coincidences_of(&self, stage: usize) -> bool;
+    /// `Σ_{j in group} m_ij` in one row, for a group of [`Self::equal_rows`].
+    fn merged_entry(&self, m: &Self::Matrix, row: usize, group: &[usize]) -> Number<'_>;
+    /// `Σ_{j in group} f_j`, for a group of [`Self::equal_rows`].
+    fn merged_value(&self, f: &Self::Vector, group: &[usize]) -> Number<'_>;
+}
+
+/// Groups what has equal keys; what has none stays alone.
+pub(crate) fn group_by<K>(
+    count: usize,
+    key: impl Fn(usize) -> Option<K>,
+    equal: impl Fn(&K, &K) -> bool,
+) -> Vec<Vec<usize>> {
+    let mut groups: Vec<(Option<K>, Vec<usize>)> = Vec::new();
+    for item in 0..count {
+        let key = key(item);
+        let known = groups.iter_mut().find(|(known, _)| match (known, &key) {
+            (Some(known), Some(key)) => equal(known, key),
+            _ => false,
+        });
+        match known {
+            Some((_, group)) => group.push(item),
+            None => groups.push((key, vec![item])),
+        }
+    }
+    groups.into_iter().map(|(_, group)| group).collect()
+}
