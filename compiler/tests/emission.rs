@@ -49,13 +49,13 @@ fn coefficients(code: &str) -> Vec<Vec<f64>> {
         .replace([' ', '\n', '(', ')'], "");
     let arrays = plans.split("step.size,[").skip(1);
     let numbers = |array: &str| -> Vec<f64> {
-        let list = array
-            .split_once(']')
-            .expect("an array")
-            .0
-            .split(',')
-            .filter(|number| !number.is_empty());
-        list.map(|number| number.parse().expect("a number"))
+        let list = array.split_once(']').expect("an array").0;
+        let list = list.replace("exact", "new").replace("::symplectic::", "");
+        // The first of the numbers of each is the double.
+        let doubles = list.split("Coefficient::new").skip(1);
+        let doubles = doubles.map(|list| list.split(',').next().expect("a list"));
+        doubles
+            .map(|number| number.parse().expect("a number"))
             .collect()
     };
     arrays.map(numbers).collect()

@@ -115,6 +115,25 @@ pub enum Error {
         step_size: f64,
     },
 
+    /// The system gives no energy, which the generating function is made of.
+    #[error("the system gives no energy; implement `energy`, or add a closure by `with_energy`")]
+    NoEnergy,
+
+    /// The energy depends on time, and the method reads two clocks: there is no one Hamiltonian whose generating
+    /// function could be given.
+    #[error(
+        "the energy depends on time, and stage {stage} has the time {position_time} for the position and \
+         {momentum_time} for the momentum; take a method with c = c̃"
+    )]
+    TwoClocks {
+        /// The stage, from 1.
+        stage: usize,
+        /// `t0 + c_i h`.
+        position_time: f64,
+        /// `t0 + c̃_i h`.
+        momentum_time: f64,
+    },
+
     /// The step is so small that it does not change the time.
     #[error(
         "a step of size {step_size} does not change the time {time}, which has 53 bits; take a larger step, or \
@@ -142,6 +161,8 @@ pub enum Quantity {
     Velocity,
     /// −∂H/∂q.
     Force,
+    /// H.
+    Energy,
 }
 
 impl fmt::Display for Quantity {
@@ -152,6 +173,7 @@ impl fmt::Display for Quantity {
             Self::Momentum => "momentum",
             Self::Velocity => "velocity",
             Self::Force => "force",
+            Self::Energy => "energy",
         })
     }
 }

@@ -4,12 +4,15 @@ use core::fmt;
 use core::marker::PhantomData;
 use core::mem;
 
+use crate::diagnosis::Attempt;
 use crate::stage::is_finite;
 use crate::time::{Clock, uniform};
 use crate::{
     Class, Coupling, Error, Failure, Hamiltonian, Method, Plan, Quantity, Scalar, StageStorage,
     State, States, Step, Vector,
 };
+#[cfg(feature = "alloc")]
+use crate::{GeneratingFunction, generating_function::generating};
 
 /// The plan of the method `M` for the class of the system `S`.
 type PlanOf<M, S, V> = <<S as Hamiltonian<V>>::Class as Class>::Plan<M>;
@@ -75,7 +78,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`].
     pub fn new(_method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error> {
         check_step_size(step_size)?;
-        check_state(&state, state.q.dimension())?;
+        check_state(state.time, &state.q, &state.p, state.q.dimension())?;
         Ok(Self {
             system,
             next: (state.q.zeros_like(), state.q.zeros_like()),
@@ -101,6 +104,53 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
         self.advance(self.step_size, self.clock.next())?;
         self.clock.tick();
         Ok(&self.state)
+    }
+
+    /// Takes one step and returns its generating function at the position before and the momentum after it, the
+    /// `p0` and `q1` of which are the momentum before and the position after it, up to rounding.
+    ///
+    /// The stages are solved for once more, and memory is allocated: see
+    /// [`generating_function`](crate::generating_function).
+    ///
+    /// # Errors
+    ///
+    /// Those of [`step`](Self::step), [`Error::NoEnergy`], [`Error::TwoClocks`]; the state is untouched.
+    ///
+    /// ```
+    /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, hamiltonian};
+    /// # fn main() -> Result<(), Error> {
+    /// let system = hamiltonian::<Vector1<f64>, _, _>(|_, q, _p, velocity| *velocity = *q, |_, _q, p, force| *force = -p)
+    ///     .with_energy(|_, q, p| q[0] * p[0]);
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(1.0));
+    /// let mut integrator = Integrator::new(Midpoint, system, start, 0.5)?;
+    /// let generating = integrator.step_with_generating_function()?;
+    /// assert!((generating.q1[0] - integrator.state().q[0]).abs() < 1e-15);
+    /// assert!((generating.p0[0] - 1.0).abs() < 1e-15);
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[cfg(feature = "alloc")]
+    pub fn step_with_generating_function(&mut self) -> Result<GeneratingFunction<V>, Error> {
+        let (size, time) = (self.step_size, self.clock.next());
+        let iterations = self.prepare(size, time)?;
+        let step = Step {
+            time: self.state.time,
+            size,
+            q: &self.state.q,
+            p: &self.next.1,
+        };
+        let number = self.steps + 1;
+        let outcome = generating::<M, S, V>(&self.system, &step, number, self.max_iterations);
+        if outcome.is_ok() {
+            self.accept(time, iterations);
+            self.clock.tick();
+        } else {
+            // The stages are those of a step that was not taken.
+            self.carried = false;
+        }
+        outcome
     }
 
     /// Goes to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size, up
@@ -171,7 +221,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     ///
     /// [`Error::Dimension`], [`Error::NonFiniteState`]; the state is then untouched.
     pub fn set_state(&mut self, state: State<V>) -> Result<(), Error> {
-        check_state(&state, self.state.q.dimension())?;
+        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
         self.state = state;
         self.carried = false;
         self.restart_clock();
@@ -233,6 +283,14 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     /// One step of size `size`, to the time `time`. The clock is the caller's.
     #[inline]
     fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
+        let iterations = self.prepare(size, time)?;
+        self.accept(time, iterations);
+        Ok(())
+    }
+
+    /// Computes a step of size `size`, to the time `time`, into `next`; returns the number of sweeps.
+    #[inline]
+    fn prepare(&mut self, size: f64, time: f64) -> Result<u32, Error> {
         if time == self.state.time {
             return Err(Error::TimeResolution {
                 time,
@@ -240,17 +298,20 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
             });
         }
         match self.attempt(size) {
-            Ok(iterations) => {
-                mem::swap(&mut self.state.q, &mut self.next.0);
-                mem::swap(&mut self.state.p, &mut self.next.1);
-                self.state.time = time;
-                self.steps += 1;
-                self.iterations += u64::from(iterations);
-                self.carried = <PlanOf<M, S, V> as Plan>::carry(&mut self.stages);
-                Ok(())
-            }
+            Ok(iterations) => Ok(iterations),
             Err(failure) => Err(self.fail(size, failure)),
         }
+    }
+
+    /// Makes the step that [`prepare`](Self::prepare) has computed the present state.
+    #[inline]
+    fn accept(&mut self, time: f64, iterations: u32) {
+        mem::swap(&mut self.state.q, &mut self.next.0);
+        mem::swap(&mut self.state.p, &mut self.next.1);
+        self.state.time = time;
+        self.steps += 1;
+        self.iterations += u64::from(iterations);
+        self.carried = <PlanOf<M, S, V> as Plan>::carry(&mut self.stages);
     }
 
     /// Computes a step into `next` and checks it; returns the number of sweeps.
@@ -279,55 +340,13 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     /// Says why a step failed, and forgets everything that it left behind.
     #[cold]
     fn fail(&mut self, step_size: f64, failure: Option<Failure>) -> Error {
-        let (time, step) = (self.state.time, self.steps + 1);
-        let expected = self.state.q.dimension();
-        let error = if let Some((what, stage, found)) = self.stages.mismatch(expected) {
-            // First of all: whatever else went wrong may be a consequence.
-            Error::EvaluationDimension {
-                time,
-                step_size,
-                step,
-                what,
-                stage,
-                expected,
-                found,
-            }
-        } else {
-            match failure {
-                Some(Failure::NoConvergence {
-                    residual,
-                    iterations,
-                }) => Error::NoConvergence {
-                    time,
-                    step_size,
-                    step,
-                    residual,
-                    iterations,
-                },
-                Some(Failure::NonFinite { what, stage }) => Error::NonFinite {
-                    time,
-                    step_size,
-                    step,
-                    what,
-                    stage,
-                },
-                None => {
-                    let part = if is_finite(&self.next.0) {
-                        Quantity::Momentum
-                    } else {
-                        Quantity::Position
-                    };
-                    let culprit = self.stages.non_finite();
-                    Error::NonFinite {
-                        time,
-                        step_size,
-                        step,
-                        what: culprit.map_or(part, |(what, _)| what),
-                        stage: culprit.map(|(_, stage)| stage),
-                    }
-                }
-            }
+        let attempt = Attempt {
+            time: self.state.time,
+            step_size,
+            step: self.steps + 1,
         };
+        let dimension = self.state.q.dimension();
+        let error = attempt.error(failure, &self.stages, &self.next.0, dimension);
         self.stages = StageStorage::like(&self.state.q);
         self.carried = false;
         error
@@ -351,7 +370,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> fmt::Debug for Integrator<M, S, V>
     }
 }
 
-fn check_step_size(value: f64) -> Result<(), Error> {
+pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {
     if value.is_finite() && value != 0.0 {
         Ok(())
     } else {
@@ -359,16 +378,21 @@ fn check_step_size(value: f64) -> Result<(), Error> {
     }
 }
 
-fn check_state<V: Vector>(state: &State<V>, dimension: usize) -> Result<(), Error> {
-    let (position, momentum) = (state.q.dimension(), state.p.dimension());
+pub(crate) fn check_state<V: Vector>(
+    time: f64,
+    q: &V,
+    p: &V,
+    dimension: usize,
+) -> Result<(), Error> {
+    let (position, momentum) = (q.dimension(), p.dimension());
     if position != dimension || momentum != dimension {
         return Err(Error::Dimension { position, momentum });
     }
-    let what = if !state.time.is_finite() {
+    let what = if !time.is_finite() {
         Quantity::Time
-    } else if !is_finite(&state.q) {
+    } else if !is_finite(q) {
         Quantity::Position
-    } else if !is_finite(&state.p) {
+    } else if !is_finite(p) {
         Quantity::Momentum
     } else {
         return Ok(());

@@ -1,6 +1,6 @@
 //! The linear combinations that generated code is made of.
 
-use crate::{PartChange, Scalar, Vector};
+use crate::{Coefficient, PartChange, Scalar, Vector};
 
 /// `out = base + h Σ_j coefficients_j terms_j`; a copy of `base` where there are no terms.
 ///
@@ -9,12 +9,12 @@ use crate::{PartChange, Scalar, Vector};
 /// shortest one; the integrator then reports [`Error::EvaluationDimension`](crate::Error::EvaluationDimension).
 ///
 /// ```
-/// use symplectic::combine;
+/// use symplectic::{Coefficient, combine};
 /// use symplectic::nalgebra::Vector2;
 ///
 /// let (q, force) = (Vector2::new(1.0, 2.0), Vector2::new(4.0, 8.0));
 /// let mut out = Vector2::zeros();
-/// combine(&mut out, &q, 0.5, [1.0, -0.5], [&force, &q]);
+/// combine(&mut out, &q, 0.5, [1.0, -0.5].map(Coefficient::exact), [&force, &q]);
 /// assert_eq!(out, Vector2::new(2.75, 5.5));
 /// combine(&mut out, &q, 0.5, [], []);
 /// assert_eq!(out, q);
@@ -24,10 +24,10 @@ pub fn combine<V: Vector, const N: usize>(
     out: &mut V,
     base: &V,
     h: f64,
-    coefficients: [f64; N],
+    coefficients: [Coefficient; N],
     terms: [&V; N],
 ) {
-    let weights = coefficients.map(|c| V::Scalar::from_f64(h * c));
+    let weights = coefficients.map(|c| V::Scalar::weight(h, c));
     let (out, base, terms) = common(out.as_mut_slice(), base.as_slice(), terms.map(V::as_slice));
     for i in 0..out.len() {
         out[i] = accumulate(base[i], &weights, &terms, i);
@@ -40,11 +40,11 @@ pub fn relax<V: Vector, const N: usize>(
     out: &mut V,
     base: &V,
     h: f64,
-    coefficients: [f64; N],
+    coefficients: [Coefficient; N],
     terms: [&V; N],
     change: &mut PartChange,
 ) {
-    let weights = coefficients.map(|c| V::Scalar::from_f64(h * c));
+    let weights = coefficients.map(|c| V::Scalar::weight(h, c));
     let (out, base, terms) = common(out.as_mut_slice(), base.as_slice(), terms.map(V::as_slice));
     // A local copy stays in registers; behind the reference it would be stored for every component.
     let mut local = *change;

@@ -17,7 +17,8 @@
 //! | The system: a trait, or two closures | [`Hamiltonian`], [`SeparableHamiltonian`], [`separable`], [`hamiltonian`] |
 //! | What it computes with | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors) |
 //! | Running it | [`State`], [`Integrator`], [`Error`] |
-//! | The method, as the macro emits it | [`Method`], [`Plan`], [`Stages`], [`combine`], [`relax`] |
+//! | What generates a step | [`generating_function`], of Type II |
+//! | The method, as the macro emits it | [`Method`], [`Plan`], [`Stages`], [`Coefficient`], [`combine`], [`relax`] |
 //!
 //! A [`Separable`] system with an [`Explicit`] plan is straight-line code with no solver in it; anything else
 //! goes through the fixed-point iteration of [`Coupled`]. The types of the system and of the method decide
@@ -50,7 +51,7 @@
 //! # Features
 //!
 //! * `std` (default): elementary functions from the standard library; implies `alloc`.
-//! * `alloc`: dynamic vectors, [`nalgebra::DVector`].
+//! * `alloc`: dynamic vectors, [`nalgebra::DVector`], and [`generating_function`].
 //! * neither: `no_std` without an allocator; static vectors, elementary functions from `libm`.
 
 #![no_std]
@@ -59,11 +60,18 @@
 #[allow(unused_extern_crates)]
 extern crate self as symplectic;
 
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
 mod change;
 mod class;
 mod closures;
+mod coefficient;
 mod coupling;
+mod diagnosis;
 mod error;
+#[cfg(feature = "alloc")]
+mod generating_function;
 mod hamiltonian;
 mod integrator;
 mod kernel;
@@ -80,8 +88,11 @@ mod vector;
 pub use change::{Change, PartChange};
 pub use class::{Class, General, Separable};
 pub use closures::{HamiltonianClosures, NoEnergy, SeparableClosures, hamiltonian, separable};
+pub use coefficient::{Coefficient, Coefficients};
 pub use coupling::{Coupled, Coupling, Explicit, Failure};
 pub use error::{Error, Quantity};
+#[cfg(feature = "alloc")]
+pub use generating_function::{GeneratingFunction, generating_function};
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
 pub use integrator::Integrator;
 pub use kernel::{combine, copy_to, relax};

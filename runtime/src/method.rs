@@ -2,7 +2,10 @@
 
 use core::fmt::Debug;
 
-use crate::{Change, Class, Coupling, General, Hamiltonian, Separable, StageStorage, Step, Vector};
+use crate::{
+    Change, Class, Coefficients, Coupling, General, Hamiltonian, Separable, StageStorage, Step,
+    Vector,
+};
 
 /// A symplectic partitioned Runge–Kutta method: a type without a value, emitted from a proved tableau.
 pub trait Method: Copy + Debug + 'static {
@@ -14,6 +17,8 @@ pub trait Method: Copy + Debug + 'static {
     const BASIS: &'static str;
     /// The nodes it was derived from, as they were written.
     const NODES: &'static str;
+    /// The coefficients, for what is computed beside the step; the plans have theirs in their code.
+    const COEFFICIENTS: Coefficients;
 
     /// How it steps a system with any Hamiltonian.
     type General: Plan<Class = General>;

@@ -5,6 +5,8 @@ use core::ops::Neg;
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
 use num_traits::{Float, One, Zero};
 
+use crate::Coefficient;
+
 /// A real number, or something that behaves like one: f32, f64, a dual number, a few numbers side by side.
 ///
 /// A system written for every `T: Scalar` runs on all of them without a change. The operators come from the
@@ -40,6 +42,33 @@ pub trait Scalar:
 
     /// The scalar nearest to `value`; a constant, that is with all derivatives zero and all lanes equal.
     fn from_f64(value: f64) -> Self;
+
+    /// The scalar nearest to a coefficient of a method, a constant as above: its double, and the single of an f32.
+    ///
+    /// A scalar with more digits than a double takes [`Coefficient::low`] too, here and in [`weight`](Self::weight).
+    ///
+    /// ```
+    /// use symplectic::{Coefficient, Scalar};
+    ///
+    /// // 1 + 2⁻²⁴ + 2⁻⁶⁰: its double is the middle of two singles, of which the lower one is even.
+    /// let c = Coefficient::new(1.0 + 2_f64.powi(-24), 2_f64.powi(-60), 1.0 + f32::EPSILON);
+    /// assert_eq!(f32::from_coefficient(c), 1.0 + f32::EPSILON);
+    /// assert_eq!(c.double() as f32, 1.0);
+    /// ```
+    #[inline]
+    fn from_coefficient(coefficient: Coefficient) -> Self {
+        Self::from_f64(coefficient.double())
+    }
+
+    /// `step_size` times a coefficient of a method, a constant as above: the factor of an evaluation in a stage.
+    ///
+    /// The product is made in double precision, as the step size is, and rounded to the scalar last. For an f32 it is
+    /// then within 2⁻²⁴ of the exact one, as close as can be; from the coefficient as an f32 it would be within twice
+    /// that, always the same way: a Kepler orbit of 20 000 steps of Gauss with five stages has twice the energy error.
+    #[inline]
+    fn weight(step_size: f64, coefficient: Coefficient) -> Self {
+        Self::from_f64(step_size * coefficient.double())
+    }
 
     /// The largest absolute value among the parts: |x| for a float, the largest over value and derivatives for a
     /// dual number, the largest over the lanes for side by side numbers.
@@ -103,13 +132,18 @@ macro_rules! forward {
 }
 
 macro_rules! float {
-    ($float:ident, $from:expr, $into:expr) => {
+    ($float:ident, $from:expr, $into:expr, $coefficient:ident) => {
         impl Scalar for $float {
             const EPSILON: f64 = $into($float::EPSILON);
 
             #[inline]
             fn from_f64(value: f64) -> Self {
                 $from(value)
+            }
+
+            #[inline]
+            fn from_coefficient(coefficient: Coefficient) -> Self {
+                coefficient.$coefficient()
             }
 
             #[inline]
@@ -144,5 +178,5 @@ const fn widen(value: f32) -> f64 {
     value as f64
 }
 
-float!(f64, same, same);
-float!(f32, narrow, widen);
+float!(f64, same, same, double);
+float!(f32, narrow, widen, single);

@@ -46,29 +46,47 @@ impl<V: Vector, const Q: usize, const P: usize> StageStorage<V> for Stages<V, Q,
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
-        let first = |values: &[V], evaluations: &[V]| {
-            let mut pairs = values.iter().zip(evaluations);
-            pairs.position(|(value, evaluation)| is_finite(value) && !is_finite(evaluation))
-        };
-        // A stage that is not stored passes for finite: what was computed from it comes later in the order.
-        match (first(&self.q, &self.force), first(&self.p, &self.velocity)) {
-            (Some(i), Some(j)) if j < i => Some((Quantity::Velocity, j + 1)),
-            (Some(i), _) => Some((Quantity::Force, i + 1)),
-            (None, j) => j.map(|j| (Quantity::Velocity, j + 1)),
-        }
+        first_non_finite((&self.q, &self.force), (&self.p, &self.velocity))
     }
 
     #[inline]
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
-        let first = |evaluations: &[V]| {
-            let mut dimensions = evaluations.iter().map(V::dimension).enumerate();
-            dimensions.find(|&(_, found)| found != dimension)
-        };
-        if let Some((i, found)) = first(&self.force) {
-            return Some((Quantity::Force, i + 1, found));
-        }
-        first(&self.velocity).map(|(i, found)| (Quantity::Velocity, i + 1, found))
+        first_mismatch(&self.force, &self.velocity, dimension)
     }
+}
+
+/// [`StageStorage::non_finite`] of positions with their forces and momenta with their velocities.
+pub(crate) fn first_non_finite<V: Vector>(
+    (q, force): (&[V], &[V]),
+    (p, velocity): (&[V], &[V]),
+) -> Option<(Quantity, usize)> {
+    let first = |values: &[V], evaluations: &[V]| {
+        let mut pairs = values.iter().zip(evaluations);
+        pairs.position(|(value, evaluation)| is_finite(value) && !is_finite(evaluation))
+    };
+    // A stage that is not stored passes for finite: what was computed from it comes later in the order.
+    match (first(q, force), first(p, velocity)) {
+        (Some(i), Some(j)) if j < i => Some((Quantity::Velocity, j + 1)),
+        (Some(i), _) => Some((Quantity::Force, i + 1)),
+        (None, j) => j.map(|j| (Quantity::Velocity, j + 1)),
+    }
+}
+
+/// [`StageStorage::mismatch`] of forces and velocities.
+#[inline]
+pub(crate) fn first_mismatch<V: Vector>(
+    force: &[V],
+    velocity: &[V],
+    dimension: usize,
+) -> Option<(Quantity, usize, usize)> {
+    let first = |evaluations: &[V]| {
+        let mut dimensions = evaluations.iter().map(V::dimension).enumerate();
+        dimensions.find(|&(_, found)| found != dimension)
+    };
+    if let Some((i, found)) = first(force) {
+        return Some((Quantity::Force, i + 1, found));
+    }
+    first(velocity).map(|(i, found)| (Quantity::Velocity, i + 1, found))
 }
 
 /// Whether every component is finite.

@@ -1,6 +1,6 @@
 //! One step, as a plan sees it.
 
-use crate::Scalar;
+use crate::{Coefficient, Scalar};
 
 /// The step that is taken: from `(q, p)` at `time` to `time + size`.
 #[derive(Debug)]
@@ -16,9 +16,9 @@ pub struct Step<'a, V> {
 }
 
 impl<V> Step<'_, V> {
-    /// The time `t0 + c h` of the node `c`.
+    /// The time `t0 + c h` of the node `c`; in double precision, as times are, whatever the scalar.
     #[inline(always)]
-    pub fn at<T: Scalar>(&self, c: f64) -> T {
-        T::from_f64(self.time + c * self.size)
+    pub fn at<T: Scalar>(&self, c: Coefficient) -> T {
+        T::from_f64(self.time + c.double() * self.size)
     }
 }

@@ -15,7 +15,8 @@
 ///
 /// Any number of definitions may stand in one macro. The type is `Copy`, has no fields and implements
 /// [`Method`](crate::Method); its coefficients are constants, each the double nearest to the exact one:
-/// `A`, `A_TILDE`, `B`, `B_TILDE`, `C`, `C_TILDE`. Its page in the documentation shows the exact tableau
+/// `A`, `A_TILDE`, `B`, `B_TILDE`, `C`, `C_TILDE`; for other scalars than f64 there is
+/// [`Method::COEFFICIENTS`](crate::Method::COEFFICIENTS), rounded from the exact ones again. Its page in the documentation shows the exact tableau
 /// and what is proved about it.
 ///
 /// | key | value |

@@ -1,7 +1,8 @@
 //! Steps allocate nothing.
 //!
-//! The crate is `no_std` and links no allocator: memory can only come from `clone` and `zeros_like` of the vectors
-//! it is generic over. These count here.
+//! The crate is `no_std`, and nothing in a step uses the allocator that the generating function does: memory can only
+//! come from `clone` and `zeros_like` of the vectors it is generic over. These count here; the whole allocator is
+//! counted in the tests of the workspace.
 
 mod common;
 

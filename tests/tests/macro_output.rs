@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeSet, HashSet};
 
-use symplectic::{Error, Integrator, Method};
+use symplectic::{Coefficient, Error, Integrator, Method, Scalar};
 use symplectic_compiler::{Coefficients, Properties, derive};
 use symplectic_tests::scenes::kepler::{Kepler, start};
 
@@ -39,6 +39,9 @@ symplectic::tableau! {
     }
     /// And what only a Runge–Kutta method has.
     Midpoint { basis: polynomial(1), nodes: gauss(1), require: [equal_matrices], max_stages: 1 }
+
+    /// A coefficient whose double is the middle of two singles.
+    BetweenSingles { basis: polynomial(1), nodes: [1/2 + 1/2^25 + 1/2^70] }
 
     #[allow(non_camel_case_types)]
     #[derive(Hash)]
@@ -81,6 +84,52 @@ fn constants_are_the_doubles_of_the_derivation() -> Result<(), symplectic_compil
         RadauRight Chebyshev ClenshawCurtis Fejer NewtonCotes Verlet Midpoint lower_case
     }
     Ok(())
+}
+
+/// What the runtime computes with, as lists like those of a derivation.
+fn runtime<M: Method>() -> Coefficients<Coefficient> {
+    let of = M::COEFFICIENTS;
+    let matrix = |rows: &[&[Coefficient]]| rows.iter().map(|row| row.to_vec()).collect();
+    Coefficients {
+        c: of.c.to_vec(),
+        c_tilde: of.c_tilde.to_vec(),
+        b: of.b.to_vec(),
+        b_tilde: of.b_tilde.to_vec(),
+        a: matrix(of.a),
+        a_tilde: matrix(of.a_tilde),
+    }
+}
+
+#[test]
+fn coefficients_are_rounded_from_the_derivation_for_every_scalar()
+-> Result<(), symplectic_compiler::Error> {
+    macro_rules! check {
+        ($($method:ident)*) => {
+            $(
+                let exact = derive($method::BASIS, $method::NODES)?;
+                let expected = exact.numbers().map(|number| {
+                    let double = number.to_f64();
+                    Coefficient::new(double, number.low_double(double), number.to_f32())
+                });
+                assert_eq!(runtime::<$method>(), expected, "{}", $method::NAME);
+            )*
+        };
+    }
+    check! {
+        GaussFromFile GaussFromRule LobattoFromFile LobattoFromRule LobattoFromLists LobattoFromOtherLists RadauLeft
+        RadauRight Chebyshev ClenshawCurtis Fejer NewtonCotes Verlet Midpoint lower_case BetweenSingles
+    }
+    Ok(())
+}
+
+#[test]
+fn singles_are_rounded_once() {
+    // c = 1/2 + 2⁻²⁵ + 2⁻⁷⁰: the double drops the last term and is the middle of two singles, of which 1/2 is even.
+    let c = BetweenSingles::COEFFICIENTS.c[0];
+    assert_eq!(f64::from_coefficient(c), 0.5 + 2.0_f64.powi(-25));
+    assert_eq!(c.low(), 2.0_f64.powi(-70));
+    assert_eq!(f32::from_coefficient(c), 0.5 + 2.0_f32.powi(-24));
+    assert_eq!(f32::from_f64(c.double()), 0.5, "rounded twice");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use num_rational::BigRational;
-use num_traits::Zero as _;
+use num_traits::{Signed, Zero as _};
 
 use super::node::{NodeNumber, short_rational};
 use crate::arithmetic::interval::Interval;
@@ -101,6 +101,28 @@ impl Number<'_> {
         self.round(rounding::to_f64, |&double| exact(double))
     }
 
+    /// The nearest single, ties to even; infinite beyond the largest single.
+    ///
+    /// Not always the single nearest to [`Number::to_f64`].
+    pub fn to_f32(&self) -> f32 {
+        self.round(rounding::to_f32, |&single| exact(single.into()))
+    }
+
+    /// What [`Number::to_f64`] leaves out: the double nearest to the number minus `double`, ties to even.
+    ///
+    /// Together they are the number to 106 bits, where that is not below the smallest double.
+    pub fn low_double(&self, double: f64) -> f64 {
+        let double = exact(double);
+        // Here the difference is zero, which no enclosure tells.
+        if self.equals(&double) {
+            return 0.0;
+        }
+        self.round(
+            |value| rounding::to_f64(&(value - &double)),
+            |&low| &double + exact(low),
+        )
+    }
+
     /// The number rounded to `digits` significant decimal digits, ties to even.
     pub fn decimal(&self, digits: usize) -> Decimal {
         self.round(|value| Decimal::round(value, digits), Decimal::value)
@@ -135,7 +157,7 @@ impl Number<'_> {
             // Ends that are close compared with the distance of what they round to are on both sides of
             // the middle between neighbours. That close, they hardly ever are unless the number is the
             // middle: the exact test is expensive, so it has to be worth it.
-            let narrow = (high - low) * exact(2f64.powi(64)) < num_traits::Signed::abs(&(b - a));
+            let narrow = (high - low) * exact(2f64.powi(64)) < (b - a).abs();
             if decided && narrow && excluded.as_ref() != Some(&middle) {
                 if self.equals(&middle) {
                     return round(&middle);
@@ -187,6 +209,37 @@ mod tests {
                 let fine = Decimal::round(&number.enclose(2000).low(), digits);
                 assert_eq!(number.decimal(digits), fine);
             }
+        }
+    }
+
+    #[test]
+    fn singles_and_low_doubles_agree_with_another_route() {
+        let gauss = crate::derive("polynomial(8)", "gauss(8)").expect("derived");
+        for number in gauss.numbers().iter() {
+            let fine = number.enclose(2000).low();
+            let double = number.to_f64();
+            let low = number.low_double(double);
+            assert_eq!(number.to_f32(), rounding::to_f32(&fine));
+            assert_eq!(low, rounding::to_f64(&(&fine - exact(double))));
+            // Half a unit in the last place of a number below 1.
+            assert!(low.abs() <= f64::EPSILON / 4.0);
+            let rest = (exact(double) + exact(low) - fine).abs();
+            assert!(rest <= exact(f64::EPSILON.powi(2) / 16.0));
+        }
+    }
+
+    #[test]
+    fn low_doubles_of_doubles_are_zero() {
+        let k = algebra();
+        let c1_c2 = Tensor::from_products(&k, &[(k.variable(), k.variable())]);
+        // c_1 c_2 = 1/6: the double 1/4 hidden in it, then a hair more than that.
+        let hair = BigRational::new(One::one(), num_bigint::BigInt::one() << 300);
+        for more in [BigRational::zero(), hair] {
+            let shift = Polynomial::constant(ratio(1, 12) + &more);
+            let hidden = c1_c2.add(&Tensor::from_products(&k, &[(shift, Polynomial::one())]));
+            let quarter = &NodeAlgebra::entries(&k, &hidden)[0][1];
+            assert_eq!(quarter.to_f64(), 0.25);
+            assert_eq!(exact(quarter.low_double(0.25)), more);
         }
     }
 

@@ -1,4 +1,4 @@
-//! Correct rounding of rationals to doubles and to decimals, ties to even.
+//! Correct rounding of rationals to doubles, to singles and to decimals, ties to even.
 
 use std::fmt;
 
@@ -9,43 +9,79 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 /// The double nearest to a rational, ties to even; infinite beyond the largest double.
 pub fn to_f64(value: &BigRational) -> f64 {
-    if value.is_zero() {
-        return 0.0;
-    }
-    let (numerator, denominator) = (value.numer().abs(), value.denom());
-    // value = mantissa·2^exponent with 2⁵² ≤ mantissa < 2⁵³, or exponent = −1074 for subnormals.
-    let scaled = |exponent: i64| {
-        if exponent >= 0 {
-            numerator.div_rem(&(denominator << exponent))
-        } else {
-            (&numerator << -exponent).div_rem(denominator)
+    DOUBLE.nearest(value)
+}
+
+/// The single nearest to a rational, ties to even; infinite beyond the largest single.
+///
+/// Not the single nearest to its double, which may be the middle of two singles where the rational is
+/// none.
+pub fn to_f32(value: &BigRational) -> f32 {
+    // A single already, or 2¹²⁸ or infinite, which both become infinite.
+    SINGLE.nearest(value) as f32
+}
+
+/// A binary format: numbers mantissa·2^exponent.
+struct Format {
+    /// Binary digits of the mantissa.
+    digits: i64,
+    /// The exponent of the subnormals.
+    least: i64,
+    /// The exponent of the largest number, whose mantissa is 2^digits − 1.
+    most: i64,
+}
+
+const DOUBLE: Format = Format {
+    digits: 53,
+    least: -1074,
+    most: 971,
+};
+
+const SINGLE: Format = Format {
+    digits: 24,
+    least: -149,
+    most: 104,
+};
+
+impl Format {
+    /// The nearest number of the format, ties to even. One that rounds up past the largest becomes the power of
+    /// two above it, as far as a double holds that, and everything beyond is infinite.
+    fn nearest(&self, value: &BigRational) -> f64 {
+        if value.is_zero() {
+            return 0.0;
         }
-    };
-    let mut exponent = (numerator.bits() as i64 - denominator.bits() as i64 - 53).max(-1074);
-    let (mut mantissa, mut remainder) = scaled(exponent);
-    if mantissa.bits() > 53 {
-        exponent += 1;
-        (mantissa, remainder) = scaled(exponent);
-    }
-    let unit = if exponent > 0 {
-        denominator << exponent
-    } else {
-        denominator.clone()
-    };
-    if rounds_up(&mantissa, &remainder, &unit) {
-        mantissa += 1;
-    }
-    if exponent > 971 {
-        return if value.is_negative() {
-            f64::NEG_INFINITY
-        } else {
-            f64::INFINITY
+        let (numerator, denominator) = (value.numer().abs(), value.denom());
+        // value = mantissa·2^exponent with a mantissa of all digits, or the least exponent for subnormals.
+        let scaled = |exponent: i64| {
+            if exponent >= 0 {
+                numerator.div_rem(&(denominator << exponent))
+            } else {
+                (&numerator << -exponent).div_rem(denominator)
+            }
         };
+        let lengths = numerator.bits() as i64 - denominator.bits() as i64;
+        let mut exponent = (lengths - self.digits).max(self.least);
+        let (mut mantissa, mut remainder) = scaled(exponent);
+        if mantissa.bits() as i64 > self.digits {
+            exponent += 1;
+            (mantissa, remainder) = scaled(exponent);
+        }
+        let unit = if exponent > 0 {
+            denominator << exponent
+        } else {
+            denominator.clone()
+        };
+        if rounds_up(&mantissa, &remainder, &unit) {
+            mantissa += 1;
+        }
+        let size = if exponent > self.most {
+            f64::INFINITY
+        } else {
+            // Both factors and the product are doubles, so this is exact (or overflows to infinity).
+            mantissa.to_u64().unwrap_or(u64::MAX) as f64 * power_of_two(exponent)
+        };
+        if value.is_negative() { -size } else { size }
     }
-    // Both factors and the product are doubles, so this is exact (or overflows to infinity).
-    let mantissa = mantissa.to_u64().unwrap_or(u64::MAX) as f64;
-    let size = mantissa * power_of_two(exponent);
-    if value.is_negative() { -size } else { size }
 }
 
 fn power_of_two(exponent: i64) -> f64 {
@@ -198,6 +234,30 @@ mod tests {
             prop_assert_eq!(to_f64(&value).abs().to_bits(), read.abs().to_bits());
         }
 
+        /// Likewise: it reads singles without a double in between. The short numerators make near-ties, where the
+        /// double in between would be the middle of two singles.
+        #[test]
+        fn singles_agree_with_the_decimal_reader(n in any::<i64>(), short in 0u32..40, scale in -65i64..40) {
+            let n = BigInt::from(n >> short);
+            let ten = BigInt::from(10).pow(scale.unsigned_abs() as u32);
+            let value = if scale < 0 { BigRational::new(n.clone(), ten) } else { BigRational::from_integer(&n * ten) };
+            let read: f32 = format!("{n}e{scale}").parse().expect("a decimal");
+            prop_assert_eq!(to_f32(&value).abs().to_bits(), read.abs().to_bits());
+            prop_assert!(value.is_zero() || to_f32(&value).is_sign_negative() == value.is_negative());
+        }
+
+        #[test]
+        fn single_ties_go_to_even_and_neighbours_do_not(bits in 0u32..0x7f7f_ffff) {
+            let (low, high) = (f32::from_bits(bits), f32::from_bits(bits + 1));
+            let middle = (exact(low.into()) + exact(high.into())) / ratio(2, 1);
+            let even = if bits % 2 == 0 { low } else { high };
+            prop_assert_eq!(to_f32(&middle), even);
+            // Less than a double can tell from the middle: rounding twice would take both for the tie.
+            let nudge = &middle / BigRational::from_integer(BigInt::one() << 200u32);
+            prop_assert_eq!(to_f32(&(&middle - &nudge)), low);
+            prop_assert_eq!(to_f32(&(&middle + &nudge)), high);
+        }
+
         #[test]
         fn ties_go_to_even_and_neighbours_do_not(bits in 1u64..0x7fe0_0000_0000_0000) {
             let (low, high) = (f64::from_bits(bits), f64::from_bits(bits + 1));
@@ -251,5 +311,16 @@ mod tests {
         assert_eq!(to_f64(&(exact(f64::MAX) * ratio(2, 1))), f64::INFINITY);
         assert_eq!(to_f64(&(exact(5e-324) / ratio(2, 1))), 0.0);
         assert_eq!(to_f64(&(exact(5e-324) * ratio(3, 4))), 5e-324);
+        let largest = exact(f32::MAX.into());
+        assert_eq!(to_f32(&largest), f32::MAX);
+        // The middle between it and 2^128 is a tie, and 2^128 the even one.
+        let beyond = &largest + exact(2f64.powi(103));
+        assert_eq!(to_f32(&beyond), f32::INFINITY);
+        assert_eq!(to_f32(&-(&beyond)), f32::NEG_INFINITY);
+        assert_eq!(to_f32(&(&beyond - ratio(1, 1000))), f32::MAX);
+        assert_eq!(to_f32(&exact(f64::MAX)), f32::INFINITY);
+        let least = exact(1e-45_f32.into());
+        assert_eq!(to_f32(&(&least / ratio(2, 1))), 0.0);
+        assert_eq!(to_f32(&(&least * ratio(3, 4))), 1e-45);
     }
 }

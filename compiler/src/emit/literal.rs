@@ -3,6 +3,8 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
+use crate::algebra::Number;
+
 /// A name of the generated code.
 pub(super) fn identifier(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
@@ -12,14 +14,38 @@ pub(super) fn identifier(name: &str) -> Ident {
 /// method call on it means the negative number.
 pub(super) fn double(value: f64) -> TokenStream {
     // `{:?}` always reads as a floating-point literal: 1.0, never the integer 1.
-    let literal: Option<Literal> = format!("{:?}", value.abs()).parse().ok();
-    // Coefficients are finite, and finite doubles read as literals.
-    let literal = literal.unwrap_or_else(|| Literal::f64_suffixed(value.abs()));
-    if value.is_sign_negative() {
-        quote!((-#literal))
-    } else {
-        quote!(#literal)
+    let size = format!("{:?}", value.abs());
+    signed(&size, "f64", value.is_sign_negative())
+}
+
+/// The same for a single: where an f32 is expected the literal is read as one, without a double in between.
+fn single(value: f32) -> TokenStream {
+    let size = format!("{:?}", value.abs());
+    signed(&size, "f32", value.is_sign_negative())
+}
+
+fn signed(size: &str, kind: &str, negative: bool) -> TokenStream {
+    let size = match size.parse::<Literal>() {
+        Ok(literal) => quote!(#literal),
+        // Finite numbers read as literals; the one that does not is infinite.
+        Err(_) => {
+            let kind = identifier(kind);
+            quote!(::core::primitive::#kind::INFINITY)
+        }
+    };
+    if negative { quote!((-#size)) } else { size }
+}
+
+/// A coefficient as the runtime takes it: rounded to a double, what that leaves out, and rounded to a single.
+pub(super) fn coefficient(number: &Number<'_>) -> TokenStream {
+    let (value, nearest) = (number.to_f64(), number.to_f32());
+    let rest = number.low_double(value);
+    let high = double(value);
+    if rest == 0.0 && nearest.to_bits() == (value as f32).to_bits() {
+        return quote!(::symplectic::Coefficient::exact(#high));
     }
+    let (low, single) = (double(rest), single(nearest));
+    quote!(::symplectic::Coefficient::new(#high, #low, #single))
 }
 
 /// A number of stages without a suffix.
@@ -31,4 +57,45 @@ pub(super) fn count(value: usize) -> Literal {
 pub(super) fn array(values: &[f64]) -> TokenStream {
     let values = values.iter().map(|&value| double(value));
     quote!([#(#values),*])
+}
+
+/// An array of coefficients.
+pub(super) fn coefficients(numbers: &[Number<'_>]) -> TokenStream {
+    let numbers = numbers.iter().map(coefficient);
+    quote!([#(#numbers),*])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::rational::ratio;
+    use crate::arithmetic::rounding::exact;
+
+    #[test]
+    fn literals_read_back() {
+        assert_eq!(double(1.0).to_string(), "1.0");
+        assert_eq!(double(-0.25).to_string(), "(- 0.25)");
+        for value in [f32::MAX, f32::from_bits(1), 0.1, 16_777_216.0] {
+            assert_eq!(single(value).to_string().parse(), Ok(value));
+        }
+    }
+
+    #[test]
+    fn coefficients_beyond_singles_are_infinite_as_such() {
+        let code = |value| coefficient(&Number::Rational(value)).to_string();
+        assert_eq!(
+            code(exact(0.5)),
+            ":: symplectic :: Coefficient :: exact (0.5)"
+        );
+        assert_eq!(
+            code(exact(-1e300)),
+            ":: symplectic :: Coefficient :: exact ((- 1e300))"
+        );
+        let seventh = exact(1e300) / ratio(7, 1);
+        let seventh = code(seventh);
+        assert!(
+            seventh.ends_with(":: core :: primitive :: f32 :: INFINITY)"),
+            "{seventh}"
+        );
+    }
 }

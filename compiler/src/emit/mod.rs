@@ -1,7 +1,9 @@
 //! From an exact tableau to Rust code.
 //!
-//! The generated code names everything as `::symplectic::…`. It contains the correctly rounded
-//! coefficients as constants, and for each class of Hamiltonians a plan of the step in which every
+//! The generated code names everything as `::symplectic::…`. It contains the coefficients as constants,
+//! each rounded correctly to a double, and as what the runtime computes with: rounded correctly to a
+//! double and from the exact value again to a single, which is infinite for a coefficient beyond the
+//! largest single, because the method is sound in doubles. For each class of Hamiltonians a plan of the step in which every
 //! stage is a line of its own (theory.md §7): no product with zero, equal stages computed once, stages
 //! in order where they are explicit, no evaluation that the previous step has made already.
 
@@ -11,6 +13,8 @@ mod plan;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use crate::algebra::Number;
+use crate::coefficients::Coefficients;
 use crate::definition::Key;
 use crate::error::ErrorKind;
 use crate::schedule::Class;
@@ -50,6 +54,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
     let part = |key| provenance.definition.get(key).unwrap_or_default();
     let (basis, nodes) = (part(Key::Basis), part(Key::Nodes));
     let numbers = tableau.numbers();
+    let coefficients = coefficients(tableau, &numbers);
     // The plans are named after the method, so that they are not the method.
     let [general_plan, separable_plan] =
         ["General", "Separable"].map(|class| format_ident!("{name}{class}"));
@@ -71,6 +76,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
                 const STAGES: usize = #stages;
                 const BASIS: &'static str = #basis;
                 const NODES: &'static str = #nodes;
+                #coefficients
                 type General = #general_plan;
                 type Separable = #separable_plan;
             }
@@ -143,6 +149,45 @@ fn constants(tableau: &Tableau) -> TokenStream {
         ),
     ];
     quote!(#(#constants)*)
+}
+
+/// The coefficients as the runtime takes them.
+fn coefficients(tableau: &Tableau, numbers: &Coefficients<Number<'_>>) -> TokenStream {
+    let vector = |name: &Ident, numbers: &[Number<'_>]| {
+        let values = literal::coefficients(numbers);
+        quote!(const #name: &[::symplectic::Coefficient] = &#values;)
+    };
+    let matrix = |name: &Ident, rows: &[Vec<Number<'_>>]| {
+        let rows = rows.iter().map(|row| literal::coefficients(row));
+        quote!(const #name: &[&[::symplectic::Coefficient]] = &[#(&#rows),*];)
+    };
+    let [a, b, c] = ["A", "B", "C"].map(literal::identifier);
+    let [mut a_tilde, mut b_tilde, mut c_tilde] =
+        ["A_TILDE", "B_TILDE", "C_TILDE"].map(literal::identifier);
+    let mut constants = vec![
+        matrix(&a, &numbers.a),
+        vector(&b, &numbers.b),
+        vector(&c, &numbers.c),
+    ];
+    // Where both halves are the same, the second is the first.
+    let (same_a, same_b) = tableau.equal_halves();
+    if same_a {
+        (a_tilde, c_tilde) = (a.clone(), c.clone());
+    } else {
+        constants.push(matrix(&a_tilde, &numbers.a_tilde));
+        constants.push(vector(&c_tilde, &numbers.c_tilde));
+    }
+    if same_b {
+        b_tilde = b.clone();
+    } else {
+        constants.push(vector(&b_tilde, &numbers.b_tilde));
+    }
+    quote! {
+        const COEFFICIENTS: ::symplectic::Coefficients = {
+            #(#constants)*
+            ::symplectic::Coefficients { a: #a, a_tilde: #a_tilde, b: #b, b_tilde: #b_tilde, c: #c, c_tilde: #c_tilde }
+        };
+    }
 }
 
 /// The tableau and what is proved about it, for the page of the type.

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::literal::{array, identifier};
+use super::literal::{self, identifier};
 use crate::algebra::Number;
 use crate::arithmetic::rational::ratio;
 use crate::coefficients::Coefficients;
@@ -244,7 +244,7 @@ impl<'g, 'a> Phases<'g, 'a> {
     fn evaluate(&self, node: Node, q: &TokenStream, p: &TokenStream) -> TokenStream {
         let function = evaluation_name(node);
         let out = slot(node);
-        let time = super::literal::double(evaluation(self.graph, node).time.to_f64());
+        let time = literal::coefficient(&evaluation(self.graph, node).time);
         quote!(system.#function(step.at(#time), #q, #p, &mut #out);)
     }
 
@@ -367,7 +367,9 @@ fn terms(node: Node, coefficients: &[Number<'_>]) -> (TokenStream, TokenStream) 
     let nonzero: Vec<usize> = (0..coefficients.len())
         .filter(|&j| !coefficients[j].is_zero())
         .collect();
-    let values: Vec<f64> = nonzero.iter().map(|&j| coefficients[j].to_f64()).collect();
+    let values = nonzero
+        .iter()
+        .map(|&j| literal::coefficient(&coefficients[j]));
     let evaluations = nonzero.iter().map(|&j| slot(kind(j)));
-    (array(&values), quote!([#(&#evaluations),*]))
+    (quote!([#(#values),*]), quote!([#(&#evaluations),*]))
 }

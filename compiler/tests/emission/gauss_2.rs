@@ -49,6 +49,50 @@ const _: () = {
         const STAGES: usize = 2;
         const BASIS: &'static str = "polynomial(2)";
         const NODES: &'static str = "gauss(2)";
+        const COEFFICIENTS: ::symplectic::Coefficients = {
+            const A: &[&[::symplectic::Coefficient]] = &[
+                &[
+                    ::symplectic::Coefficient::exact(0.25),
+                    ::symplectic::Coefficient::new(
+                        (-0.03867513459481288),
+                        (-2.8473525618637145e-18),
+                        (-0.038675133),
+                    ),
+                ],
+                &[
+                    ::symplectic::Coefficient::new(
+                        0.5386751345948129,
+                        1.6725140369678172e-17,
+                        0.5386751,
+                    ),
+                    ::symplectic::Coefficient::exact(0.25),
+                ],
+            ];
+            const B: &[::symplectic::Coefficient] = &[
+                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::Coefficient::exact(0.5),
+            ];
+            const C: &[::symplectic::Coefficient] = &[
+                ::symplectic::Coefficient::new(
+                    0.2113248654051871,
+                    1.1030435245950743e-17,
+                    0.21132487,
+                ),
+                ::symplectic::Coefficient::new(
+                    0.7886751345948129,
+                    1.6725140369678172e-17,
+                    0.7886751,
+                ),
+            ];
+            ::symplectic::Coefficients {
+                a: A,
+                a_tilde: A,
+                b: B,
+                b_tilde: B,
+                c: C,
+                c_tilde: C,
+            }
+        };
         type General = Gauss2General;
         type Separable = Gauss2Separable;
     }
@@ -74,7 +118,19 @@ const _: () = {
             ::symplectic::combine(&mut p[0], step.p, step.size, [], []);
             ::symplectic::combine(&mut p[1], step.p, step.size, [], []);
             system
-                .velocity(step.at(0.2113248654051871), step.q, step.p, &mut velocity[0]);
+                .velocity(
+                    step
+                        .at(
+                            ::symplectic::Coefficient::new(
+                                0.2113248654051871,
+                                1.1030435245950743e-17,
+                                0.21132487,
+                            ),
+                        ),
+                    step.q,
+                    step.p,
+                    &mut velocity[0],
+                );
             ::symplectic::copy_to(velocity, 0, [1]);
         }
         #[inline]
@@ -92,7 +148,14 @@ const _: () = {
                 &mut q[0],
                 step.q,
                 step.size,
-                [0.25, (-0.03867513459481288)],
+                [
+                    ::symplectic::Coefficient::exact(0.25),
+                    ::symplectic::Coefficient::new(
+                        (-0.03867513459481288),
+                        (-2.8473525618637145e-18),
+                        (-0.038675133),
+                    ),
+                ],
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
@@ -100,17 +163,57 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.size,
-                [0.5386751345948129, 0.25],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.5386751345948129,
+                        1.6725140369678172e-17,
+                        0.5386751,
+                    ),
+                    ::symplectic::Coefficient::exact(0.25),
+                ],
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
-            system.force(step.at(0.2113248654051871), &q[0], &p[0], &mut force[0]);
-            system.force(step.at(0.7886751345948129), &q[1], &p[1], &mut force[1]);
+            system
+                .force(
+                    step
+                        .at(
+                            ::symplectic::Coefficient::new(
+                                0.2113248654051871,
+                                1.1030435245950743e-17,
+                                0.21132487,
+                            ),
+                        ),
+                    &q[0],
+                    &p[0],
+                    &mut force[0],
+                );
+            system
+                .force(
+                    step
+                        .at(
+                            ::symplectic::Coefficient::new(
+                                0.7886751345948129,
+                                1.6725140369678172e-17,
+                                0.7886751,
+                            ),
+                        ),
+                    &q[1],
+                    &p[1],
+                    &mut force[1],
+                );
             ::symplectic::relax(
                 &mut p[0],
                 step.p,
                 step.size,
-                [0.25, (-0.03867513459481288)],
+                [
+                    ::symplectic::Coefficient::exact(0.25),
+                    ::symplectic::Coefficient::new(
+                        (-0.03867513459481288),
+                        (-2.8473525618637145e-18),
+                        (-0.038675133),
+                    ),
+                ],
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -118,12 +221,45 @@ const _: () = {
                 &mut p[1],
                 step.p,
                 step.size,
-                [0.5386751345948129, 0.25],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.5386751345948129,
+                        1.6725140369678172e-17,
+                        0.5386751,
+                    ),
+                    ::symplectic::Coefficient::exact(0.25),
+                ],
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            system.velocity(step.at(0.2113248654051871), &q[0], &p[0], &mut velocity[0]);
-            system.velocity(step.at(0.7886751345948129), &q[1], &p[1], &mut velocity[1]);
+            system
+                .velocity(
+                    step
+                        .at(
+                            ::symplectic::Coefficient::new(
+                                0.2113248654051871,
+                                1.1030435245950743e-17,
+                                0.21132487,
+                            ),
+                        ),
+                    &q[0],
+                    &p[0],
+                    &mut velocity[0],
+                );
+            system
+                .velocity(
+                    step
+                        .at(
+                            ::symplectic::Coefficient::new(
+                                0.7886751345948129,
+                                1.6725140369678172e-17,
+                                0.7886751,
+                            ),
+                        ),
+                    &q[1],
+                    &p[1],
+                    &mut velocity[1],
+                );
             change
         }
         #[inline]
@@ -142,14 +278,20 @@ const _: () = {
                 q1,
                 step.q,
                 step.size,
-                [0.5, 0.5],
+                [
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
                 [&velocity[0], &velocity[1]],
             );
             ::symplectic::combine(
                 p1,
                 step.p,
                 step.size,
-                [0.5, 0.5],
+                [
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
                 [&force[0], &force[1]],
             );
         }
@@ -180,7 +322,19 @@ const _: () = {
             ::symplectic::combine(&mut p[0], step.p, step.size, [], []);
             ::symplectic::combine(&mut p[1], step.p, step.size, [], []);
             system
-                .velocity(step.at(0.2113248654051871), step.q, step.p, &mut velocity[0]);
+                .velocity(
+                    step
+                        .at(
+                            ::symplectic::Coefficient::new(
+                                0.2113248654051871,
+                                1.1030435245950743e-17,
+                                0.21132487,
+                            ),
+                        ),
+                    step.q,
+                    step.p,
+                    &mut velocity[0],
+                );
             ::symplectic::copy_to(velocity, 0, [1]);
         }
         #[inline]
@@ -198,7 +352,14 @@ const _: () = {
                 &mut q[0],
                 step.q,
                 step.size,
-                [0.25, (-0.03867513459481288)],
+                [
+                    ::symplectic::Coefficient::exact(0.25),
+                    ::symplectic::Coefficient::new(
+                        (-0.03867513459481288),
+                        (-2.8473525618637145e-18),
+                        (-0.038675133),
+                    ),
+                ],
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
@@ -206,17 +367,57 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.size,
-                [0.5386751345948129, 0.25],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.5386751345948129,
+                        1.6725140369678172e-17,
+                        0.5386751,
+                    ),
+                    ::symplectic::Coefficient::exact(0.25),
+                ],
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
-            system.force(step.at(0.2113248654051871), &q[0], step.p, &mut force[0]);
-            system.force(step.at(0.7886751345948129), &q[1], step.p, &mut force[1]);
+            system
+                .force(
+                    step
+                        .at(
+                            ::symplectic::Coefficient::new(
+                                0.2113248654051871,
+                                1.1030435245950743e-17,
+                                0.21132487,
+                            ),
+                        ),
+                    &q[0],
+                    step.p,
+                    &mut force[0],
+                );
+            system
+                .force(
+                    step
+                        .at(
+                            ::symplectic::Coefficient::new(
+                                0.7886751345948129,
+                                1.6725140369678172e-17,
+                                0.7886751,
+                            ),
+                        ),
+                    &q[1],
+                    step.p,
+                    &mut force[1],
+                );
             ::symplectic::relax(
                 &mut p[0],
                 step.p,
                 step.size,
-                [0.25, (-0.03867513459481288)],
+                [
+                    ::symplectic::Coefficient::exact(0.25),
+                    ::symplectic::Coefficient::new(
+                        (-0.03867513459481288),
+                        (-2.8473525618637145e-18),
+                        (-0.038675133),
+                    ),
+                ],
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -224,14 +425,45 @@ const _: () = {
                 &mut p[1],
                 step.p,
                 step.size,
-                [0.5386751345948129, 0.25],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.5386751345948129,
+                        1.6725140369678172e-17,
+                        0.5386751,
+                    ),
+                    ::symplectic::Coefficient::exact(0.25),
+                ],
                 [&force[0], &force[1]],
                 &mut change.p,
             );
             system
-                .velocity(step.at(0.2113248654051871), step.q, &p[0], &mut velocity[0]);
+                .velocity(
+                    step
+                        .at(
+                            ::symplectic::Coefficient::new(
+                                0.2113248654051871,
+                                1.1030435245950743e-17,
+                                0.21132487,
+                            ),
+                        ),
+                    step.q,
+                    &p[0],
+                    &mut velocity[0],
+                );
             system
-                .velocity(step.at(0.7886751345948129), step.q, &p[1], &mut velocity[1]);
+                .velocity(
+                    step
+                        .at(
+                            ::symplectic::Coefficient::new(
+                                0.7886751345948129,
+                                1.6725140369678172e-17,
+                                0.7886751,
+                            ),
+                        ),
+                    step.q,
+                    &p[1],
+                    &mut velocity[1],
+                );
             change
         }
         #[inline]
@@ -250,14 +482,20 @@ const _: () = {
                 q1,
                 step.q,
                 step.size,
-                [0.5, 0.5],
+                [
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
                 [&velocity[0], &velocity[1]],
             );
             ::symplectic::combine(
                 p1,
                 step.p,
                 step.size,
-                [0.5, 0.5],
+                [
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
                 [&force[0], &force[1]],
             );
         }

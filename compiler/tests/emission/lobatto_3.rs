@@ -57,6 +57,125 @@ const _: () = {
         const STAGES: usize = 3;
         const BASIS: &'static str = "polynomial(3)";
         const NODES: &'static str = "lobatto(3)";
+        const COEFFICIENTS: ::symplectic::Coefficients = {
+            const A: &[&[::symplectic::Coefficient]] = &[
+                &[
+                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::Coefficient::exact(0.0),
+                ],
+                &[
+                    ::symplectic::Coefficient::new(
+                        0.20833333333333334,
+                        (-9.25185853854297e-18),
+                        0.20833333,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.3333333333333333,
+                        1.850371707708594e-17,
+                        0.33333334,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        (-0.041666666666666664),
+                        (-2.3129646346357427e-18),
+                        (-0.041666668),
+                    ),
+                ],
+                &[
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.6666666666666666,
+                        3.700743415417188e-17,
+                        0.6666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                ],
+            ];
+            const B: &[::symplectic::Coefficient] = &[
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+                ::symplectic::Coefficient::new(
+                    0.6666666666666666,
+                    3.700743415417188e-17,
+                    0.6666667,
+                ),
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+            ];
+            const C: &[::symplectic::Coefficient] = &[
+                ::symplectic::Coefficient::exact(0.0),
+                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::Coefficient::exact(1.0),
+            ];
+            const A_TILDE: &[&[::symplectic::Coefficient]] = &[
+                &[
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        (-0.16666666666666666),
+                        (-9.25185853854297e-18),
+                        (-0.16666667),
+                    ),
+                    ::symplectic::Coefficient::exact(0.0),
+                ],
+                &[
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.3333333333333333,
+                        1.850371707708594e-17,
+                        0.33333334,
+                    ),
+                    ::symplectic::Coefficient::exact(0.0),
+                ],
+                &[
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.8333333333333334,
+                        (-3.700743415417188e-17),
+                        0.8333333,
+                    ),
+                    ::symplectic::Coefficient::exact(0.0),
+                ],
+            ];
+            const C_TILDE: &[::symplectic::Coefficient] = &[
+                ::symplectic::Coefficient::exact(0.0),
+                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::Coefficient::exact(1.0),
+            ];
+            ::symplectic::Coefficients {
+                a: A,
+                a_tilde: A_TILDE,
+                b: B,
+                b_tilde: B,
+                c: C,
+                c_tilde: C_TILDE,
+            }
+        };
         type General = Lobatto3General;
         type Separable = Lobatto3Separable;
     }
@@ -82,7 +201,13 @@ const _: () = {
             ::symplectic::combine(&mut p[0], step.p, step.size, [], []);
             ::symplectic::combine(&mut p[1], step.p, step.size, [], []);
             ::symplectic::combine(&mut p[2], step.p, step.size, [], []);
-            system.velocity(step.at(0.0), step.q, step.p, &mut velocity[0]);
+            system
+                .velocity(
+                    step.at(::symplectic::Coefficient::exact(0.0)),
+                    step.q,
+                    step.p,
+                    &mut velocity[0],
+                );
             ::symplectic::copy_to(velocity, 0, [1, 2]);
         }
         #[inline]
@@ -100,7 +225,23 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.size,
-                [0.20833333333333334, 0.3333333333333333, (-0.041666666666666664)],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.20833333333333334,
+                        (-9.25185853854297e-18),
+                        0.20833333,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.3333333333333333,
+                        1.850371707708594e-17,
+                        0.33333334,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        (-0.041666666666666664),
+                        (-2.3129646346357427e-18),
+                        (-0.041666668),
+                    ),
+                ],
                 [&velocity[0], &velocity[1], &velocity[2]],
                 &mut change.q,
             );
@@ -108,17 +249,56 @@ const _: () = {
                 &mut q[2],
                 step.q,
                 step.size,
-                [0.16666666666666666, 0.6666666666666666, 0.16666666666666666],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.6666666666666666,
+                        3.700743415417188e-17,
+                        0.6666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                ],
                 [&velocity[0], &velocity[1], &velocity[2]],
                 &mut change.q,
             );
-            system.force(step.at(0.0), step.q, &p[0], &mut force[0]);
-            system.force(step.at(0.5), &q[1], &p[1], &mut force[1]);
+            system
+                .force(
+                    step.at(::symplectic::Coefficient::exact(0.0)),
+                    step.q,
+                    &p[0],
+                    &mut force[0],
+                );
+            system
+                .force(
+                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    &q[1],
+                    &p[1],
+                    &mut force[1],
+                );
             ::symplectic::relax(
                 &mut p[0],
                 step.p,
                 step.size,
-                [0.16666666666666666, (-0.16666666666666666)],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        (-0.16666666666666666),
+                        (-9.25185853854297e-18),
+                        (-0.16666667),
+                    ),
+                ],
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -126,7 +306,18 @@ const _: () = {
                 &mut p[1],
                 step.p,
                 step.size,
-                [0.16666666666666666, 0.3333333333333333],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.3333333333333333,
+                        1.850371707708594e-17,
+                        0.33333334,
+                    ),
+                ],
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -134,13 +325,42 @@ const _: () = {
                 &mut p[2],
                 step.p,
                 step.size,
-                [0.16666666666666666, 0.8333333333333334],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.8333333333333334,
+                        (-3.700743415417188e-17),
+                        0.8333333,
+                    ),
+                ],
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            system.velocity(step.at(0.0), step.q, &p[0], &mut velocity[0]);
-            system.velocity(step.at(0.5), &q[1], &p[1], &mut velocity[1]);
-            system.velocity(step.at(1.0), &q[2], &p[2], &mut velocity[2]);
+            system
+                .velocity(
+                    step.at(::symplectic::Coefficient::exact(0.0)),
+                    step.q,
+                    &p[0],
+                    &mut velocity[0],
+                );
+            system
+                .velocity(
+                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    &q[1],
+                    &p[1],
+                    &mut velocity[1],
+                );
+            system
+                .velocity(
+                    step.at(::symplectic::Coefficient::exact(1.0)),
+                    &q[2],
+                    &p[2],
+                    &mut velocity[2],
+                );
             change
         }
         #[inline]
@@ -155,19 +375,57 @@ const _: () = {
             p1: &mut V,
         ) {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
-            system.force(step.at(1.0), &q[2], &p[2], &mut force[2]);
+            system
+                .force(
+                    step.at(::symplectic::Coefficient::exact(1.0)),
+                    &q[2],
+                    &p[2],
+                    &mut force[2],
+                );
             ::symplectic::combine(
                 q1,
                 step.q,
                 step.size,
-                [0.16666666666666666, 0.6666666666666666, 0.16666666666666666],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.6666666666666666,
+                        3.700743415417188e-17,
+                        0.6666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                ],
                 [&velocity[0], &velocity[1], &velocity[2]],
             );
             ::symplectic::combine(
                 p1,
                 step.p,
                 step.size,
-                [0.16666666666666666, 0.6666666666666666, 0.16666666666666666],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.6666666666666666,
+                        3.700743415417188e-17,
+                        0.6666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                ],
                 [&force[0], &force[1], &force[2]],
             );
         }
@@ -194,13 +452,25 @@ const _: () = {
         ) {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             if !carried {
-                system.force(step.at(0.0), step.q, step.p, &mut force[0]);
+                system
+                    .force(
+                        step.at(::symplectic::Coefficient::exact(0.0)),
+                        step.q,
+                        step.p,
+                        &mut force[0],
+                    );
             }
             ::symplectic::combine(&mut q[1], step.q, step.size, [], []);
             ::symplectic::combine(&mut p[0], step.p, step.size, [], []);
             ::symplectic::combine(&mut p[1], step.p, step.size, [], []);
             ::symplectic::combine(&mut p[2], step.p, step.size, [], []);
-            system.velocity(step.at(0.0), step.q, step.p, &mut velocity[0]);
+            system
+                .velocity(
+                    step.at(::symplectic::Coefficient::exact(0.0)),
+                    step.q,
+                    step.p,
+                    &mut velocity[0],
+                );
             ::symplectic::copy_to(velocity, 0, [1, 2]);
         }
         #[inline]
@@ -218,16 +488,49 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.size,
-                [0.20833333333333334, 0.3333333333333333, (-0.041666666666666664)],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.20833333333333334,
+                        (-9.25185853854297e-18),
+                        0.20833333,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.3333333333333333,
+                        1.850371707708594e-17,
+                        0.33333334,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        (-0.041666666666666664),
+                        (-2.3129646346357427e-18),
+                        (-0.041666668),
+                    ),
+                ],
                 [&velocity[0], &velocity[1], &velocity[2]],
                 &mut change.q,
             );
-            system.force(step.at(0.5), &q[1], step.p, &mut force[1]);
+            system
+                .force(
+                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    &q[1],
+                    step.p,
+                    &mut force[1],
+                );
             ::symplectic::relax(
                 &mut p[0],
                 step.p,
                 step.size,
-                [0.16666666666666666, (-0.16666666666666666)],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        (-0.16666666666666666),
+                        (-9.25185853854297e-18),
+                        (-0.16666667),
+                    ),
+                ],
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -235,7 +538,18 @@ const _: () = {
                 &mut p[1],
                 step.p,
                 step.size,
-                [0.16666666666666666, 0.3333333333333333],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.3333333333333333,
+                        1.850371707708594e-17,
+                        0.33333334,
+                    ),
+                ],
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -243,13 +557,42 @@ const _: () = {
                 &mut p[2],
                 step.p,
                 step.size,
-                [0.16666666666666666, 0.8333333333333334],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.8333333333333334,
+                        (-3.700743415417188e-17),
+                        0.8333333,
+                    ),
+                ],
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            system.velocity(step.at(0.0), step.q, &p[0], &mut velocity[0]);
-            system.velocity(step.at(0.5), step.q, &p[1], &mut velocity[1]);
-            system.velocity(step.at(1.0), step.q, &p[2], &mut velocity[2]);
+            system
+                .velocity(
+                    step.at(::symplectic::Coefficient::exact(0.0)),
+                    step.q,
+                    &p[0],
+                    &mut velocity[0],
+                );
+            system
+                .velocity(
+                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    step.q,
+                    &p[1],
+                    &mut velocity[1],
+                );
+            system
+                .velocity(
+                    step.at(::symplectic::Coefficient::exact(1.0)),
+                    step.q,
+                    &p[2],
+                    &mut velocity[2],
+                );
             change
         }
         #[inline]
@@ -268,15 +611,53 @@ const _: () = {
                 q1,
                 step.q,
                 step.size,
-                [0.16666666666666666, 0.6666666666666666, 0.16666666666666666],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.6666666666666666,
+                        3.700743415417188e-17,
+                        0.6666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                ],
                 [&velocity[0], &velocity[1], &velocity[2]],
             );
-            system.force(step.at(1.0), q1, step.p, &mut force[2]);
+            system
+                .force(
+                    step.at(::symplectic::Coefficient::exact(1.0)),
+                    q1,
+                    step.p,
+                    &mut force[2],
+                );
             ::symplectic::combine(
                 p1,
                 step.p,
                 step.size,
-                [0.16666666666666666, 0.6666666666666666, 0.16666666666666666],
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.6666666666666666,
+                        3.700743415417188e-17,
+                        0.6666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                ],
                 [&force[0], &force[1], &force[2]],
             );
         }

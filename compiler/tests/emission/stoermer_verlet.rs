@@ -44,6 +44,48 @@ const _: () = {
         const STAGES: usize = 2;
         const BASIS: &'static str = "polynomial(2)";
         const NODES: &'static str = "lobatto(2)";
+        const COEFFICIENTS: ::symplectic::Coefficients = {
+            const A: &[&[::symplectic::Coefficient]] = &[
+                &[
+                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::Coefficient::exact(0.0),
+                ],
+                &[
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
+            ];
+            const B: &[::symplectic::Coefficient] = &[
+                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::Coefficient::exact(0.5),
+            ];
+            const C: &[::symplectic::Coefficient] = &[
+                ::symplectic::Coefficient::exact(0.0),
+                ::symplectic::Coefficient::exact(1.0),
+            ];
+            const A_TILDE: &[&[::symplectic::Coefficient]] = &[
+                &[
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.0),
+                ],
+                &[
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.0),
+                ],
+            ];
+            const C_TILDE: &[::symplectic::Coefficient] = &[
+                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::Coefficient::exact(0.5),
+            ];
+            ::symplectic::Coefficients {
+                a: A,
+                a_tilde: A_TILDE,
+                b: B,
+                b_tilde: B,
+                c: C,
+                c_tilde: C_TILDE,
+            }
+        };
         type General = StoermerVerletGeneral;
         type Separable = StoermerVerletSeparable;
     }
@@ -66,7 +108,13 @@ const _: () = {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             ::symplectic::combine(&mut q[1], step.q, step.size, [], []);
             ::symplectic::combine(&mut p[0], step.p, step.size, [], []);
-            system.velocity(step.at(0.5), step.q, step.p, &mut velocity[0]);
+            system
+                .velocity(
+                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    step.q,
+                    step.p,
+                    &mut velocity[0],
+                );
             ::symplectic::copy_to(velocity, 0, [1]);
         }
         #[inline]
@@ -84,21 +132,42 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.size,
-                [0.5, 0.5],
+                [
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
-            system.force(step.at(0.0), step.q, &p[0], &mut force[0]);
+            system
+                .force(
+                    step.at(::symplectic::Coefficient::exact(0.0)),
+                    step.q,
+                    &p[0],
+                    &mut force[0],
+                );
             ::symplectic::relax(
                 &mut p[0],
                 step.p,
                 step.size,
-                [0.5],
+                [::symplectic::Coefficient::exact(0.5)],
                 [&force[0]],
                 &mut change.p,
             );
-            system.velocity(step.at(0.5), step.q, &p[0], &mut velocity[0]);
-            system.velocity(step.at(0.5), &q[1], &p[0], &mut velocity[1]);
+            system
+                .velocity(
+                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    step.q,
+                    &p[0],
+                    &mut velocity[0],
+                );
+            system
+                .velocity(
+                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    &q[1],
+                    &p[0],
+                    &mut velocity[1],
+                );
             change
         }
         #[inline]
@@ -113,19 +182,31 @@ const _: () = {
             p1: &mut V,
         ) {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
-            system.force(step.at(1.0), &q[1], &p[0], &mut force[1]);
+            system
+                .force(
+                    step.at(::symplectic::Coefficient::exact(1.0)),
+                    &q[1],
+                    &p[0],
+                    &mut force[1],
+                );
             ::symplectic::combine(
                 q1,
                 step.q,
                 step.size,
-                [0.5, 0.5],
+                [
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
                 [&velocity[0], &velocity[1]],
             );
             ::symplectic::combine(
                 p1,
                 step.p,
                 step.size,
-                [0.5, 0.5],
+                [
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
                 [&force[0], &force[1]],
             );
         }
@@ -152,10 +233,28 @@ const _: () = {
         ) {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             if !carried {
-                system.force(step.at(0.0), step.q, step.p, &mut force[0]);
+                system
+                    .force(
+                        step.at(::symplectic::Coefficient::exact(0.0)),
+                        step.q,
+                        step.p,
+                        &mut force[0],
+                    );
             }
-            ::symplectic::combine(&mut p[0], step.p, step.size, [0.5], [&force[0]]);
-            system.velocity(step.at(0.5), step.q, &p[0], &mut velocity[0]);
+            ::symplectic::combine(
+                &mut p[0],
+                step.p,
+                step.size,
+                [::symplectic::Coefficient::exact(0.5)],
+                [&force[0]],
+            );
+            system
+                .velocity(
+                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    step.q,
+                    &p[0],
+                    &mut velocity[0],
+                );
         }
         #[inline]
         fn sweep<
@@ -180,13 +279,28 @@ const _: () = {
             p1: &mut V,
         ) {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::combine(q1, step.q, step.size, [1.0], [&velocity[0]]);
-            system.force(step.at(1.0), q1, step.p, &mut force[1]);
+            ::symplectic::combine(
+                q1,
+                step.q,
+                step.size,
+                [::symplectic::Coefficient::exact(1.0)],
+                [&velocity[0]],
+            );
+            system
+                .force(
+                    step.at(::symplectic::Coefficient::exact(1.0)),
+                    q1,
+                    step.p,
+                    &mut force[1],
+                );
             ::symplectic::combine(
                 p1,
                 step.p,
                 step.size,
-                [0.5, 0.5],
+                [
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
                 [&force[0], &force[1]],
             );
         }

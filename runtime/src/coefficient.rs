@@ -1,0 +1,87 @@
+//! The coefficients of a method, rounded once for every scalar.
+
+/// A coefficient of a method: the exact number, rounded to what the scalars take.
+///
+/// A number rounded to a double and then to a single is not always the single nearest to it: the double may be the
+/// middle of two singles where the number is not. So the single is rounded from the exact number as well, and for
+/// scalars with more digits than a double there is a second double, with which the number is known to 106 bits.
+///
+/// ```
+/// use symplectic::Coefficient;
+///
+/// const THIRD: Coefficient = Coefficient::new(1.0 / 3.0, 1.850371707708594e-17, 0.33333334);
+/// assert_eq!(THIRD.double() as f32, THIRD.single());
+/// // The double is below 1/3 by what the other one holds.
+/// assert_eq!(3.0_f64.mul_add(-THIRD.double(), 1.0), 3.0 * THIRD.low());
+///
+/// const HALF: Coefficient = Coefficient::exact(0.5);
+/// assert_eq!((HALF.double(), HALF.low(), HALF.single()), (0.5, 0.0, 0.5));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coefficient {
+    double: f64,
+    low: f64,
+    single: f32,
+}
+
+impl Coefficient {
+    /// The coefficient x whose nearest double is `double`, with the double `low` nearest to x − `double`, and whose
+    /// nearest single is `single`: infinite where x is beyond the largest one.
+    #[inline(always)]
+    pub const fn new(double: f64, low: f64, single: f32) -> Self {
+        Self {
+            double,
+            low,
+            single,
+        }
+    }
+
+    /// The coefficient that is this double, exactly.
+    #[inline(always)]
+    pub const fn exact(value: f64) -> Self {
+        Self::new(value, 0.0, value as f32)
+    }
+
+    /// The nearest double.
+    #[inline(always)]
+    pub const fn double(self) -> f64 {
+        self.double
+    }
+
+    /// The double nearest to what [`double`](Self::double) leaves out.
+    #[inline(always)]
+    pub const fn low(self) -> f64 {
+        self.low
+    }
+
+    /// The nearest single; infinite beyond the largest one.
+    #[inline(always)]
+    pub const fn single(self) -> f32 {
+        self.single
+    }
+}
+
+/// The coefficients of a [`Method`](crate::Method) with s stages: every matrix has s rows of s entries, every
+/// other list s entries.
+///
+/// ```
+/// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
+/// use symplectic::{Coefficient, Method};
+///
+/// assert_eq!(Midpoint::COEFFICIENTS.a, [[Coefficient::exact(0.5)]]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coefficients {
+    /// `a_ij`: the position stages from the velocities.
+    pub a: &'static [&'static [Coefficient]],
+    /// `ã_ij`: the momentum stages from the forces.
+    pub a_tilde: &'static [&'static [Coefficient]],
+    /// `b_i`: the weights of the velocities.
+    pub b: &'static [Coefficient],
+    /// `b̃_i`: the weights of the forces.
+    pub b_tilde: &'static [Coefficient],
+    /// `c_i = Σ_j a_ij`.
+    pub c: &'static [Coefficient],
+    /// `c̃_i = Σ_j ã_ij`.
+    pub c_tilde: &'static [Coefficient],
+}
