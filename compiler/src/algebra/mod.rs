@@ -10,6 +10,7 @@
 //! | 3 | [`Dense`] over [`Reals`] | expressions that are enclosed as narrowly as needed |
 
 mod dense;
+pub mod field;
 pub mod node;
 mod number;
 mod stage_algebra;

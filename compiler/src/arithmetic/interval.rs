@@ -45,6 +45,19 @@ impl Interval {
         self.bits
     }
 
+    /// The smallest interval with this number of binary places that contains this one.
+    #[must_use]
+    pub fn rounded(&self, bits: u32) -> Interval {
+        let excess = self.bits.saturating_sub(bits);
+        let missing = bits.saturating_sub(self.bits);
+        let (low, high): (BigInt, BigInt) = (&self.low >> excess, (-&self.high) >> excess);
+        Interval {
+            low: low << missing,
+            high: -high << missing,
+            bits,
+        }
+    }
+
     /// The lower end.
     pub fn low(&self) -> BigRational {
         BigRational::new(self.low.clone(), BigInt::one() << self.bits)

@@ -1,8 +1,15 @@
 //! Exact arithmetic: rational polynomials and matrices, real roots, enclosures, correct rounding.
 
+pub mod algebraic_number;
+pub mod enclosure_cache;
+pub mod factor;
 pub mod interval;
+pub mod linear_solver;
 pub mod matrix;
 pub mod polynomial;
+pub mod power_sums;
+pub mod prime_field;
 pub mod rational;
+pub mod residues;
 pub mod roots;
 pub mod rounding;

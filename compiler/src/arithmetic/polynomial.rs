@@ -22,7 +22,9 @@ pub struct Polynomial {
 }
 
 impl Polynomial {
-    fn new(mut numerators: Vec<BigInt>, mut denominator: BigInt) -> Self {
+    /// The polynomial with these integer coefficients, lowest degree first, over a denominator that is
+    /// not zero.
+    pub(crate) fn new(mut numerators: Vec<BigInt>, mut denominator: BigInt) -> Self {
         while numerators.last().is_some_and(Zero::is_zero) {
             numerators.pop();
         }

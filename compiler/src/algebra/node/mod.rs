@@ -15,10 +15,10 @@ mod tensor;
 use std::sync::{Arc, Mutex};
 
 use num_rational::BigRational;
-use num_traits::Zero;
 
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::polynomial::Polynomial;
+use crate::arithmetic::power_sums::power_sums;
 use crate::arithmetic::roots::{Root, enclose, real_roots};
 use crate::error::ErrorKind;
 
@@ -168,27 +168,6 @@ impl PartialEq for NodeAlgebra {
 }
 
 impl Eq for NodeAlgebra {}
-
-/// `Σ_i c_iᵏ` over the roots of a polynomial, for `k < count` (Newton's identities).
-fn power_sums(polynomial: &Polynomial, count: usize) -> Vec<BigRational> {
-    let degree = polynomial.degree().unwrap_or(0);
-    let leading = polynomial.leading();
-    // e_k with sign: the coefficient of x^(degree − k) of the monic polynomial.
-    let e = |k: usize| {
-        if k <= degree {
-            polynomial.coefficient(degree - k) / &leading
-        } else {
-            BigRational::zero()
-        }
-    };
-    let integer = |n: usize| BigRational::from_integer(n.into());
-    let mut sums = vec![integer(degree)];
-    for k in 1..count {
-        let products: BigRational = (1..k).map(|j| e(j) * &sums[k - j]).sum();
-        sums.push(-(products + integer(k) * e(k)));
-    }
-    sums
-}
 
 #[cfg(test)]
 mod tests {
