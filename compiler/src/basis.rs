@@ -1,24 +1,42 @@
 //! Bases of the space in which the velocities are approximated.
 
+use std::fmt::Display;
+
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
+use crate::algebra::{Constants, Field};
 use crate::arithmetic::matrix::left_kernel;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Expression, ExpressionKind, Input, parse_list};
 use crate::limits::Limits;
 use crate::quadrature::{check_stages, count};
+use crate::symbolic::{Constant, FUNCTIONS, Function, Term};
 
-/// Linearly independent functions `ψ_1, …, ψ_s` on `[0, 1]`, polynomials in `t` (LZ §4).
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// Linearly independent functions `ψ_1, …, ψ_s` on `[0, 1]` (LZ §4).
+#[derive(Debug, Clone, PartialEq)]
 pub struct Basis {
     name: String,
-    functions: Vec<Polynomial>,
+    space: Space,
 }
 
+/// The space that a basis spans, by one of its bases.
+#[derive(Debug, Clone, PartialEq)]
+enum Space {
+    /// Polynomials with rational coefficients.
+    Polynomials(Vec<Polynomial>),
+    /// Any functions.
+    Functions(Vec<Function>),
+}
+
+/// The names of bases with one member for each number of functions.
+const FAMILIES: [(&str, fn(usize) -> Vec<Polynomial>); 2] =
+    [("polynomial", monomials), ("legendre", legendre)];
+
 impl Basis {
-    /// Reads `polynomial(3)`, which is `1, t, t^2`, or a list of polynomials in `t`.
+    /// Reads `polynomial(3)`, which is `1, t, t^2`, `legendre(3)`, or a list of functions of t such as
+    /// `1, cos(pi*t), sin(pi*t)`.
     ///
     /// # Errors
     /// Wrong expressions, unknown bases, too many functions, linearly dependent functions, each at its
@@ -27,7 +45,7 @@ impl Basis {
     /// ```
     /// use symplectic_compiler::{Basis, Limits};
     ///
-    /// let basis = Basis::parse("1, t - 1/2, t^2", &Limits::default())?;
+    /// let basis = Basis::parse("1, t - 1/2, exp(-t)", &Limits::default())?;
     /// assert_eq!(basis.len(), 3);
     /// let error = Basis::parse("1 + t, 2 + 2*t", &Limits::default()).unwrap_err();
     /// assert_eq!(
@@ -42,72 +60,92 @@ impl Basis {
             text,
         };
         let items = parse_list(input)?;
-        if let [
-            item @ Expression {
-                kind:
-                    ExpressionKind::Call {
-                        function,
-                        name,
-                        arguments,
-                    },
-                ..
-            },
-        ] = items.as_slice()
+        if let [item] = items.as_slice()
+            && let ExpressionKind::Call {
+                function,
+                name,
+                arguments,
+            } = &item.kind
+            && !FUNCTIONS.contains(&function.as_str())
         {
-            if function != "polynomial" {
+            let Some((family, members)) = FAMILIES.iter().find(|(known, _)| known == function)
+            else {
+                let known = FAMILIES.map(|(name, _)| name).join(", ");
                 let kind = ErrorKind::Unknown {
                     what: "basis",
                     name: function.clone(),
-                    known: "polynomial, or a list of polynomials in t".to_owned(),
+                    known: format!("{known}, or a list of functions of t"),
                 };
                 return Err(input.error(name, kind));
-            }
+            };
             let size = count(input, item, function, arguments)?;
             if !size.is_positive() {
                 let kind = ErrorKind::TooFewStages {
-                    rule: "polynomial",
+                    rule: family,
                     stages: size.to_string(),
                     minimum: 1,
                 };
                 return Err(input.error(&item.span, kind));
             }
             let size = check_stages(&size, limits).map_err(|kind| input.error(&item.span, kind))?;
-            return Ok(Self::monomials(size));
+            return Ok(Self::of_polynomials(
+                format!("{family}({size})"),
+                members(size),
+            ));
         }
-        let whole = 0..text.len();
-        check_stages(&items.len().into(), limits).map_err(|kind| input.error(&whole, kind))?;
-        let functions = items
-            .iter()
-            .map(|item| item.polynomial(input))
-            .collect::<Result<Vec<_>, _>>()?;
-        Self::new(functions).map_err(|kind| input.error(&whole, kind))
+        Self::list(input, &items, limits)
+    }
+
+    fn list(input: Input<'_>, items: &[Expression], limits: &Limits) -> Result<Self, Error> {
+        let whole = 0..input.text.len();
+        let at = |kind| input.error(&whole, kind);
+        check_stages(&items.len().into(), limits).map_err(at)?;
+        let functions = items.iter().map(|item| item.function(input));
+        Self::new(functions.collect::<Result<_, _>>()?).map_err(at)
     }
 
     /// The basis `1, t, …, t^(s−1)`.
     pub fn monomials(size: usize) -> Self {
+        Self::of_polynomials(format!("polynomial({size})"), monomials(size))
+    }
+
+    fn of_polynomials(name: String, polynomials: Vec<Polynomial>) -> Self {
         Basis {
-            name: format!("polynomial({size})"),
-            functions: (0..size).map(Polynomial::monomial).collect(),
+            name,
+            space: Space::Polynomials(polynomials),
         }
     }
 
     /// A basis of given functions.
     ///
     /// # Errors
-    /// [`ErrorKind::DependentBasis`].
-    pub fn new(functions: Vec<Polynomial>) -> Result<Self, ErrorKind> {
-        let rows: Vec<Vec<BigRational>> = functions.iter().map(Polynomial::coefficients).collect();
-        if let Some(coefficients) = left_kernel(&rows) {
-            return Err(ErrorKind::DependentBasis {
-                combination: combination(&functions, &coefficients),
-            });
+    /// [`ErrorKind::DependentBasis`]. Functions whose coefficients lie in no one constant field are taken
+    /// for independent; where they are not, no derivation succeeds.
+    pub fn new(functions: Vec<Function>) -> Result<Self, ErrorKind> {
+        let texts: Vec<String> = functions.iter().map(ToString::to_string).collect();
+        let name = texts.join(", ");
+        let polynomials: Option<Vec<Polynomial>> =
+            functions.iter().map(Function::as_polynomial).collect();
+        if let Some(polynomials) = polynomials {
+            let rows: Vec<Vec<BigRational>> =
+                polynomials.iter().map(Polynomial::coefficients).collect();
+            if let Some(coefficients) = left_kernel(&rows) {
+                return Err(ErrorKind::DependentBasis {
+                    combination: combination(&texts, &coefficients),
+                });
+            }
+            return Ok(Self::of_polynomials(name, polynomials));
         }
-        let name = functions
-            .iter()
-            .map(|f| f.display("t").to_string())
-            .collect::<Vec<_>>()
-            .join(", ");
-        Ok(Basis { name, functions })
+        let space = match echelon_form(&functions) {
+            Some(Echelon::Dependent(coefficients)) => {
+                return Err(ErrorKind::DependentBasis {
+                    combination: combination(&texts, &coefficients),
+                });
+            }
+            Some(Echelon::Polynomials(polynomials)) => Space::Polynomials(polynomials),
+            Some(Echelon::Independent) | None => Space::Functions(functions),
+        };
+        Ok(Basis { name, space })
     }
 
     /// The basis as it is written: `polynomial(3)` or the list of its functions.
@@ -115,33 +153,193 @@ impl Basis {
         &self.name
     }
 
-    /// The functions.
-    pub fn functions(&self) -> &[Polynomial] {
-        &self.functions
+    /// Functions that span the space: the same for all bases of one space of rational polynomials.
+    ///
+    /// # Errors
+    /// [`ErrorKind::ExpressionSize`] for polynomials beyond the bounds of functions.
+    pub fn functions(&self) -> Result<Vec<Function>, ErrorKind> {
+        match &self.space {
+            Space::Polynomials(polynomials) => {
+                polynomials.iter().map(Function::polynomial).collect()
+            }
+            Space::Functions(functions) => Ok(functions.clone()),
+        }
+    }
+
+    /// Polynomials with rational coefficients that span the space, where there are any.
+    pub fn polynomials(&self) -> Option<&[Polynomial]> {
+        match &self.space {
+            Space::Polynomials(polynomials) => Some(polynomials),
+            Space::Functions(_) => None,
+        }
     }
 
     /// The number of functions.
     pub fn len(&self) -> usize {
-        self.functions.len()
+        match &self.space {
+            Space::Polynomials(polynomials) => polynomials.len(),
+            Space::Functions(functions) => functions.len(),
+        }
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.functions.is_empty()
+        self.len() == 0
     }
 }
 
-/// A linear combination as text, scaled to coprime integer coefficients: `2*(t + 1) - (2*t + 2)`.
-pub(crate) fn combination(functions: &[Polynomial], coefficients: &[BigRational]) -> String {
-    let scaled = Polynomial::from_rationals(coefficients)
+fn monomials(size: usize) -> Vec<Polynomial> {
+    (0..size).map(Polynomial::monomial).collect()
+}
+
+/// The Legendre polynomials on `[0, 1]`: `(k + 1) P_{k+1} = (2k + 1)(2t − 1) P_k − k P_{k−1}`.
+fn legendre(size: usize) -> Vec<Polynomial> {
+    let centred = Polynomial::from_integers(&[-1, 2]);
+    let mut polynomials = vec![Polynomial::one(), centred.clone()];
+    for k in 1..size {
+        let ratio = |n: usize| BigRational::new(n.into(), (k + 1).into());
+        let next = &(&centred * &polynomials[k]).scale(&ratio(2 * k + 1))
+            - &polynomials[k - 1].scale(&ratio(k));
+        polynomials.push(next);
+    }
+    polynomials.truncate(size);
+    polynomials
+}
+
+/// What elimination among the coefficients of functions finds.
+enum Echelon {
+    /// A combination that vanishes.
+    Dependent(Vec<Constant>),
+    /// The functions span a space of polynomials with rational coefficients.
+    Polynomials(Vec<Polynomial>),
+    /// Anything else.
+    Independent,
+}
+
+/// Reduces the coefficients of functions to echelon form, if they lie in one constant field.
+fn echelon_form(functions: &[Function]) -> Option<Echelon> {
+    let all = || functions.iter().flat_map(Function::terms);
+    let field = Constants::containing(all().map(|(_, coefficient)| coefficient))?;
+    let mut terms: Vec<&Term> = all().map(|(term, _)| term).collect();
+    terms.sort();
+    terms.dedup();
+    let zero = Constant::zero();
+    let coefficient = |f: &Function, term: &Term| {
+        let known = f.terms().find(|(known, _)| *known == term);
+        field.constant(known.map_or(&zero, |(_, coefficient)| coefficient))
+    };
+    let identity = |i: usize, k: usize| BigRational::from_integer(i64::from(i == k).into());
+    let mut rows = Vec::new();
+    for (i, f) in functions.iter().enumerate() {
+        let row: Option<Vec<_>> = terms.iter().map(|term| coefficient(f, term)).collect();
+        let origin = (0..functions.len()).map(|k| field.rational(&identity(i, k)));
+        rows.push([row?, origin.collect()].concat());
+    }
+    let mut done = 0;
+    for column in 0..terms.len() {
+        let Some(pivot) = (done..rows.len()).find(|&i| !field.is_zero(&rows[i][column])) else {
+            continue;
+        };
+        rows.swap(done, pivot);
+        let inverse = field.inverse(&rows[done][column])?;
+        let reference: Vec<_> = rows[done]
+            .iter()
+            .map(|x| field.multiply(x, &inverse))
+            .collect();
+        for (i, row) in rows.iter_mut().enumerate() {
+            if i != done && !field.is_zero(&row[column]) {
+                let factor = row[column].clone();
+                for (x, y) in row.iter_mut().zip(&reference) {
+                    *x = field.subtract(x, &field.multiply(&factor, y));
+                }
+            }
+        }
+        rows[done] = reference;
+        done += 1;
+    }
+    if let Some(row) = rows.get(done) {
+        let origin = row[terms.len()..].iter();
+        return origin
+            .map(|x| field.to_constant(x))
+            .collect::<Option<_>>()
+            .map(Echelon::Dependent);
+    }
+    let polynomial = |row: &Vec<_>| {
+        let pairs = terms.iter().zip(row);
+        let mut sum = Polynomial::zero();
+        for (term, x) in pairs.filter(|(_, x)| !field.is_zero(x)) {
+            let power = Polynomial::monomial(term.as_power()?);
+            sum = &sum + &power.scale(&x.as_rational()?);
+        }
+        Some(sum)
+    };
+    let polynomials: Option<Vec<Polynomial>> = rows.iter().map(polynomial).collect();
+    Some(polynomials.map_or(Echelon::Independent, Echelon::Polynomials))
+}
+
+/// A number that can stand before a function in a combination.
+pub(crate) trait Coefficient: Display {
+    /// Whether the number is zero as it is written.
+    fn is_absent(&self) -> bool;
+    /// The value, if it is rational.
+    fn rational(&self) -> Option<BigRational>;
+}
+
+impl Coefficient for BigRational {
+    fn is_absent(&self) -> bool {
+        self.is_zero()
+    }
+
+    fn rational(&self) -> Option<BigRational> {
+        Some(self.clone())
+    }
+}
+
+impl Coefficient for Constant {
+    fn is_absent(&self) -> bool {
+        self.is_trivially_zero()
+    }
+
+    fn rational(&self) -> Option<BigRational> {
+        self.as_rational().cloned()
+    }
+}
+
+/// A linear combination as text; rational coefficients are scaled to coprime integers:
+/// `2*(t + 1) - (2*t + 2)`.
+pub(crate) fn combination<C: Coefficient>(functions: &[String], coefficients: &[C]) -> String {
+    let rational: Option<Vec<BigRational>> =
+        coefficients.iter().map(Coefficient::rational).collect();
+    let single = coefficients.iter().filter(|c| !c.is_absent()).count() == 1;
+    let operand = |function: &String| {
+        if function.contains(' ') && !single {
+            format!("({function})")
+        } else {
+            function.clone()
+        }
+    };
+    let mut text = String::new();
+    let Some(rational) = rational else {
+        let terms = functions.iter().zip(coefficients);
+        for (function, c) in terms.filter(|(_, c)| !c.is_absent()) {
+            let plus = if text.is_empty() { "" } else { " + " };
+            let factor = c.to_string();
+            let factor = match factor.as_str() {
+                "1" => String::new(),
+                _ if factor.contains(' ') || factor.starts_with('-') => format!("({factor})*"),
+                _ => format!("{factor}*"),
+            };
+            text.push_str(&format!("{plus}{factor}{}", operand(function)));
+        }
+        return text;
+    };
+    let scaled = Polynomial::from_rationals(&rational)
         .primitive()
         .coefficients();
     let flip = scaled
         .iter()
         .find(|c| !c.is_zero())
         .is_some_and(Signed::is_negative);
-    let single = scaled.iter().filter(|c| !c.is_zero()).count() == 1;
-    let mut text = String::new();
     for (function, c) in functions.iter().zip(&scaled).filter(|(_, c)| !c.is_zero()) {
         let sign = match (text.is_empty(), c.is_negative() != flip) {
             (true, _) => "",
@@ -153,13 +351,7 @@ pub(crate) fn combination(functions: &[Polynomial], coefficients: &[BigRational]
         } else {
             format!("{}*", c.abs())
         };
-        let function = function.display("t").to_string();
-        let function = if function.contains(' ') && !single {
-            format!("({function})")
-        } else {
-            function
-        };
-        text.push_str(&format!("{sign}{factor}{function}"));
+        text.push_str(&format!("{sign}{factor}{}", operand(function)));
     }
     text
 }

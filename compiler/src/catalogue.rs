@@ -1,6 +1,6 @@
 //! The known methods, by name: one row a method or a family.
 
-use crate::derive::derive_within;
+use crate::definition::Definition;
 use crate::error::{Error, ErrorKind};
 use crate::limits::Limits;
 use crate::tableau::Tableau;
@@ -12,10 +12,8 @@ pub struct Entry {
     pub name: String,
     /// What it is.
     pub title: String,
-    /// The basis: `polynomial(3)`.
-    pub basis: String,
-    /// The nodes: `gauss(3)`.
-    pub nodes: String,
+    /// What it is derived from: `basis: polynomial(3), nodes: gauss(3)`.
+    pub definition: String,
     /// The number of stages.
     pub stages: usize,
     /// Papers and books that it is from, and under which other names it is in this catalogue.
@@ -44,7 +42,7 @@ impl Entry {
     /// # Errors
     /// [`ErrorKind::TooManyStages`].
     pub fn derive_within(&self, limits: &Limits) -> Result<Tableau, Error> {
-        let tableau = derive_within(&self.basis, &self.nodes, limits)?;
+        let tableau = Definition::parse(&self.definition)?.derive(limits)?;
         Ok(tableau.named(&self.name).with_source(&self.source))
     }
 
@@ -62,8 +60,7 @@ impl Entry {
 struct Row {
     name: &'static str,
     title: &'static str,
-    basis: &'static str,
-    nodes: &'static str,
+    definition: &'static str,
     stages: &'static [usize],
     source: &'static str,
 }
@@ -72,32 +69,28 @@ const ROWS: &[Row] = &[
     Row {
         name: "symplectic-euler",
         title: "symplectic Euler, implicit in p",
-        basis: "polynomial(1)",
-        nodes: "0",
+        definition: "basis: polynomial(1), nodes: 0",
         stages: &[1],
         source: "Leok & Zhang, Discrete Hamiltonian Variational Integrators, Example 2 with c = 0",
     },
     Row {
         name: "symplectic-euler-adjoint",
         title: "the adjoint of symplectic Euler, implicit in q",
-        basis: "polynomial(1)",
-        nodes: "1",
+        definition: "basis: polynomial(1), nodes: 1",
         stages: &[1],
         source: "Leok & Zhang, Discrete Hamiltonian Variational Integrators, Example 2 with c = 1",
     },
     Row {
         name: "midpoint",
         title: "the implicit midpoint rule",
-        basis: "polynomial(1)",
-        nodes: "1/2",
+        definition: "basis: polynomial(1), nodes: 1/2",
         stages: &[1],
         source: "Leok & Zhang, Discrete Hamiltonian Variational Integrators, Example 2 with c = 1/2",
     },
     Row {
         name: "stormer-verlet",
         title: "Störmer–Verlet",
-        basis: "polynomial(2)",
-        nodes: "lobatto(2)",
+        definition: "basis: polynomial(2), nodes: lobatto(2)",
         stages: &[2],
         source: "Verlet 1967; Marsden & West 2001, §2.6.2; Hairer, Lubich & Wanner, Geometric Numerical Integration, §I.1.4; \
                  Leok & Zhang, Example 3 and the remark after it (from the basis 1, cos(πτ), the same tableau)",
@@ -105,8 +98,7 @@ const ROWS: &[Row] = &[
     Row {
         name: "gauss-{s}",
         title: "Gauss–Legendre collocation",
-        basis: "polynomial({s})",
-        nodes: "gauss({s})",
+        definition: "basis: polynomial({s}), nodes: gauss({s})",
         stages: &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10],
         source: "Kuntzmann 1961; Butcher, Implicit Runge–Kutta processes, Math. Comp. 18 (1964); \
                  Hairer, Lubich & Wanner, Geometric Numerical Integration, §II.1.3; built as in Marsden & West 2001, Theorem 2.6.2",
@@ -114,8 +106,7 @@ const ROWS: &[Row] = &[
     Row {
         name: "lobatto-{s}",
         title: "Lobatto IIIA–IIIB pair",
-        basis: "polynomial({s})",
-        nodes: "lobatto({s})",
+        definition: "basis: polynomial({s}), nodes: lobatto({s})",
         stages: &[2, 3, 4, 5, 6, 7, 8],
         source: "Sun, Symplectic partitioned Runge–Kutta methods, J. Comput. Math. 11 (1993); \
                  Jay, SIAM J. Numer. Anal. 33 (1996); Hairer, Lubich & Wanner, Geometric Numerical Integration, §II.2.2 and §VI.4; \
@@ -124,8 +115,7 @@ const ROWS: &[Row] = &[
     Row {
         name: "radau-left-{s}",
         title: "collocation at left Radau nodes with Radau IA for momenta",
-        basis: "polynomial({s})",
-        nodes: "radau-left({s})",
+        definition: "basis: polynomial({s}), nodes: radau-left({s})",
         stages: &[1, 2, 3, 4, 5, 6],
         source: "Radau IA: Ehle 1969; as a symplectic pair: Sun, J. Comput. Math. 11 (1993); \
                  built as in Marsden & West 2001, Theorem 2.6.2",
@@ -133,8 +123,7 @@ const ROWS: &[Row] = &[
     Row {
         name: "radau-right-{s}",
         title: "Radau IIA with its symplectic partner",
-        basis: "polynomial({s})",
-        nodes: "radau-right({s})",
+        definition: "basis: polynomial({s}), nodes: radau-right({s})",
         stages: &[1, 2, 3, 4, 5, 6],
         source: "Radau IIA: Ehle 1969, Axelsson 1969; as a symplectic pair: Sun, J. Comput. Math. 11 (1993); \
                  built as in Marsden & West 2001, Theorem 2.6.2",
@@ -142,26 +131,100 @@ const ROWS: &[Row] = &[
     Row {
         name: "chebyshev-{s}",
         title: "equal weights (Chebyshev quadrature)",
-        basis: "polynomial({s})",
-        nodes: "chebyshev({s})",
+        definition: "basis: polynomial({s}), nodes: chebyshev({s})",
         stages: &[1, 2, 3, 4, 5, 6, 7, 9],
         source: "Leok & Zhang, Discrete Hamiltonian Variational Integrators, Example 5 (tables for s = 1, 2, 3; equation 44 gives the nodes)",
     },
     Row {
         name: "clenshaw-curtis-{s}",
         title: "Clenshaw–Curtis nodes, the extrema of a Chebyshev polynomial",
-        basis: "polynomial({s})",
-        nodes: "clenshaw-curtis({s})",
+        definition: "basis: polynomial({s}), nodes: clenshaw-curtis({s})",
         stages: &[3, 4, 5, 6],
         source: "nodes: Clenshaw & Curtis, Numer. Math. 2 (1960); the method: Leok & Zhang, §4.4 and Marsden & West 2001, Theorem 2.6.2",
     },
     Row {
         name: "newton-cotes-{s}",
         title: "equidistant nodes, closed Newton–Cotes",
-        basis: "polynomial({s})",
-        nodes: "newton-cotes({s})",
+        definition: "basis: polynomial({s}), nodes: newton-cotes({s})",
         stages: &[2, 3, 4, 5, 6],
         source: "nodes: Newton and Cotes; the method: Leok & Zhang, §4.4 and Marsden & West 2001, Theorem 2.6.2",
+    },
+    Row {
+        name: "lobatto-{s}-exchanged",
+        title: "Lobatto IIIB–IIIA pair: the Lobatto pair with positions and momenta exchanged",
+        definition: "basis: polynomial({s}), nodes: lobatto({s}), exchange: true",
+        stages: &[2, 3, 4],
+        source: "Tang, Two types of variational integrators, Remark 2.3; for two stages the drift–kick form of Störmer–Verlet",
+    },
+    Row {
+        name: "galerkin-2-gauss-{s}",
+        title: "Galerkin variational integrator of piecewise linear velocities with a Gauss rule of more nodes",
+        definition: "basis: legendre(2), quadrature: gauss({s})",
+        stages: &[3, 4],
+        source: "Tang, Two types of variational integrators, §2.2 with (2.35)",
+    },
+    Row {
+        name: "galerkin-2-lobatto-3",
+        title: "Galerkin variational integrator of piecewise linear velocities with Simpson's rule",
+        definition: "basis: legendre(2), quadrature: lobatto({s})",
+        stages: &[3],
+        source: "Marsden & West 2001, §2.6.6; Tang, Two types of variational integrators, §2.2 with (2.35)",
+    },
+    Row {
+        name: "leok-zhang-3",
+        title: "a half wave at both ends",
+        definition: "basis: [1, cos(pi*t)], nodes: [0, 1]",
+        stages: &[2],
+        source: "Leok & Zhang, Discrete Hamiltonian Variational Integrators, Example 3 (whose Ã is misprinted)",
+    },
+    Row {
+        name: "leok-zhang-4",
+        title: "half waves at three equidistant nodes",
+        definition: "basis: [1, cos(pi*t), sin(pi*t)], nodes: [0, 1/2, 1]",
+        stages: &[3],
+        source: "Leok & Zhang, Discrete Hamiltonian Variational Integrators, Example 4",
+    },
+    Row {
+        name: "fourier-{s}",
+        title: "one whole wave at equidistant midpoints: equal weights",
+        definition: "basis: [1, cos(2*pi*t), sin(2*pi*t)], nodes: [1/6, 1/2, 5/6]",
+        stages: &[3],
+        source: "the construction of Leok & Zhang, §4.4, with the trigonometric interpolation of periodic functions",
+    },
+    Row {
+        name: "trigonometric-lobatto-{s}",
+        title: "exact for velocities 1, cos(t/h), sin(t/h): fitted to the frequency 1/h",
+        definition: "basis: [1, cos(t), sin(t)], nodes: lobatto({s})",
+        stages: &[3],
+        source: "the construction of Leok & Zhang, §4.4; trigonometric fitting: Gautschi, Numer. Math. 3 (1961)",
+    },
+    Row {
+        name: "exponential-lobatto-{s}",
+        title: "exact for velocities 1, exp(−t/h): fitted to decay",
+        definition: "basis: [1, exp(-t)], nodes: lobatto({s})",
+        stages: &[2],
+        source: "the construction of Leok & Zhang, §4.4; exponential fitting: Gautschi, Numer. Math. 3 (1961)",
+    },
+    Row {
+        name: "hyperbolic-lobatto-{s}",
+        title: "exact for velocities 1, cosh(t/h), sinh(t/h)",
+        definition: "basis: [1, cosh(t), sinh(t)], nodes: lobatto({s})",
+        stages: &[3],
+        source: "the construction of Leok & Zhang, §4.4; exponential fitting: Gautschi, Numer. Math. 3 (1961)",
+    },
+    Row {
+        name: "half-wave-gauss-{s}",
+        title: "linear velocities and half waves at Gauss nodes",
+        definition: "basis: [1, t, cos(pi*t), sin(pi*t)], nodes: gauss({s})",
+        stages: &[4],
+        source: "the construction of Leok & Zhang, §4.4, with the functions of their Example 4 and t",
+    },
+    Row {
+        name: "trigonometric-gauss-{s}",
+        title: "linear velocities and waves of the frequency 1/h at Gauss nodes",
+        definition: "basis: [1, t, cos(t), sin(t)], nodes: gauss({s})",
+        stages: &[4],
+        source: "the construction of Leok & Zhang, §4.4; trigonometric fitting: Gautschi, Numer. Math. 3 (1961)",
     },
 ];
 
@@ -171,8 +234,18 @@ const COINCIDENCES: &[&[&str]] = &[
     &["symplectic-euler-adjoint", "radau-right-1"],
     &["midpoint", "gauss-1", "chebyshev-1"],
     &["gauss-2", "chebyshev-2"],
-    &["stormer-verlet", "lobatto-2", "newton-cotes-2"],
-    &["lobatto-3", "clenshaw-curtis-3", "newton-cotes-3"],
+    &[
+        "stormer-verlet",
+        "lobatto-2",
+        "newton-cotes-2",
+        "leok-zhang-3",
+    ],
+    &[
+        "lobatto-3",
+        "clenshaw-curtis-3",
+        "newton-cotes-3",
+        "galerkin-2-lobatto-3",
+    ],
 ];
 
 /// All methods, in the order of the catalogue.
@@ -229,8 +302,7 @@ impl Row {
         let mut entry = Entry {
             name: fill(self.name),
             title: self.title.to_owned(),
-            basis: fill(self.basis),
-            nodes: fill(self.nodes),
+            definition: fill(self.definition),
             stages,
             source: self.source.to_owned(),
         };

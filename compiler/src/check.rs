@@ -53,7 +53,11 @@ fn check_toml(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, E
     };
     let document = export::toml::Document::parse(file, limits)?;
     let tableau = document.derive(file, limits)?;
-    let fresh = export::toml::write(&tableau, document.digits());
+    let Some(digits) = document.digits() else {
+        // Only a definition: there is nothing to compare.
+        return Ok(tableau);
+    };
+    let fresh = export::toml::write(&tableau, digits);
     let expected = Input {
         name: "the derivation",
         text: &fresh,

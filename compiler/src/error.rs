@@ -66,6 +66,46 @@ pub enum ErrorKind {
     /// A division by zero.
     #[error("division by zero")]
     DivisionByZero,
+    /// A constant that cannot be told from zero where that matters.
+    #[error(
+        "cannot decide whether {constant} is zero (|x| < 2^-{bits}); write 0 if it is, or write it in another form"
+    )]
+    Undecided {
+        /// The constant.
+        constant: String,
+        /// The binary places up to which it is zero.
+        bits: u32,
+    },
+    /// A function at a constant where it has no real value.
+    #[error("{value} is not a real number: `{function}` needs {needs}")]
+    Domain {
+        /// The function with its argument.
+        value: String,
+        /// The function.
+        function: &'static str,
+        /// Which arguments it takes.
+        needs: &'static str,
+    },
+    /// A root of a polynomial that does not exist.
+    #[error("root({polynomial}, {index}) does not exist: {}", real_roots(*real))]
+    RootIndex {
+        /// The polynomial.
+        polynomial: String,
+        /// The number that was asked for.
+        index: String,
+        /// How many real roots there are.
+        real: usize,
+    },
+    /// A function of `t` that cannot be integrated in closed form here.
+    #[error(
+        "{found} is not supported: {reason}; supported are sums of products of t^k and sin, cos, exp, cosh, sinh of q*t + c with q rational, a rational multiple of pi or a sum of both, and constant multiples of tan(q*t) with |q| < pi/2"
+    )]
+    FunctionClass {
+        /// What stands there.
+        found: String,
+        /// Why it is not supported.
+        reason: &'static str,
+    },
     /// A power that is not a small natural number.
     #[error("the exponent must be a whole number from 0 to {limit}, found {found}")]
     Exponent {
@@ -168,6 +208,30 @@ pub enum ErrorKind {
         /// A combination of the basis that vanishes at all nodes.
         combination: String,
     },
+    /// Basis functions that cannot be told from dependent ones on the nodes.
+    #[error(
+        "the matrix of the basis at the nodes cannot be told from a singular one: as far as enclosures tell, {combination} vanishes at every node; change a node or a basis function"
+    )]
+    UndecidedBasis {
+        /// The combination of the basis.
+        combination: String,
+    },
+    /// Parts of a definition that do not go together.
+    #[error("{message}")]
+    Definition {
+        /// What is wrong.
+        message: String,
+    },
+    /// More basis functions than nodes of the quadrature formula.
+    #[error(
+        "{basis} basis functions and {nodes} node{} of the quadrature formula: the Galerkin construction needs at least as many nodes as functions", if *nodes == 1 {""} else {"s"}
+    )]
+    NotRectangular {
+        /// The number of basis functions.
+        basis: usize,
+        /// The number of nodes.
+        nodes: usize,
+    },
     /// A different number of basis functions and nodes.
     #[error("{basis} basis function{} and {nodes} node{}: the collocation construction needs as many of one as of the other", if *basis == 1 {""} else {"s"}, if *nodes == 1 {""} else {"s"})]
     NotSquare {
@@ -193,6 +257,16 @@ pub enum ErrorKind {
         index: usize,
         /// Its node.
         node: String,
+    },
+    /// A weight that cannot be told from zero.
+    #[error(
+        "the weight b_{index} cannot be told from zero, |b_{index}| ≤ 2^-{bits}, and ã_{index}j = (b_{index} b_j − b_j a_j{index})/b_{index} divides by it; choose other nodes or another basis"
+    )]
+    UndecidedWeight {
+        /// The stage, counted from 1.
+        index: usize,
+        /// The bound on its size.
+        bits: u32,
     },
     /// A file that cannot be read as a tableau.
     #[error("{message}")]
@@ -220,10 +294,24 @@ pub enum ErrorKind {
     },
 }
 
+/// Which real roots a polynomial has, and how they are counted.
+fn real_roots(count: usize) -> String {
+    match count {
+        0 => "the polynomial has no real roots".to_owned(),
+        1 => "the polynomial has one real root, whose number is 1".to_owned(),
+        _ => format!(
+            "the polynomial has {count} distinct real roots, numbered from 1 to {count} in ascending order"
+        ),
+    }
+}
+
 impl ErrorKind {
     /// Whether an error of [`derive_from`](crate::derive_from) is about the basis rather than the nodes.
     pub fn is_about_basis(&self) -> bool {
-        matches!(self, ErrorKind::NotSquare { .. })
+        matches!(
+            self,
+            ErrorKind::NotSquare { .. } | ErrorKind::NotRectangular { .. }
+        )
     }
 }
 

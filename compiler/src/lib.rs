@@ -42,6 +42,7 @@ mod pair;
 mod properties;
 mod quadrature;
 pub mod schedule;
+pub mod symbolic;
 mod tableau;
 
 pub use basis::Basis;
@@ -52,5 +53,5 @@ pub use derive::{derive, derive_from, derive_within};
 pub use error::{Error, ErrorKind, Place};
 pub use limits::Limits;
 pub use properties::{Evidence, Properties, Property};
-pub use quadrature::{FAMILIES, Family, QuadratureRule};
-pub use tableau::{Provenance, Tableau};
+pub use quadrature::{FAMILIES, Family, Nodes, QuadratureRule};
+pub use tableau::{Provenance, Tableau, Tier};

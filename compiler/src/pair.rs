@@ -6,7 +6,7 @@ use std::sync::Arc;
 use num_rational::BigRational;
 use num_traits::One;
 
-use crate::algebra::{Number, StageAlgebra};
+use crate::algebra::{Number, StageAlgebra, Zero};
 use crate::coefficients::Coefficients;
 
 /// The exact coefficients `a, b` for positions and `ã, b̃` for momenta of
@@ -46,8 +46,8 @@ impl<A: StageAlgebra> Pair<A> {
     /// `ã_ij = (b_i b_j − b_j a_ji)/b_i`.
     ///
     /// # Errors
-    /// The first stage whose weight vanishes, or cannot be told from zero.
-    pub fn symplectic(algebra: Arc<A>, a: A::Matrix, b: A::Vector) -> Result<Self, usize> {
+    /// The first stage whose weight vanishes, or cannot be told from zero, and which of the two.
+    pub fn symplectic(algebra: Arc<A>, a: A::Matrix, b: A::Vector) -> Result<Self, (usize, Zero)> {
         let inverse = algebra.reciprocal(&b)?;
         let one = algebra.constant(&BigRational::one());
         // b_i − a_ji at (j, i), so that ã_ij = b_j (b_i − a_ji)/b_i is exactly zero where a_ji is b_i.

@@ -1,6 +1,6 @@
 //! The exact tableau of a symplectic partitioned Runge–Kutta method.
 
-use crate::algebra::{NodeAlgebra, Number, StageAlgebra};
+use crate::algebra::{Constants, Dense, NodeAlgebra, Number, Reals, StageAlgebra};
 use crate::coefficients::Coefficients;
 use crate::definition::Definition;
 use crate::pair::Pair;
@@ -23,11 +23,25 @@ pub struct Provenance {
 ///
 /// with `c_i = Σ_j a_ij` and `c̃_i = Σ_j ã_ij`. Stages of a derived method are ordered by ascending
 /// nodes. Nothing in it is a floating-point number.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Tableau {
     pub(crate) name: Option<String>,
     pub(crate) provenance: Provenance,
     pub(crate) exact: Exact,
+}
+
+impl PartialEq for Tableau {
+    /// Equal names, provenances and coefficients. Expressions are not compared: they are equal where the
+    /// definitions are.
+    fn eq(&self, other: &Self) -> bool {
+        let expressions = matches!(
+            (&self.exact, &other.exact),
+            (Exact::Reals(_), Exact::Reals(_))
+        );
+        self.name == other.name
+            && self.provenance == other.provenance
+            && (expressions || self.exact == other.exact)
+    }
 }
 
 /// The coefficients in the algebra that holds them.
@@ -35,6 +49,54 @@ pub struct Tableau {
 pub(crate) enum Exact {
     /// Functions of the nodes.
     Nodes(Pair<NodeAlgebra>),
+    /// Numbers in a constant field.
+    Field(Pair<Dense<Constants>>),
+    /// Expressions.
+    Reals(Pair<Dense<Reals>>),
+}
+
+/// How the coefficients of a tableau are known (theory.md §3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tier {
+    /// As functions of the nodes, which are all roots of one rational polynomial: all equations are
+    /// decided.
+    NodeAlgebra,
+    /// As elements of a field of algebraic numbers, or of rational functions of one transcendental number
+    /// over it: all equations are decided.
+    ConstantField,
+    /// As expressions that are enclosed as narrowly as needed: equations are refuted, or verified to
+    /// [`ZERO_BITS`](crate::algebra::ZERO_BITS) binary places.
+    Enclosure,
+}
+
+impl Tier {
+    /// The name in exports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Tier::NodeAlgebra => "node algebra",
+            Tier::ConstantField => "constant field",
+            Tier::Enclosure => "enclosure",
+        }
+    }
+}
+
+impl Exact {
+    /// The pair with positions and momenta exchanged.
+    pub fn exchanged(self) -> Self {
+        match self {
+            Exact::Nodes(pair) => Exact::Nodes(pair.exchanged()),
+            Exact::Field(pair) => Exact::Field(pair.exchanged()),
+            Exact::Reals(pair) => Exact::Reals(pair.exchanged()),
+        }
+    }
+
+    fn adjoint(&self) -> Self {
+        match self {
+            Exact::Nodes(pair) => Exact::Nodes(pair.adjoint()),
+            Exact::Field(pair) => Exact::Field(pair.adjoint()),
+            Exact::Reals(pair) => Exact::Reals(pair.adjoint()),
+        }
+    }
 }
 
 /// An expression over the coefficients, whichever algebra holds them.
@@ -42,6 +104,8 @@ macro_rules! over_algebra {
     ($tableau:expr, $pair:ident => $body:expr) => {
         match &$tableau.exact {
             crate::tableau::Exact::Nodes($pair) => $body,
+            crate::tableau::Exact::Field($pair) => $body,
+            crate::tableau::Exact::Reals($pair) => $body,
         }
     };
 }
@@ -72,6 +136,15 @@ impl Tableau {
         &self.provenance
     }
 
+    /// How the coefficients are known.
+    pub fn tier(&self) -> Tier {
+        match &self.exact {
+            Exact::Nodes(_) => Tier::NodeAlgebra,
+            Exact::Field(_) => Tier::ConstantField,
+            Exact::Reals(_) => Tier::Enclosure,
+        }
+    }
+
     /// The number of stages.
     pub fn stages(&self) -> usize {
         over_algebra!(self, pair => pair.algebra.stages())
@@ -83,9 +156,14 @@ impl Tableau {
         over_algebra!(self, pair => pair.equal_halves())
     }
 
-    /// Whether another tableau has the same coefficients, as elements of the same algebra.
+    /// Whether another tableau is known to have the same coefficients: as elements of the same algebra, or
+    /// because all of them have the same exact forms.
     pub fn has_coefficients_of(&self, other: &Tableau) -> bool {
-        self.exact == other.exact
+        if self.exact == other.exact || self.stages() != other.stages() {
+            return self.exact == other.exact;
+        }
+        let forms = self.exact_forms();
+        forms.iter().all(Option::is_some) && forms == other.exact_forms()
     }
 
     /// All coefficients as numbers that can be enclosed and correctly rounded.
@@ -127,9 +205,7 @@ impl Tableau {
         Tableau {
             name: self.name.as_ref().map(|name| format!("adjoint of {name}")),
             provenance: self.provenance.clone(),
-            exact: match &self.exact {
-                Exact::Nodes(pair) => Exact::Nodes(pair.adjoint()),
-            },
+            exact: self.exact.adjoint(),
         }
     }
 }

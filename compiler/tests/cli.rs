@@ -151,7 +151,8 @@ fn toml_is_readable() {
         [provenance]
         basis = "polynomial(2)"
         nodes = "lobatto(2)"
-        source = "Verlet 1967; Marsden & West 2001, §2.6.2; Hairer, Lubich & Wanner, Geometric Numerical Integration, §I.1.4; Leok & Zhang, Example 3 and the remark after it (from the basis 1, cos(πτ), the same tableau); the same method as lobatto-2 and newton-cotes-2"
+        tier = "node algebra"
+        source = "Verlet 1967; Marsden & West 2001, §2.6.2; Hairer, Lubich & Wanner, Geometric Numerical Integration, §I.1.4; Leok & Zhang, Example 3 and the remark after it (from the basis 1, cos(πτ), the same tableau); the same method as lobatto-2 and newton-cotes-2 and leok-zhang-3"
 
         [exact]
         # The nodes are the roots of the node polynomial in ascending order; coefficients of 1, x, x^2, …
@@ -225,6 +226,8 @@ fn json_keeps_its_contract() {
     assert_eq!(value["stages"], 2);
     assert_eq!(value["basis"], "polynomial(2)");
     assert_eq!(value["nodes"], "gauss(2)");
+    assert_eq!(value["tier"], "node algebra");
+    assert!(value["definition"].is_null());
     assert!(value["source"].is_null());
     // 1/4 ∓ √3/6 from known digits of √3/6 = 0.28867513459481288225457439025097872782380087563506343800930…
     let digits =
@@ -297,7 +300,7 @@ fn json_keeps_its_contract() {
     assert_eq!(digits(&value["c"][1]), "0.212");
     assert_eq!(
         value["c"][0],
-        serde_json::json!({"exact": "0", "decimal": "0", "f64": "0"})
+        serde_json::json!({"exact": "0", "decimal": "0", "f64": "0", "f32": "0"})
     );
 }
 

@@ -141,12 +141,12 @@ fn bad_expressions_are_refused_with_a_caret() {
         "1, t^2 - foo(3)",
         "0, 1",
         expect![[r#"
-        error: unknown function `foo`; known here: inside an expression only t, numbers and + - * / ^
-         --> basis:1:10
-          |
-        1 | 1, t^2 - foo(3)
-          |          ^^^
-    "#]],
+            error: unknown function `foo`; known here: sin, cos, tan, exp, cosh, sinh, ln, sqrt, cbrt, root
+             --> basis:1:10
+              |
+            1 | 1, t^2 - foo(3)
+              |          ^^^
+        "#]],
     );
     derive(
         "polynomial(2)",
@@ -163,12 +163,12 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(3)",
         "0, α, 1",
         expect![[r#"
-        error: unknown name `α`; known here: t, numbers
-         --> nodes:1:4
-          |
-        1 | 0, α, 1
-          |    ^
-    "#]],
+            error: unknown name `α`; known here: t, pi, e, numbers
+             --> nodes:1:4
+              |
+            1 | 0, α, 1
+              |    ^
+        "#]],
     );
     derive(
         "polynomial(3)",

@@ -98,7 +98,7 @@ fn what_is_no_table_file_is_bad_input() {
             "no UTF-8 text: the byte at offset 0 is wrong",
         ),
         (file("garbage.json", &garbage), "no UTF-8 text"),
-        (file("empty.toml", b""), "missing field `stages`"),
+        (file("empty.toml", b""), "missing field `provenance`"),
         (file("empty.json", b""), "EOF while parsing a value"),
         (
             file("table.txt", good.as_bytes()),

@@ -198,7 +198,7 @@ fn truncated_files_are_refused_everywhere() {
     let error = check("t.toml", "", &Limits::default()).expect_err("empty");
     assert_eq!(
         error.to_string(),
-        "t.toml, column 1: not a TOML file of a tableau: missing field `stages`"
+        "t.toml, column 1: not a TOML file of a tableau: missing field `provenance`"
     );
     let error = check("t.json", "", &Limits::default()).expect_err("empty");
     assert_eq!(

@@ -2,13 +2,11 @@
 
 use std::path::PathBuf;
 
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, quote};
 use symplectic_compiler::emit::{Header, method};
 use symplectic_compiler::export::read_text;
-use symplectic_compiler::{
-    Basis, Evidence, Limits, Properties, QuadratureRule, Tableau, check, derive_from,
-};
+use symplectic_compiler::{Evidence, Key, Limits, Properties, Tableau, check};
 use syn::parse::Parser;
 use syn::punctuated::Punctuated;
 use syn::{LitInt, LitStr, Token, bracketed};
@@ -41,21 +39,21 @@ impl Errors {
         }
         None
     }
-
-    /// All errors noted; there is at least one.
-    fn all(self) -> syn::Error {
-        self.0
-            .unwrap_or_else(|| syn::Error::new(Span::call_site(), "nothing is wrong"))
-    }
 }
 
-const KEYS: [&str; 5] = ["basis", "nodes", "file", "require", "max_stages"];
+/// The keys beside the parts of a definition.
+const KEYS: [&str; 3] = ["file", "require", "max_stages"];
+
+fn known_keys() -> Vec<&'static str> {
+    Key::ALL.map(Key::name).into_iter().chain(KEYS).collect()
+}
 
 fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
     let mut errors = Errors(None);
+    let known = known_keys();
     for (index, Field { key, .. }) in definition.fields.iter().enumerate() {
-        if !KEYS.iter().any(|known| key == known) {
-            let message = format!("unknown key `{key}`; known here: {}", KEYS.join(", "));
+        if !known.iter().any(|known| key == known) {
+            let message = format!("unknown key `{key}`; known here: {}", known.join(", "));
             errors.note::<()>(Err(syn::Error::new(key.span(), message)));
         } else if definition
             .fields
@@ -76,17 +74,23 @@ fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
         field("require").map_or_else(Vec::new, |field| requirements(field, &mut errors));
 
     let mut rebuild = TokenStream::new();
-    let tableau = match (field("file"), field("basis"), field("nodes")) {
-        (Some(file), None, None) => read(file, &limits).map(|(tableau, tracking)| {
+    let part = definition
+        .fields
+        .iter()
+        .find(|field| Key::find(&field.key.to_string()).is_some());
+    let tableau = match (field("file"), part) {
+        (Some(file), None) => read(file, &limits).map(|(tableau, tracking)| {
             rebuild = tracking;
             tableau
         }),
-        (None, Some(basis), Some(nodes)) => derive(basis, nodes, &limits),
-        (Some(file), _, _) => Err(syn::Error::new(
+        (Some(file), Some(part)) => Err(syn::Error::new(
             file.key.span(),
-            "`file` says everything: leave out `basis` and `nodes`, or `file`",
+            format!(
+                "`file` says everything: leave out `{}`, or `file`",
+                part.key
+            ),
         )),
-        (None, basis, nodes) => Err(incomplete(definition, basis, nodes, &limits)),
+        (None, _) => derive(definition, &limits),
     };
     if let Some(tableau) = errors.note(tableau) {
         errors.note(prove(&tableau, &requirements));
@@ -105,52 +109,33 @@ fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
     errors.0.map_or(Ok(TokenStream::new()), Err)
 }
 
-/// Derives the tableau of a basis and nodes.
-fn derive(basis: &Field, nodes: &Field, limits: &Limits) -> syn::Result<Tableau> {
-    let mut errors = Errors(None);
-    let [basis, nodes] = [basis, nodes].map(|field| Source::new(field.value.clone()));
-    // Both may be wrong, and a person wants to know of both at once.
-    let functions =
-        errors.note(Basis::parse(&basis.text, limits).map_err(|error| basis.locate(&error)));
-    let rule = errors
-        .note(QuadratureRule::parse(&nodes.text, limits).map_err(|error| nodes.locate(&error)));
-    let (Some(functions), Some(rule)) = (functions, rule) else {
-        return Err(errors.all());
-    };
-    derive_from(&functions, &rule).map_err(|kind| {
-        let source = if kind.is_about_basis() {
-            &basis
-        } else {
-            &nodes
-        };
-        source.locate(&kind.into())
+/// Derives the tableau of the parts of a definition, with errors at the tokens of each.
+fn derive(definition: &Definition, limits: &Limits) -> syn::Result<Tableau> {
+    let parts: Vec<(Key, Source)> = definition
+        .fields
+        .iter()
+        .filter_map(|field| {
+            let key = Key::find(&field.key.to_string())?;
+            Some((key, Source::new(field.value.clone())))
+        })
+        .collect();
+    let texts = parts.iter().map(|(key, source)| (*key, &*source.text));
+    let defined = symplectic_compiler::Definition::new(texts);
+    defined.derive_or_all_errors(limits).map_err(|all| {
+        let located = all.iter().map(|error| {
+            let about = error.place.as_ref().map(|place| &*place.input);
+            let part = parts.iter().find(|(key, _)| Some(key.name()) == about);
+            match part {
+                Some((_, source)) => source.locate(error),
+                None => syn::Error::new(definition.name.span(), &error.kind),
+            }
+        });
+        let combined = located.reduce(|mut all, error| {
+            all.combine(error);
+            all
+        });
+        combined.unwrap_or_else(|| syn::Error::new(definition.name.span(), "not a definition"))
     })
-}
-
-/// What is wrong with the one of `basis` and `nodes` that is there, and that the other is missing.
-fn incomplete(
-    definition: &Definition,
-    basis: Option<&Field>,
-    nodes: Option<&Field>,
-    limits: &Limits,
-) -> syn::Error {
-    let mut errors = Errors(None);
-    let missing = match (basis, nodes) {
-        (Some(_), None) => "`nodes: …` is missing; ",
-        (None, Some(_)) => "`basis: …` is missing; ",
-        _ => "",
-    };
-    let message = format!("{missing}a method needs `basis` and `nodes`, or `file`");
-    errors.note::<()>(Err(syn::Error::new(definition.name.span(), message)));
-    let source = |field: &Field| Source::new(field.value.clone());
-    if let Some(basis) = basis.map(source) {
-        errors.note(Basis::parse(&basis.text, limits).map_err(|error| basis.locate(&error)));
-    }
-    if let Some(nodes) = nodes.map(source) {
-        errors
-            .note(QuadratureRule::parse(&nodes.text, limits).map_err(|error| nodes.locate(&error)));
-    }
-    errors.all()
 }
 
 /// Reads and re-proves a table file, and makes the crate depend on it.

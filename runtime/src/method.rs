@@ -13,10 +13,9 @@ pub trait Method: Copy + Debug + 'static {
     const NAME: &'static str;
     /// Number of stages s of the tableau; a plan may store fewer.
     const STAGES: usize;
-    /// The basis it was derived from, as it was written.
-    const BASIS: &'static str;
-    /// The nodes it was derived from, as they were written.
-    const NODES: &'static str;
+    /// What it was derived from: `basis: polynomial(3), nodes: lobatto(3)`. The compiler derives the exact
+    /// tableau from it again.
+    const DEFINITION: &'static str;
     /// The coefficients, for what is computed beside the step; the plans have theirs in their code.
     const COEFFICIENTS: Coefficients;
 

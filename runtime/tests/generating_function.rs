@@ -196,8 +196,7 @@ macro_rules! impostor {
         impl Method for $name {
             const NAME: &'static str = stringify!($name);
             const STAGES: usize = StoermerVerlet::STAGES;
-            const BASIS: &'static str = "";
-            const NODES: &'static str = "";
+            const DEFINITION: &'static str = "";
             const COEFFICIENTS: Coefficients = $coefficients;
             type General = <StoermerVerlet as Method>::General;
             type Separable = <StoermerVerlet as Method>::Separable;

@@ -6,7 +6,7 @@
 use std::collections::{BTreeSet, HashSet};
 
 use symplectic::{Coefficient, Error, Integrator, Method, Scalar};
-use symplectic_compiler::{Coefficients, Properties, derive};
+use symplectic_compiler::{Coefficients, Definition, Limits, Properties, Tableau};
 use symplectic_tests::scenes::kepler::{Kepler, start};
 
 symplectic::tableau! {
@@ -67,12 +67,16 @@ fn bits(coefficients: &Coefficients<f64>) -> Coefficients<u64> {
     coefficients.map(|value| value.to_bits())
 }
 
+fn derived(definition: &str) -> Result<Tableau, symplectic_compiler::Error> {
+    Definition::parse(definition)?.derive(&Limits::default())
+}
+
 #[test]
 fn constants_are_the_doubles_of_the_derivation() -> Result<(), symplectic_compiler::Error> {
     macro_rules! check {
         ($($method:ident)*) => {
             $(
-                let exact = derive($method::BASIS, $method::NODES)?;
+                let exact = derived($method::DEFINITION)?;
                 assert_eq!(bits(&constants!($method)), bits(&exact.to_f64()), "{}", $method::NAME);
                 assert_eq!($method::STAGES, exact.stages());
                 assert_eq!($method::NAME, stringify!($method));
@@ -106,7 +110,7 @@ fn coefficients_are_rounded_from_the_derivation_for_every_scalar()
     macro_rules! check {
         ($($method:ident)*) => {
             $(
-                let exact = derive($method::BASIS, $method::NODES)?;
+                let exact = derived($method::DEFINITION)?;
                 let expected = exact.numbers().map(|number| {
                     let double = number.to_f64();
                     Coefficient::new(double, number.low_double(double), number.to_f32())
@@ -176,19 +180,17 @@ fn a_method_from_a_file_steps_like_the_one_from_its_basis_and_nodes() -> Result<
 
 #[test]
 fn a_file_says_what_it_was_derived_from() {
-    assert_eq!(
-        (GaussFromFile::BASIS, GaussFromFile::NODES),
-        ("polynomial(4)", "gauss(4)")
-    );
-    assert_eq!(GaussFromRule::NODES, GaussFromFile::NODES);
-    assert_eq!(RadauLeft::NODES, "radau-left(3)");
+    let gauss = "basis: polynomial(4), nodes: gauss(4)";
+    assert_eq!(GaussFromFile::DEFINITION, gauss);
+    assert_eq!(GaussFromRule::DEFINITION, gauss);
+    assert!(RadauLeft::DEFINITION.ends_with("nodes: radau-left(3)"));
 }
 
 #[test]
 fn every_property_is_required_of_a_method_that_has_it() -> Result<(), symplectic_compiler::Error> {
     // The requirements of `Verlet` and `Midpoint` above are all there are.
-    let verlet = derive(Verlet::BASIS, Verlet::NODES)?.properties();
-    let midpoint = derive(Midpoint::BASIS, Midpoint::NODES)?.properties();
+    let verlet = derived(Verlet::DEFINITION)?.properties();
+    let midpoint = derived(Midpoint::DEFINITION)?.properties();
     let held: BTreeSet<&str> = verlet
         .all()
         .into_iter()
@@ -259,5 +261,8 @@ with_function!(FromAnotherMacro, 1 + t);
 
 #[test]
 fn what_another_macro_puts_in_is_one_operand() {
-    assert_eq!(FromAnotherMacro::BASIS, "1, 2*t + 2");
+    assert_eq!(
+        FromAnotherMacro::DEFINITION,
+        "basis: [1, 2*t + 2], nodes: lobatto(2)"
+    );
 }

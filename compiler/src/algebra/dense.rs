@@ -7,6 +7,7 @@ use num_rational::BigRational;
 
 use super::stage_algebra::group_by;
 use super::{Number, StageAlgebra, Zero};
+use crate::symbolic::Constant;
 
 /// A field of real numbers.
 pub trait Field: Debug + PartialEq {
@@ -16,6 +17,8 @@ pub trait Field: Debug + PartialEq {
 
     /// A rational number.
     fn rational(&self, value: &BigRational) -> Self::Element;
+    /// A constant, if it is an element.
+    fn constant(&self, value: &Constant) -> Option<Self::Element>;
     /// The sum.
     fn add(&self, x: &Self::Element, y: &Self::Element) -> Self::Element;
     /// The difference.
@@ -28,6 +31,8 @@ pub trait Field: Debug + PartialEq {
     fn verified_bits(&self) -> Option<u32>;
     /// Whether an element is zero.
     fn zero(&self, x: &Self::Element) -> Zero;
+    /// The best divisor among elements: the index of one that is known not to be zero.
+    fn pivot(&self, candidates: &[&Self::Element]) -> Option<usize>;
     /// An element as a number.
     fn number(&self, x: &Self::Element) -> Number<'_>;
     /// A readable exact form, where there is one.
@@ -94,8 +99,11 @@ impl<F: Field> StageAlgebra for Dense<F> {
         zip(f, g, |x, y| self.field.multiply(x, y))
     }
 
-    fn reciprocal(&self, f: &Vector<F>) -> Result<Vector<F>, usize> {
-        let inverse = |(i, x)| self.field.inverse(x).ok_or(i);
+    fn reciprocal(&self, f: &Vector<F>) -> Result<Vector<F>, (usize, Zero)> {
+        let inverse = |(i, x)| {
+            let inverse = self.field.inverse(x);
+            inverse.ok_or_else(|| (i, self.field.zero(x)))
+        };
         f.iter().enumerate().map(inverse).collect()
     }
 

@@ -6,17 +6,22 @@
 //! | tier | algebra | holds |
 //! |---|---|---|
 //! | 1 | [`NodeAlgebra`] | functions on the roots of a rational polynomial: sums are traces |
-//! | 2 | [`Dense`] over a [`ConstantField`] | numbers in `Q(α)(X)`, `X` one transcendental |
+//! | 2 | [`Dense`] over [`Constants`] | numbers in `Q(α)(X)`, `X` one transcendental |
 //! | 3 | [`Dense`] over [`Reals`] | expressions that are enclosed as narrowly as needed |
 
+mod constants;
 mod dense;
 pub mod field;
 pub mod node;
 mod number;
+mod real;
 mod stage_algebra;
 
+pub use constants::Constants;
 pub use dense::{Dense, Field};
+pub use field::{ConstantField, FieldElement};
 pub use node::{ClosedForm, NodeAlgebra, Tensor};
 pub use number::{Number, Zero};
+pub use real::{Real, Reals, ZERO_BITS};
 pub use stage_algebra::StageAlgebra;
 pub(crate) use stage_algebra::group_by;

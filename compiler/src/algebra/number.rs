@@ -6,6 +6,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, Zero as _};
 
 use super::node::{NodeNumber, short_rational};
+use super::{ConstantField, FieldElement, Real};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::{self, Decimal, exact};
@@ -35,18 +36,26 @@ pub enum Number<'a> {
     Rational(BigRational),
     /// The value of a function of the nodes.
     Node(NodeNumber<'a>),
+    /// An element of a constant field.
+    Field(&'a ConstantField, FieldElement),
+    /// An expression.
+    Real(Real),
 }
 
-/// Binary places of enclosures of numbers that have no better start.
+/// The fewest binary places of enclosures.
 const FIRST_BITS: u32 = 192;
 
 impl Number<'_> {
-    /// An enclosure with at least this many binary places; its width tends to zero as `bits` grows.
+    /// An enclosure with this many binary places, 192 at least; its width tends to zero as `bits` grows.
     pub fn enclose(&self, bits: u32) -> Interval {
-        match self {
-            Number::Rational(value) => Interval::enclosing(value, bits.max(FIRST_BITS)),
+        let bits = bits.max(FIRST_BITS);
+        let enclosure = match self {
+            Number::Rational(value) => return Interval::enclosing(value, bits),
             Number::Node(number) => number.enclose(bits),
-        }
+            Number::Field(field, element) => field.enclose(element, bits),
+            Number::Real(number) => number.enclose(bits),
+        };
+        enclosure.with_bits(bits)
     }
 
     /// What is known about whether the number equals a rational.
@@ -54,6 +63,8 @@ impl Number<'_> {
         let equal = match self {
             Number::Rational(known) => known == value,
             Number::Node(number) => number.equals(value),
+            Number::Field(_, element) => element.as_rational().as_ref() == Some(value),
+            Number::Real(number) => return number.difference(value),
         };
         if equal { Zero::Yes } else { Zero::No }
     }

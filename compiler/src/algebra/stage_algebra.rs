@@ -5,7 +5,7 @@ use std::fmt::Debug;
 
 use num_rational::BigRational;
 
-use super::Number;
+use super::{Number, Zero};
 
 /// Arithmetic on vectors `f_i` and matrices `f_ij` over the stages of a tableau.
 ///
@@ -31,8 +31,8 @@ pub trait StageAlgebra: Debug + PartialEq + Sized {
     /// `1/f_i`.
     ///
     /// # Errors
-    /// The first stage at which `f` vanishes, or cannot be told from zero.
-    fn reciprocal(&self, f: &Self::Vector) -> Result<Self::Vector, usize>;
+    /// The first stage at which `f` vanishes, or cannot be told from zero, and which of the two.
+    fn reciprocal(&self, f: &Self::Vector) -> Result<Self::Vector, (usize, Zero)>;
     /// `Σ_i f_i`.
     fn sum(&self, f: &Self::Vector) -> Number<'_>;
 

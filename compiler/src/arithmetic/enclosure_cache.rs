@@ -17,7 +17,7 @@ impl EnclosureCache {
     pub fn enclose(&self, bits: u32, compute: impl FnOnce(u32) -> Interval) -> Interval {
         let mut known = self.lock();
         match &*known {
-            Some(interval) if interval.bits() >= bits => interval.rounded(bits),
+            Some(interval) if interval.bits() >= bits => interval.with_bits(bits),
             _ => known.insert(compute(bits)).clone(),
         }
     }

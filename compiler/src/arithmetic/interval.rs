@@ -45,19 +45,6 @@ impl Interval {
         self.bits
     }
 
-    /// The smallest interval with this number of binary places that contains this one.
-    #[must_use]
-    pub fn rounded(&self, bits: u32) -> Interval {
-        let excess = self.bits.saturating_sub(bits);
-        let missing = bits.saturating_sub(self.bits);
-        let (low, high): (BigInt, BigInt) = (&self.low >> excess, (-&self.high) >> excess);
-        Interval {
-            low: low << missing,
-            high: -high << missing,
-            bits,
-        }
-    }
-
     /// The lower end.
     pub fn low(&self) -> BigRational {
         BigRational::new(self.low.clone(), BigInt::one() << self.bits)
@@ -91,6 +78,7 @@ impl Interval {
     /// The sum.
     #[must_use]
     pub fn add(&self, other: &Interval) -> Interval {
+        debug_assert_eq!(self.bits, other.bits);
         Interval {
             low: &self.low + &other.low,
             high: &self.high + &other.high,
@@ -101,6 +89,7 @@ impl Interval {
     /// The difference.
     #[must_use]
     pub fn subtract(&self, other: &Interval) -> Interval {
+        debug_assert_eq!(self.bits, other.bits);
         Interval {
             low: &self.low - &other.high,
             high: &self.high - &other.low,
@@ -111,6 +100,7 @@ impl Interval {
     /// The product.
     #[must_use]
     pub fn multiply(&self, other: &Interval) -> Interval {
+        debug_assert_eq!(self.bits, other.bits);
         let (low, high) = if !self.low.is_negative() && !other.low.is_negative() {
             (&self.low * &other.low, &self.high * &other.high)
         } else if !other.low.is_negative() {
@@ -150,6 +140,132 @@ impl Interval {
             high: -((-high) >> self.bits),
             bits: self.bits,
         }
+    }
+
+    /// The negated interval.
+    #[must_use]
+    pub fn negate(&self) -> Interval {
+        Interval {
+            low: -&self.high,
+            high: -&self.low,
+            bits: self.bits,
+        }
+    }
+
+    /// The product with a rational.
+    #[must_use]
+    pub fn scale(&self, factor: &BigRational) -> Interval {
+        let (a, b) = (&self.low * factor.numer(), &self.high * factor.numer());
+        let (low, high) = if factor.is_negative() { (b, a) } else { (a, b) };
+        Interval::quotient(low, high, factor.denom(), self.bits)
+    }
+
+    /// The quotient; `None` if the divisor contains zero.
+    pub fn divide(&self, other: &Interval) -> Option<Interval> {
+        debug_assert_eq!(self.bits, other.bits);
+        match other.sign()? {
+            Ordering::Equal => None,
+            Ordering::Less => self.negate().divide(&other.negate()),
+            Ordering::Greater => {
+                // A negative numerator is lowest over the smallest divisor, a positive one over the
+                // largest.
+                let over = |end: &BigInt, negative: &BigInt, positive: &BigInt, up: bool| {
+                    let divisor = if end.is_negative() {
+                        negative
+                    } else {
+                        positive
+                    };
+                    let scaled = end << self.bits;
+                    if up {
+                        -((-scaled).div_floor(divisor))
+                    } else {
+                        scaled.div_floor(divisor)
+                    }
+                };
+                Some(Interval {
+                    low: over(&self.low, &other.low, &other.high, false),
+                    high: over(&self.high, &other.high, &other.low, true),
+                    bits: self.bits,
+                })
+            }
+        }
+    }
+
+    /// The power `xⁿ`.
+    #[must_use]
+    pub fn power(&self, exponent: u32) -> Interval {
+        // A rounding error in a partial power is multiplied by the rest of the power, at most |x|ⁿ⁻¹,
+        // and there are at most 2·log₂ n of them.
+        let guard = (self.magnitude_bits().max(0) as u32)
+            .saturating_mul(exponent)
+            .saturating_add(2 * (32 - exponent.leading_zeros()) + 2);
+        let fine = self.with_bits(self.bits.saturating_add(guard));
+        let of_end = |end: &BigInt| {
+            let point = |value: BigInt| Interval {
+                low: value.clone(),
+                high: value,
+                bits: fine.bits,
+            };
+            let (mut result, mut square) = (point(BigInt::one() << fine.bits), point(end.clone()));
+            let mut rest = exponent;
+            while rest > 0 {
+                if rest & 1 == 1 {
+                    result = result.multiply(&square);
+                }
+                rest >>= 1;
+                if rest > 0 {
+                    square = square.multiply(&square);
+                }
+            }
+            result
+        };
+        let (a, b) = (of_end(&fine.low), of_end(&fine.high));
+        let even = exponent.is_multiple_of(2) && exponent > 0;
+        let (low, high) = if even && self.low.is_negative() && !self.high.is_negative() {
+            (BigInt::zero(), a.high.max(b.high))
+        } else {
+            (a.low.min(b.low), a.high.max(b.high))
+        };
+        let bits = fine.bits;
+        Interval { low, high, bits }.with_bits(self.bits)
+    }
+
+    /// The distance of the ends.
+    pub fn width(&self) -> BigRational {
+        BigRational::new(&self.high - &self.low, BigInt::one() << self.bits)
+    }
+
+    /// A number `n` with a width below `2ⁿ`, which is at most two too large for a width above zero.
+    pub fn width_bits(&self) -> i64 {
+        (&self.high - &self.low).bits() as i64 - i64::from(self.bits)
+    }
+
+    /// A number `n` with `|x| < 2ⁿ` for all `x` in the interval.
+    pub fn magnitude_bits(&self) -> i64 {
+        self.low.bits().max(self.high.bits()) as i64 - i64::from(self.bits)
+    }
+
+    /// The same numbers with other binary places, rounded outward where these are fewer.
+    #[must_use]
+    pub fn with_bits(&self, bits: u32) -> Interval {
+        let excess = self.bits.saturating_sub(bits);
+        let missing = bits.saturating_sub(self.bits);
+        let low: BigInt = &self.low >> excess;
+        let high: BigInt = -((-&self.high) >> excess);
+        Interval {
+            low: low << missing,
+            high: high << missing,
+            bits,
+        }
+    }
+
+    /// The numbers that are not negative; `None` if there are none.
+    pub fn nonnegative(&self) -> Option<Interval> {
+        (!self.high.is_negative()).then(|| Interval {
+            low: self.low.clone().max(BigInt::zero()),
+            high: self.high.clone(),
+            bits: self.bits,
+        })
     }
 
     /// The values of a polynomial on this interval.
@@ -196,6 +312,39 @@ mod tests {
             let p = Polynomial::from_rationals(&[ratio(1, 3), ratio(-2, 5), ratio(7, 2)]);
             prop_assert!(i.evaluate(&p).contains(&p.evaluate(&x)));
             prop_assert!(i.sign().is_none_or(|s| s == x.cmp(&BigRational::zero())));
+        }
+
+        #[test]
+        fn further_operations_enclose_tightly(
+            a in -500i64..500, b in 1i64..40, c in -50i64..50, d in 1i64..40, spread in 0i64..9, n in 0u32..12,
+        ) {
+            let (x, y) = (ratio(a, b), ratio(c, d));
+            let mut i = Interval::enclosing(&x, 40);
+            i.low -= spread;
+            i.high += spread;
+            let j = Interval::enclosing(&y, 40);
+            prop_assert!(i.negate().contains(&-&x));
+            prop_assert!(i.scale(&y).contains(&(&x * &y)));
+            match i.divide(&j) {
+                None => prop_assert!(c == 0),
+                Some(quotient) => {
+                    prop_assert!(quotient.contains(&(&x / &y)));
+                    prop_assert!(quotient.width_bits() < -40 + 24);
+                }
+            }
+            let power = i.power(n);
+            for end in [i.low(), i.high(), x.clone()] {
+                prop_assert!(power.contains(&end.pow(n as i32)));
+            }
+            let ends = [i.low().pow(n as i32), i.high().pow(n as i32)];
+            let [low, high] = if ends[0] <= ends[1] { ends } else { let [a, b] = ends; [b, a] };
+            let low = if i.sign().is_none() && n % 2 == 0 && n > 0 { BigRational::zero() } else { low };
+            let slack = (power.width() - (high - low)) * BigRational::from_integer(BigInt::one() << 40u32);
+            prop_assert!(slack <= ratio(4, 1));
+            prop_assert_eq!(i.with_bits(50).with_bits(40), i.clone());
+            let coarse = i.with_bits(7);
+            prop_assert!(coarse.low() <= i.low() && i.high() <= coarse.high());
+            prop_assert!((&i.high - &i.low) < BigInt::one() << (i.width_bits() + 40));
         }
     }
 }

@@ -1,6 +1,8 @@
-//! Exact arithmetic: rational polynomials and matrices, real roots, enclosures, correct rounding.
+//! Exact arithmetic: rational polynomials and matrices, factors and real roots, enclosures, elementary
+//! functions, correct rounding.
 
 pub mod algebraic_number;
+pub mod elementary;
 pub mod enclosure_cache;
 pub mod factor;
 pub mod interval;

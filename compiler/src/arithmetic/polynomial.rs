@@ -122,6 +122,9 @@ impl Polynomial {
     /// The coefficient of `xᵏ`.
     pub fn coefficient(&self, power: usize) -> BigRational {
         let numerator = self.numerators.get(power).cloned().unwrap_or_default();
+        if self.denominator.is_one() {
+            return BigRational::from_integer(numerator);
+        }
         BigRational::new(numerator, self.denominator.clone())
     }
 

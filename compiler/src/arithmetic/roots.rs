@@ -273,6 +273,7 @@ fn newton(
 
 /// Compares two reals given by enclosures, if these decide.
 pub fn compare(a: &Interval, b: &Interval) -> Option<Ordering> {
+    debug_assert_eq!(a.bits, b.bits);
     if a.high < b.low {
         Some(Ordering::Less)
     } else if b.high < a.low {

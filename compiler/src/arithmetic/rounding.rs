@@ -102,7 +102,15 @@ fn rounds_up(quotient: &BigInt, remainder: &BigInt, unit: &BigInt) -> bool {
 
 /// The shortest decimal that reads back to a double: `0.25`, `1e-20`.
 pub fn shortest(value: f64) -> String {
-    let text = format!("{value:?}");
+    without_fraction(format!("{value:?}"))
+}
+
+/// The shortest decimal that reads back to a single.
+pub fn shortest_single(value: f32) -> String {
+    without_fraction(format!("{value:?}"))
+}
+
+fn without_fraction(text: String) -> String {
     text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }
 

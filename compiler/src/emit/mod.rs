@@ -15,7 +15,6 @@ use quote::{format_ident, quote};
 
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
-use crate::definition::Key;
 use crate::error::ErrorKind;
 use crate::schedule::Class;
 use crate::tableau::Tableau;
@@ -51,8 +50,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
     let stages = literal::count(tableau.stages());
     let text = name.to_string();
     let provenance = tableau.provenance();
-    let part = |key| provenance.definition.get(key).unwrap_or_default();
-    let (basis, nodes) = (part(Key::Basis), part(Key::Nodes));
+    let definition = provenance.definition.to_string();
     let numbers = tableau.numbers();
     let coefficients = coefficients(tableau, &numbers);
     // The plans are named after the method, so that they are not the method.
@@ -74,8 +72,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
             impl ::symplectic::Method for #name {
                 const NAME: &'static str = #text;
                 const STAGES: usize = #stages;
-                const BASIS: &'static str = #basis;
-                const NODES: &'static str = #nodes;
+                const DEFINITION: &'static str = #definition;
                 #coefficients
                 type General = #general_plan;
                 type Separable = #separable_plan;

@@ -41,6 +41,15 @@ pub(crate) fn compare(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> R
     else {
         return Ok(());
     };
+    if found.name != expected.name {
+        // One of the two has an entry that the other has not.
+        let kind = ErrorKind::Mismatch {
+            entry: found.name.clone(),
+            found: difference(&found.value, "").0,
+            expected: format!("no such entry but `{}`", expected.name),
+        };
+        return Err(file.error(&found.span, kind));
+    }
     let (shown_found, shown_expected) = difference(&found.value, &expected.value);
     let kind = ErrorKind::Mismatch {
         entry: found.name.clone(),

@@ -41,6 +41,38 @@ pub fn parse_list(input: Input<'_>) -> Result<Vec<Expression>, Error> {
     }
 }
 
+/// Reads a list of lists in brackets, a row each: `[[0, 0], [1/2, 1/2]]`.
+///
+/// # Errors
+/// Anything that does not follow the grammar of this module, at its place.
+pub fn parse_matrix(input: Input<'_>) -> Result<Vec<(Range<usize>, Vec<Expression>)>, Error> {
+    const SHAPE: &str = "`[`; a matrix is a list of rows: [[0, 0], [1/2, 1/2]]";
+    let tokens = tokenize(input)?;
+    let mut parser = Parser {
+        input,
+        tokens,
+        next: 0,
+        depth: 0,
+    };
+    let open = parser.accept('[').ok_or_else(|| parser.unexpected(SHAPE))?;
+    let mut rows = Vec::new();
+    loop {
+        let row = parser.accept('[').ok_or_else(|| parser.unexpected(SHAPE))?;
+        let items = parser.items()?;
+        let close = parser.close(row.clone(), ['[', ']'], "an operator, `,`")?;
+        rows.push((row.start..close.end, items));
+        let more = parser.accept(',').is_some();
+        if !more || parser.peek().0 == Token::Symbol(']') {
+            break;
+        }
+    }
+    parser.close(open, ['[', ']'], "`,`")?;
+    match parser.peek().0 {
+        Token::End => Ok(rows),
+        _ => Err(parser.unexpected("the end")),
+    }
+}
+
 struct Parser<'a> {
     input: Input<'a>,
     tokens: Vec<(Token, Range<usize>)>,

@@ -9,19 +9,22 @@ mod fejer;
 mod gauss;
 mod lobatto;
 mod newton_cotes;
+mod nodes;
 mod radau;
+
+pub use nodes::Nodes;
 
 use std::borrow::Cow;
 use std::sync::Arc;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, ToPrimitive, Zero};
 
 use crate::algebra::{NodeAlgebra, StageAlgebra};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::error::{Error, ErrorKind};
-use crate::expression::{Expression, ExpressionKind, Input, parse_list, shown};
+use crate::expression::{Expression, Input, shown};
 use crate::limits::Limits;
 
 /// A family of rules with one member for each number of nodes.
@@ -41,10 +44,6 @@ pub struct Family {
     #[cfg(test)]
     degree_of_precision: fn(usize) -> usize,
 }
-
-/// The longest node polynomial that a list of nodes may have: the time of a derivation grows with the
-/// length of its coefficients as with the number of stages.
-const MAX_NODE_BITS: usize = 1024;
 
 /// All families.
 pub const FAMILIES: [&Family; 8] = [
@@ -72,8 +71,7 @@ impl QuadratureRule {
     /// Reads `gauss(3)` or a list of distinct rationals in `[0, 1]`, e.g. `0, 1/3, 1`.
     ///
     /// # Errors
-    /// Wrong expressions, unknown rules, too many or too few nodes, rules whose nodes are not all
-    /// real, equal nodes and nodes outside `[0, 1]`, each at its place in the text.
+    /// As [`Nodes::parse`], and where the nodes are not all rational.
     ///
     /// ```
     /// use symplectic_compiler::{Limits, QuadratureRule};
@@ -85,90 +83,24 @@ impl QuadratureRule {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn parse(text: &str, limits: &Limits) -> Result<Self, Error> {
-        let input = Input {
-            name: "nodes",
-            text,
-        };
-        let items = parse_list(input)?;
-        match items.as_slice() {
-            [
-                item @ Expression {
-                    kind:
-                        ExpressionKind::Call {
-                            function,
-                            name,
-                            arguments,
-                        },
-                    ..
-                },
-            ] => {
-                let family = FAMILIES
-                    .iter()
-                    .find(|family| family.name == function)
-                    .ok_or_else(|| {
-                        let known = FAMILIES.map(|family| family.name).join(", ");
-                        let kind = ErrorKind::Unknown {
-                            what: "quadrature rule",
-                            name: function.clone(),
-                            known: format!("{known}, or a list of rationals"),
-                        };
-                        input.error(name, kind)
-                    })?;
-                let stages = count(input, item, family.name, arguments)?;
-                Self::member(family, &stages, limits).map_err(|kind| input.error(&item.span, kind))
-            }
-            _ => {
-                check_stages(&items.len().into(), limits)
-                    .map_err(|kind| input.error(&(0..text.len()), kind))?;
-                let mut nodes: Vec<BigRational> = Vec::new();
-                for item in &items {
-                    let node = item.rational(input)?;
-                    let outside = node.is_negative() || node > BigRational::one();
-                    if outside {
-                        return Err(input.error(
-                            &item.span,
-                            ErrorKind::NodeOutside {
-                                node: shown(&node.to_string()),
-                            },
-                        ));
-                    }
-                    if nodes.contains(&node) {
-                        return Err(input.error(
-                            &item.span,
-                            ErrorKind::EqualNodes {
-                                node: shown(&node.to_string()),
-                            },
-                        ));
-                    }
-                    nodes.push(node);
-                }
-                let size = nodes.iter().map(|node| node.denom().bits() as usize).sum();
-                if size > MAX_NODE_BITS {
-                    let what = "the length of all denominators together in bits";
-                    let kind = ErrorKind::ExpressionSize {
-                        what,
-                        size,
-                        limit: MAX_NODE_BITS,
-                    };
-                    return Err(input.error(&(0..text.len()), kind));
-                }
-                nodes.sort();
-                let name = nodes
-                    .iter()
-                    .map(ToString::to_string)
-                    .collect::<Vec<_>>()
-                    .join(", ");
-                let polynomial = nodes.iter().fold(Polynomial::one(), |product, node| {
-                    &product * &Polynomial::from_rationals(&[-node, BigRational::one()]).primitive()
-                });
-                Self::with_nodes(name, &polynomial)
-                    .map_err(|kind| input.error(&(0..text.len()), kind))
+        match Nodes::parse("nodes", text, limits)? {
+            Nodes::Rule(rule) => Ok(rule),
+            Nodes::Listed { name, .. } => {
+                let kind = ErrorKind::Type {
+                    found: format!("the irrational list {}", shown(&name)),
+                    expected: "a rule or a list of rationals".to_owned(),
+                };
+                Err(kind.into())
             }
         }
     }
 
     /// The member of a family with this number of nodes.
-    fn member(family: &Family, stages: &BigInt, limits: &Limits) -> Result<Self, ErrorKind> {
+    pub(super) fn member(
+        family: &Family,
+        stages: &BigInt,
+        limits: &Limits,
+    ) -> Result<Self, ErrorKind> {
         if *stages < family.minimum.into() {
             let (rule, stages) = (family.name, stages.to_string());
             return Err(ErrorKind::TooFewStages {

@@ -47,8 +47,7 @@ const _: () = {
     impl ::symplectic::Method for Gauss2 {
         const NAME: &'static str = "Gauss2";
         const STAGES: usize = 2;
-        const BASIS: &'static str = "polynomial(2)";
-        const NODES: &'static str = "gauss(2)";
+        const DEFINITION: &'static str = "basis: polynomial(2), nodes: gauss(2)";
         const COEFFICIENTS: ::symplectic::Coefficients = {
             const A: &[&[::symplectic::Coefficient]] = &[
                 &[

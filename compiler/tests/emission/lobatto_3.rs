@@ -55,8 +55,7 @@ const _: () = {
     impl ::symplectic::Method for Lobatto3 {
         const NAME: &'static str = "Lobatto3";
         const STAGES: usize = 3;
-        const BASIS: &'static str = "polynomial(3)";
-        const NODES: &'static str = "lobatto(3)";
+        const DEFINITION: &'static str = "basis: polynomial(3), nodes: lobatto(3)";
         const COEFFICIENTS: ::symplectic::Coefficients = {
             const A: &[&[::symplectic::Coefficient]] = &[
                 &[

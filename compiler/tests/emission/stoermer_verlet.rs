@@ -42,8 +42,7 @@ const _: () = {
     impl ::symplectic::Method for StoermerVerlet {
         const NAME: &'static str = "StoermerVerlet";
         const STAGES: usize = 2;
-        const BASIS: &'static str = "polynomial(2)";
-        const NODES: &'static str = "lobatto(2)";
+        const DEFINITION: &'static str = "basis: polynomial(2), nodes: lobatto(2)";
         const COEFFICIENTS: ::symplectic::Coefficients = {
             const A: &[&[::symplectic::Coefficient]] = &[
                 &[

@@ -5,7 +5,6 @@ use std::cmp::Ordering;
 use num_bigint::BigInt;
 use num_traits::One;
 
-use super::elementary::divide;
 use super::number_field::narrow;
 use super::{ConstantField, FieldElement};
 use crate::arithmetic::interval::Interval;
@@ -50,7 +49,8 @@ impl ConstantField {
             return numerator;
         }
         // A denominator is not zero; more places will tell.
-        divide(&numerator, &evaluate(&element.denominator)).unwrap_or(unknown)
+        let denominator = evaluate(&element.denominator);
+        numerator.divide(&denominator).unwrap_or(unknown)
     }
 
     /// The sign of an element.

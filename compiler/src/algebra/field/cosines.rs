@@ -3,9 +3,9 @@
 use num_integer::gcd;
 use num_rational::BigRational;
 
-use super::elementary;
 use super::{Extension, MAX_DEGREE, Notation, NumberField};
 use crate::arithmetic::algebraic_number::AlgebraicNumber;
+use crate::arithmetic::elementary;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::ratio;
@@ -49,7 +49,7 @@ impl NumberField {
                 let enclose = |bits| {
                     let angle = elementary::pi(bits);
                     let n = Interval::enclosing(&BigRational::from_integer(n.into()), bits);
-                    elementary::divide(&angle, &n).map(|angle| elementary::cos(&angle))
+                    angle.divide(&n).map(|angle| elementary::cos(&angle))
                 };
                 let nowhere = Interval::enclosing(&ratio(2, 1), 1);
                 let number = AlgebraicNumber::identify(&cosine_polynomial(n), &|bits| {

@@ -9,7 +9,6 @@ mod constant_display;
 mod constant_enclosure;
 mod constant_field;
 mod cosines;
-mod elementary;
 mod extension;
 mod field_element;
 mod function_gcd;

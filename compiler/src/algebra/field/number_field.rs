@@ -240,7 +240,7 @@ pub(super) fn narrow(bits: u32, enclose: impl Fn(u32) -> Interval) -> Interval {
         let width = &interval.high - &interval.low;
         // The ends go to multiples of 2⁻ᵇⁱᵗˢ⁻¹, which are at most two apart then.
         if width <= BigInt::one() << (working - bits - 1) {
-            return interval.rounded(bits + 1);
+            return interval.with_bits(bits + 1);
         }
         let excess = width.bits() as u32 + bits + 1 - working;
         working += excess.max(16) + 8;

@@ -5,7 +5,7 @@ use std::num::NonZeroU32;
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 
-use super::elementary::{cos, divide, exp, pi, sin};
+use crate::arithmetic::elementary::{cos, exp, pi, sin};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
 
@@ -30,18 +30,22 @@ pub enum Transcendental {
 impl Transcendental {
     /// An enclosure with this number of binary places, whose width tends to zero as they grow.
     pub fn enclose(self, bits: u32) -> Interval {
+        let unknown = || Interval {
+            low: BigInt::zero(),
+            high: BigInt::one() << (2 * bits),
+            bits,
+        };
         let part = |n: i64| Interval::enclosing(&ratio(1, n), bits);
         match self {
             Transcendental::Pi => pi(bits),
-            Transcendental::Exponential { denominator } => exp(&part(denominator.get().into())),
+            // An argument of at most 1 is in the domain.
+            Transcendental::Exponential { denominator } => {
+                exp(&part(denominator.get().into())).unwrap_or_else(unknown)
+            }
             Transcendental::HalfAngleTangent { denominator } => {
                 let angle = part(2 * i64::from(denominator.get()));
                 // The cosine is above 0.8: only with very few places its enclosure contains zero.
-                divide(&sin(&angle), &cos(&angle)).unwrap_or_else(|| Interval {
-                    low: BigInt::zero(),
-                    high: BigInt::one() << bits,
-                    bits,
-                })
+                sin(&angle).divide(&cos(&angle)).unwrap_or_else(unknown)
             }
         }
     }

@@ -6,7 +6,7 @@ use num_rational::BigRational;
 
 use super::{NodeAlgebra, NodeNumber, Tensor, closed_form};
 use crate::algebra::stage_algebra::group_by;
-use crate::algebra::{Number, StageAlgebra};
+use crate::algebra::{Number, StageAlgebra, Zero};
 use crate::arithmetic::polynomial::Polynomial;
 
 impl StageAlgebra for NodeAlgebra {
@@ -33,10 +33,11 @@ impl StageAlgebra for NodeAlgebra {
         NodeAlgebra::multiply(self, f, g)
     }
 
-    fn reciprocal(&self, f: &Polynomial) -> Result<Polynomial, usize> {
+    fn reciprocal(&self, f: &Polynomial) -> Result<Polynomial, (usize, Zero)> {
         self.inverse(f).map_err(|divisor| {
             let vanishes = |index: &usize| self.roots()[*index].is_root_of_divisor(&divisor);
-            (0..self.dimension()).find(vanishes).unwrap_or(0)
+            let first = (0..self.dimension()).find(vanishes).unwrap_or(0);
+            (first, Zero::Yes)
         })
     }
 

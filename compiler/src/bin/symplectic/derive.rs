@@ -1,21 +1,50 @@
 //! `symplectic derive`
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use symplectic_compiler::{Error, derive_within};
+use symplectic_compiler::{Definition, Error, Key, check, export};
 
 use crate::output::{self, OutputOptions};
 
-/// Derive the tableau of a basis at nodes, with proofs.
+/// Derive a tableau, with proofs: from a basis at nodes, from a basis and a quadrature formula, or from given
+/// coefficients.
+///
+/// Expressions have numbers, t, pi, e, + - * / ^, sqrt, cbrt, sin, cos, tan, exp, cosh, sinh and root(p, k), the
+/// k-th real root of a polynomial p in t.
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// `polynomial(s)`, or a list of polynomials in t: "1, t, t^2 - 1/3".
+    /// A TOML file with the definition instead of the options below.
+    #[arg(value_name = "FILE", conflicts_with_all = ["basis", "nodes", "quadrature", "weights", "a", "b", "a_tilde", "b_tilde", "exchange"])]
+    file: Option<PathBuf>,
+    /// `polynomial(s)`, `legendre(s)`, or a list of functions of t: "1, cos(pi*t), sin(pi*t)".
     #[arg(long, allow_hyphen_values = true)]
-    basis: String,
-    /// A rule such as `gauss(3)` (`symplectic list` shows all), or a list of rationals: "0, 1/3, 1".
+    basis: Option<String>,
+    /// A rule such as `gauss(3)` (`symplectic list` shows all), or a list of numbers in [0, 1]: "0, 1/3, 1".
     #[arg(long, allow_hyphen_values = true)]
-    nodes: String,
+    nodes: Option<String>,
+    /// Nodes of the rectangular construction, at least as many as there are functions.
+    #[arg(long, allow_hyphen_values = true)]
+    quadrature: Option<String>,
+    /// The weights of the quadrature, if not the interpolatory ones: "1/6, 2/3, 1/6".
+    #[arg(long, allow_hyphen_values = true)]
+    weights: Option<String>,
+    /// Given coefficients of the position stages, row by row: "[[0, 0], [1/2, 1/2]]".
+    #[arg(long, allow_hyphen_values = true, value_name = "ROWS")]
+    a: Option<String>,
+    /// Given weights: "1/2, 1/2".
+    #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
+    b: Option<String>,
+    /// Given coefficients of the momentum stages, or `symplectic_partner` [default: those of the positions].
+    #[arg(long, allow_hyphen_values = true, value_name = "ROWS")]
+    a_tilde: Option<String>,
+    /// Given weights of the forces [default: b].
+    #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
+    b_tilde: Option<String>,
+    /// Exchange the coefficients of positions and momenta.
+    #[arg(long)]
+    exchange: bool,
     /// A name to put into the output.
     #[arg(long)]
     name: Option<String>,
@@ -25,9 +54,38 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let limits = arguments.output.limits();
-    let mut tableau = derive_within(&arguments.basis, &arguments.nodes, &limits)?;
+    let mut tableau = match &arguments.file {
+        Some(path) => check(
+            &path.display().to_string(),
+            &export::read_text(path)?,
+            &limits,
+        )?,
+        None => arguments.definition().derive(&limits)?,
+    };
     if let Some(name) = &arguments.name {
         tableau = tableau.named(name);
     }
+    output::warn_if_inconsistent(&tableau);
     output::print(&arguments.output.write(&tableau))
+}
+
+impl Arguments {
+    fn definition(&self) -> Definition {
+        let exchange = self.exchange.then(|| "true".to_owned());
+        let parts = [
+            (Key::Basis, &self.basis),
+            (Key::Nodes, &self.nodes),
+            (Key::Quadrature, &self.quadrature),
+            (Key::Weights, &self.weights),
+            (Key::A, &self.a),
+            (Key::B, &self.b),
+            (Key::ATilde, &self.a_tilde),
+            (Key::BTilde, &self.b_tilde),
+            (Key::Exchange, &exchange),
+        ];
+        let given = parts
+            .into_iter()
+            .filter_map(|(key, text)| Some((key, text.as_deref()?)));
+        Definition::new(given)
+    }
 }

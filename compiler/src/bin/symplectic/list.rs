@@ -12,7 +12,7 @@ use crate::output;
 pub(crate) struct Arguments {}
 
 pub(crate) fn run(_: &Arguments) -> Result<ExitCode, Error> {
-    let mut methods = vec![["name", "stages", "basis", "nodes", "title"].map(str::to_owned)];
+    let mut methods = vec![["name", "stages", "definition", "title"].map(str::to_owned)];
     methods.extend(catalogue::entries().map(|entry| {
         let others = entry.same_as();
         let title = if others.is_empty() {
@@ -23,8 +23,7 @@ pub(crate) fn run(_: &Arguments) -> Result<ExitCode, Error> {
         [
             entry.name,
             entry.stages.to_string(),
-            entry.basis,
-            entry.nodes,
+            entry.definition,
             title,
         ]
     }));
@@ -38,7 +37,9 @@ pub(crate) fn run(_: &Arguments) -> Result<ExitCode, Error> {
     }));
     let mut text = String::from("Methods, for `symplectic show NAME`\n\n");
     text.push_str(&aligned(&methods));
-    text.push_str("\nNodes, for `symplectic derive --nodes`; also any list of distinct rationals in [0, 1]\n\n");
+    text.push_str(
+        "\nNodes, for `symplectic derive --nodes`; also any list of distinct numbers in [0, 1]\n\n",
+    );
     text.push_str(&aligned(&rules));
     output::print(&text)
 }

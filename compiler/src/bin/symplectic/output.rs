@@ -7,6 +7,8 @@ use clap::{Args, ValueEnum};
 use symplectic_compiler::export::{self, DEFAULT_DIGITS, MAX_DIGITS, TEXT_DIGITS};
 use symplectic_compiler::{Error, ErrorKind, Limits, Tableau};
 
+use crate::report;
+
 /// The formats of a tableau.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
@@ -60,6 +62,17 @@ fn digits(text: &str) -> Result<usize, String> {
         .ok()
         .filter(|digits| (1..=MAX_DIGITS).contains(digits))
         .ok_or_else(|| format!("expected a whole number from 1 to {MAX_DIGITS}"))
+}
+
+/// Says on standard error that a method is not consistent: a person hardly wants that.
+pub(crate) fn warn_if_inconsistent(tableau: &Tableau) {
+    let consistent = tableau.properties().consistent;
+    if !consistent.holds {
+        let witness = consistent.witness.as_deref().unwrap_or_default();
+        report::warning(&format!(
+            "the method is not consistent, of order 0: {witness}"
+        ));
+    }
 }
 
 /// Prints to standard output. A reader that has gone away is no error.

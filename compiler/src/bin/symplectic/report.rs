@@ -15,18 +15,31 @@ pub(crate) fn status(error: &Error) -> u8 {
 
 /// Writes an error to standard error, in colour if that is a terminal.
 pub(crate) fn to_stderr(error: &Error) {
-    let stderr = std::io::stderr();
-    let colour = stderr.is_terminal() && std::env::var_os("NO_COLOR").is_none();
     // There is nobody left to tell where this fails.
-    let _ = writeln!(stderr.lock(), "{}", render(error, colour));
+    let _ = writeln!(std::io::stderr().lock(), "{}", render(error, in_colour()));
 }
 
-fn render(error: &Error, colour: bool) -> String {
-    let renderer = if colour {
+/// Writes a warning to standard error.
+pub(crate) fn warning(message: &str) {
+    let title = Level::WARNING.primary_title(message.to_owned());
+    let text = renderer(in_colour()).render(&[Group::with_title(title)]);
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}
+
+fn in_colour() -> bool {
+    std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none()
+}
+
+fn renderer(colour: bool) -> Renderer {
+    if colour {
         Renderer::styled()
     } else {
         Renderer::plain()
-    };
+    }
+}
+
+fn render(error: &Error, colour: bool) -> String {
+    let renderer = renderer(colour);
     let message = error.kind.to_string();
     let title = Level::ERROR.primary_title(message);
     match &error.place {

@@ -1,19 +1,23 @@
 //! JSON for other programs.
 //!
 //! ```text
-//! {"name", "stages", "basis", "nodes", "source",
+//! {"name", "stages", "basis", "nodes", "definition", "tier", "source",
 //!  "c": [N], "c_tilde": [N], "b": [N], "b_tilde": [N], "a": [[N]], "a_tilde": [[N]],
 //!  "properties": {"symplectic": P, "symmetric": P, …}}
 //!
-//! N = {"exact": string or null, "decimal": string, "f64": string}
+//! N = {"exact": string or null, "decimal": string, "f64": string, "f32": string}
 //! P = {"holds": bool, "evidence": "proved" | "refuted" | "verified", "bits": integer or null,
 //!      "witness": string or null}
 //! ```
 //!
-//! `exact` is a [`ClosedForm`](crate::algebra::ClosedForm) such as `1/2 - sqrt(3)/6`, null where there
-//! is no short one; `decimal` has the requested number of significant digits, correctly rounded (zero
-//! is `0`); `f64` is the shortest decimal that reads back to the correctly rounded double. `name` and
-//! `source` are strings or null. The keys of `properties` are
+//! `basis` and `nodes` are null where there are none; `definition` is there only where these two do not
+//! say everything, and holds all parts of the [`Definition`](crate::Definition). `tier` is the name of the
+//! [`Tier`](crate::Tier).
+//!
+//! `exact` is an expression such as `1/2 - sqrt(3)/6` or `(pi - 4)/(4*pi)`, null where there is no readable
+//! one; `decimal` has the requested number of significant digits, correctly rounded (zero is `0`); `f64`
+//! and `f32` are the shortest decimals that read back to the correctly rounded floating-point numbers.
+//! `name` and `source` are strings or null. The keys of `properties` are
 //! [`Properties::NAMES`](crate::Properties::NAMES).
 
 mod read;

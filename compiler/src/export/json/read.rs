@@ -11,10 +11,11 @@ use serde_json::Value;
 use serde_json::value::RawValue;
 
 use crate::coefficients::subscript;
+use crate::definition::{Definition, Key};
 use crate::error::{Error, ErrorKind};
 use crate::export::MAX_DIGITS;
 use crate::export::entries::{Entry, compare, offset};
-use crate::export::origin::Origin;
+use crate::export::origin::{Origin, Part};
 use crate::expression::Input;
 use crate::limits::Limits;
 use crate::properties::Properties;
@@ -78,6 +79,9 @@ struct Document<'a> {
     basis: Leaf<'a>,
     nodes: Leaf<'a>,
     #[serde(default)]
+    definition: Option<Leaf<'a>>,
+    tier: Leaf<'a>,
+    #[serde(default)]
     source: Option<Leaf<'a>>,
     c: Vec<Number<'a>>,
     c_tilde: Vec<Number<'a>>,
@@ -95,6 +99,7 @@ struct Number<'a> {
     exact: Leaf<'a>,
     decimal: Leaf<'a>,
     f64: Leaf<'a>,
+    f32: Leaf<'a>,
 }
 
 #[derive(Deserialize)]
@@ -238,13 +243,36 @@ impl<'a> Document<'a> {
     fn origin(&self, file: Input<'_>) -> Result<Origin, Error> {
         Ok(Origin {
             name: self.name.optional_string(file)?,
-            basis: (self.basis.string(file)?, self.basis.span(file.text)),
-            nodes: (self.nodes.string(file)?, self.nodes.span(file.text)),
+            parts: self.parts(file)?,
             source: self
                 .source
                 .as_ref()
                 .map_or(Ok(None), |source| source.optional_string(file))?,
         })
+    }
+
+    /// The parts of the definition, each with its place.
+    fn parts(&self, file: Input<'_>) -> Result<Vec<Part>, Error> {
+        if let Some(leaf) = &self.definition {
+            // One text holds all of them.
+            let definition = Definition::parse(&leaf.string(file)?)
+                .map_err(|error| leaf.error(file, &error.kind.to_string()))?;
+            let part = |(key, text): (Key, &str)| Part {
+                key,
+                text: text.to_owned(),
+                span: leaf.span(file.text),
+            };
+            return Ok(definition.parts().map(part).collect());
+        }
+        let part = |(key, leaf): (Key, &Leaf<'_>)| {
+            Ok(Part {
+                key,
+                text: leaf.string(file)?,
+                span: leaf.span(file.text),
+            })
+        };
+        let leaves = [(Key::Basis, &self.basis), (Key::Nodes, &self.nodes)];
+        leaves.into_iter().map(part).collect()
     }
 
     /// The vectors and matrices with their names.
@@ -274,9 +302,13 @@ impl<'a> Document<'a> {
         }
         let mut entries = vec![
             self.stages.entry(file, "stages", Types::Number)?,
-            self.basis.entry(file, "basis", Types::String)?,
-            self.nodes.entry(file, "nodes", Types::String)?,
+            self.basis.entry(file, "basis", Types::StringOrNull)?,
+            self.nodes.entry(file, "nodes", Types::StringOrNull)?,
         ];
+        if let Some(definition) = &self.definition {
+            entries.push(definition.entry(file, "definition", Types::String)?);
+        }
+        entries.push(self.tier.entry(file, "tier", Types::String)?);
         let shape = |name: &str, found: usize| {
             let message = format!("`{name}` has {found} entries, but there are {stages} stages");
             if found == stages {
@@ -300,6 +332,11 @@ impl<'a> Document<'a> {
                 number
                     .f64
                     .entry(file, format!("{name} (f64)"), Types::String)?,
+            );
+            entries.push(
+                number
+                    .f32
+                    .entry(file, format!("{name} (f32)"), Types::String)?,
             );
             Ok::<_, Error>(())
         };

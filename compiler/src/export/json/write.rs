@@ -1,12 +1,12 @@
 //! Writing JSON.
 
-use crate::arithmetic::rounding::shortest;
+use crate::arithmetic::rounding::{shortest, shortest_single};
 use crate::definition::Key;
 use crate::properties::{Evidence, Property};
 use crate::tableau::Tableau;
 
-/// The three forms of a coefficient.
-type Forms = (Option<String>, (String, f64));
+/// The forms of a coefficient.
+type Forms = (Option<String>, (String, f64, f32));
 
 /// Writes a tableau as JSON with decimals of `digits ≥ 1` significant digits.
 ///
@@ -16,13 +16,14 @@ type Forms = (Option<String>, (String, f64));
 /// use symplectic_compiler::{derive, export::json};
 ///
 /// let text = json::write(&derive("1", "1/2")?, 5);
-/// assert!(text.contains(r#""b": [{"exact": "1", "decimal": "1.0000", "f64": "1"}]"#));
+/// assert!(text.contains(r#""b": [{"exact": "1", "decimal": "1.0000", "f64": "1", "f32": "1"}]"#));
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
 pub fn write(tableau: &Tableau, digits: usize) -> String {
-    let rounded = tableau
-        .numbers()
-        .map(|number| (number.decimal(digits).to_string(), number.to_f64()));
+    let rounded = tableau.numbers().map(|number| {
+        let decimal = number.decimal(digits).to_string();
+        (decimal, number.to_f64(), number.to_f32())
+    });
     let forms = tableau.exact_forms().zip(rounded);
     let provenance = tableau.provenance();
     let properties = tableau.properties();
@@ -31,11 +32,20 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
         .into_iter()
         .map(|(name, property)| format!("    {}: {}", string(name), property_text(property)))
         .collect();
-    let members = [
+    let definition = &provenance.definition;
+    let mut members = vec![
         ("name", optional(tableau.name())),
         ("stages", tableau.stages().to_string()),
-        ("basis", optional(provenance.definition.get(Key::Basis))),
-        ("nodes", optional(provenance.definition.get(Key::Nodes))),
+        ("basis", optional(definition.get(Key::Basis))),
+        ("nodes", optional(definition.get(Key::Nodes))),
+    ];
+    // Basis and nodes say everything, or one text does.
+    let simple = |key| matches!(key, Key::Basis | Key::Nodes);
+    if !definition.parts().all(|(key, _)| simple(key)) {
+        members.push(("definition", string(&definition.to_string())));
+    }
+    members.extend([
+        ("tier", string(tableau.tier().name())),
         ("source", optional(provenance.source.as_deref())),
         ("c", vector(&forms.c, "  ")),
         ("c_tilde", vector(&forms.c_tilde, "  ")),
@@ -47,8 +57,11 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
             "properties",
             format!("{{\n{}\n  }}", properties.join(",\n")),
         ),
-    ];
-    let members = members.map(|(key, value)| format!("  {}: {value}", string(key)));
+    ]);
+    let members: Vec<String> = members
+        .iter()
+        .map(|(key, value)| format!("  {}: {value}", string(key)))
+        .collect();
     format!("{{\n{}\n}}\n", members.join(",\n"))
 }
 
@@ -60,12 +73,13 @@ fn optional(text: Option<&str>) -> String {
     text.map_or_else(|| "null".to_owned(), string)
 }
 
-fn number((exact, (decimal, double)): &Forms) -> String {
+fn number((exact, (decimal, double, single)): &Forms) -> String {
     format!(
-        "{{\"exact\": {}, \"decimal\": {}, \"f64\": {}}}",
+        "{{\"exact\": {}, \"decimal\": {}, \"f64\": {}, \"f32\": {}}}",
         optional(exact.as_deref()),
         string(decimal),
-        string(&shortest(*double))
+        string(&shortest(*double)),
+        string(&shortest_single(*single))
     )
 }
 

@@ -7,10 +7,11 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::coefficients::subscript;
+use crate::definition::Key;
 use crate::error::{Error, ErrorKind};
 use crate::export::MAX_DIGITS;
 use crate::export::entries::{Entry, first_line};
-use crate::export::origin::Origin;
+use crate::export::origin::{Origin, Part};
 use crate::expression::Input;
 use crate::limits::Limits;
 use crate::properties::Properties;
@@ -20,13 +21,29 @@ pub(super) type List = Spanned<Vec<Spanned<String>>>;
 pub(super) type Matrix = Spanned<Vec<List>>;
 
 /// A file whose keys and shapes are those of a tableau; what its entries say is not yet looked at.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(crate) struct Document {
     name: Option<String>,
-    stages: Spanned<usize>,
     provenance: ProvenanceTable,
-    pub(super) exact: Exact,
+    /// What is derived from the definition; a file that a person writes has none of it.
+    pub(super) derived: Option<Derived>,
+}
+
+/// The keys of a file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Keys {
+    name: Option<String>,
+    stages: Option<Spanned<usize>>,
+    provenance: ProvenanceTable,
+    exact: Option<Exact>,
+    decimals: Option<Decimals>,
+    properties: Option<Spanned<BTreeMap<Spanned<String>, PropertyEntry>>>,
+}
+
+/// The part of a file that can be derived anew.
+pub(super) struct Derived {
+    stages: Spanned<usize>,
+    pub(super) exact: Option<Exact>,
     decimals: Decimals,
     properties: Spanned<BTreeMap<Spanned<String>, PropertyEntry>>,
 }
@@ -34,15 +51,52 @@ pub(crate) struct Document {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ProvenanceTable {
-    basis: Spanned<String>,
-    nodes: Spanned<String>,
+    basis: Option<Spanned<String>>,
+    nodes: Option<Spanned<String>>,
+    quadrature: Option<Spanned<String>>,
+    weights: Option<Spanned<String>>,
+    a: Option<Spanned<String>>,
+    b: Option<Spanned<String>>,
+    a_tilde: Option<Spanned<String>>,
+    b_tilde: Option<Spanned<String>>,
+    exchange: Option<Spanned<bool>>,
+    tier: Option<Spanned<String>>,
     source: Option<String>,
+}
+
+impl ProvenanceTable {
+    fn parts(&self) -> Vec<Part> {
+        let exchange = self
+            .exchange
+            .as_ref()
+            .map(|value| Spanned::new(value.span(), value.get_ref().to_string()));
+        let texts = [
+            (Key::Basis, &self.basis),
+            (Key::Nodes, &self.nodes),
+            (Key::Quadrature, &self.quadrature),
+            (Key::Weights, &self.weights),
+            (Key::A, &self.a),
+            (Key::B, &self.b),
+            (Key::ATilde, &self.a_tilde),
+            (Key::BTilde, &self.b_tilde),
+            (Key::Exchange, &exchange),
+        ];
+        let part = |(key, text): (Key, &Option<Spanned<String>>)| {
+            let text = text.as_ref()?;
+            Some(Part {
+                key,
+                text: text.get_ref().clone(),
+                span: text.span(),
+            })
+        };
+        texts.into_iter().filter_map(part).collect()
+    }
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Exact {
-    pub(super) node_polynomial: List,
+    pub(super) node_polynomial: Option<List>,
     pub(super) b: List,
     pub(super) b_tilde: List,
     pub(super) a: Matrix,
@@ -80,15 +134,87 @@ impl Document {
     /// [`ErrorKind::Document`] for a text that is no TOML, for keys that are missing or unknown, for
     /// lists of a wrong length; [`ErrorKind::TooManyStages`].
     pub fn parse(file: Input<'_>, limits: &Limits) -> Result<Self, Error> {
-        let document: Document = toml::from_str(file.text).map_err(|error| {
+        let keys: Keys = toml::from_str(file.text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
             let message = format!("not a TOML file of a tableau: {}", error.message());
             document_error(file, span, message)
         })?;
-        document.check_shapes(file, limits)?;
-        Ok(document)
+        let derived = match (keys.stages, keys.exact, keys.decimals, keys.properties) {
+            (None, None, None, None) => None,
+            (Some(stages), exact, Some(decimals), Some(properties)) => Some(Derived {
+                stages,
+                exact,
+                decimals,
+                properties,
+            }),
+            (stages, _, decimals, _) => {
+                let missing = match (stages, decimals) {
+                    (None, _) => "stages",
+                    (_, None) => "decimals",
+                    _ => "properties",
+                };
+                let message = format!(
+                    "not a TOML file of a tableau: missing field `{missing}`; a file that only defines a tableau has `[provenance]` alone"
+                );
+                return Err(document_error(file, 0..0, message));
+            }
+        };
+        if let Some(derived) = &derived {
+            derived.check_shapes(file, limits)?;
+        }
+        Ok(Document {
+            name: keys.name,
+            provenance: keys.provenance,
+            derived,
+        })
     }
 
+    /// The significant digits of the decimals, if there are any.
+    pub fn digits(&self) -> Option<usize> {
+        self.derived
+            .as_ref()
+            .map(|derived| *derived.decimals.digits.get_ref())
+    }
+
+    /// Name and provenance.
+    pub(super) fn origin(&self) -> Origin {
+        Origin {
+            name: self.name.clone(),
+            parts: self.provenance.parts(),
+            source: self.provenance.source.clone(),
+        }
+    }
+
+    /// Derives the tableau anew, with the name and the source of the file.
+    ///
+    /// # Errors
+    /// As [`Definition::derive`](crate::Definition::derive), with places in the file.
+    pub fn derive(&self, file: Input<'_>, limits: &Limits) -> Result<Tableau, Error> {
+        self.origin().derive(file, limits)
+    }
+
+    /// All entries but the name and the source, which cannot be derived.
+    pub fn entries(&self) -> Vec<Entry> {
+        let Some(derived) = &self.derived else {
+            return Vec::new();
+        };
+        let mut entries = vec![one("stages".to_owned(), &derived.stages)];
+        for Part { key, text, span } in self.provenance.parts() {
+            entries.push(Entry::new(key.name(), text, span));
+        }
+        if let Some(tier) = &self.provenance.tier {
+            entries.push(one("tier".to_owned(), tier));
+        }
+        entries.extend(derived.entries());
+        entries
+    }
+}
+
+fn one<T: ToString>(name: String, value: &Spanned<T>) -> Entry {
+    Entry::new(name, value.get_ref().to_string(), value.span())
+}
+
+impl Derived {
     fn check_shapes(&self, file: Input<'_>, limits: &Limits) -> Result<(), Error> {
         let stages = *self.stages.get_ref();
         if stages == 0 {
@@ -116,24 +242,26 @@ impl Document {
             );
             Err(document_error(file, span, message))
         };
-        let (exact, decimals) = (&self.exact, &self.decimals);
-        for (key, list, expected) in [
-            ("node_polynomial", &exact.node_polynomial, stages + 1),
-            ("b", &exact.b, stages),
-            ("b_tilde", &exact.b_tilde, stages),
+        let decimals = &self.decimals;
+        let mut vectors = vec![
             ("c", &decimals.c, stages),
             ("c_tilde", &decimals.c_tilde, stages),
             ("b", &decimals.b, stages),
             ("b_tilde", &decimals.b_tilde, stages),
-        ] {
+        ];
+        let mut matrices = vec![("a", &decimals.a), ("a_tilde", &decimals.a_tilde)];
+        if let Some(exact) = &self.exact {
+            vectors.extend([("b", &exact.b, stages), ("b_tilde", &exact.b_tilde, stages)]);
+            let modulus = exact.node_polynomial.as_ref();
+            vectors.extend(modulus.map(|list| ("node_polynomial", list, stages + 1)));
+            matrices.extend([("a", &exact.a), ("a_tilde", &exact.a_tilde)]);
+        }
+        vectors.sort_by_key(|(_, list, _)| list.span().start);
+        matrices.sort_by_key(|(_, matrix)| matrix.span().start);
+        for (key, list, expected) in vectors {
             length(key, list.get_ref().len(), expected, list.span())?;
         }
-        for (key, matrix) in [
-            ("a", &exact.a),
-            ("a_tilde", &exact.a_tilde),
-            ("a", &decimals.a),
-            ("a_tilde", &decimals.a_tilde),
-        ] {
+        for (key, matrix) in matrices {
             length(key, matrix.get_ref().len(), stages, matrix.span())?;
             for (index, row) in matrix.get_ref().iter().enumerate() {
                 let key = format!("{key}[{index}]");
@@ -167,59 +295,43 @@ impl Document {
         *self.stages.get_ref()
     }
 
-    /// The significant digits of the decimals.
-    pub fn digits(&self) -> usize {
-        *self.decimals.digits.get_ref()
-    }
-
-    /// Name and provenance.
-    pub(super) fn origin(&self) -> Origin {
-        let spanned = |text: &Spanned<String>| (text.get_ref().clone(), text.span());
-        Origin {
-            name: self.name.clone(),
-            basis: spanned(&self.provenance.basis),
-            nodes: spanned(&self.provenance.nodes),
-            source: self.provenance.source.clone(),
-        }
-    }
-
-    /// Derives the tableau anew, with the name and the source of the file.
-    ///
-    /// # Errors
-    /// As [`derive`](crate::derive()), with places in the file.
-    pub fn derive(&self, file: Input<'_>, limits: &Limits) -> Result<Tableau, Error> {
-        self.origin().derive(file, limits)
-    }
-
-    /// All entries but the name and the source, which cannot be derived.
-    pub fn entries(&self) -> Vec<Entry> {
-        fn one<T: ToString>(name: String, value: &Spanned<T>) -> Entry {
-            Entry::new(name, value.get_ref().to_string(), value.span())
-        }
-        let mut entries = vec![
-            one("stages".to_owned(), &self.stages),
-            one("basis".to_owned(), &self.provenance.basis),
-            one("nodes".to_owned(), &self.provenance.nodes),
-        ];
-        let exact = &self.exact;
-        for (name, list) in [
-            ("the node polynomial", &exact.node_polynomial),
-            ("b", &exact.b),
-            ("b̃", &exact.b_tilde),
-        ] {
-            for (power, value) in list.get_ref().iter().enumerate() {
-                let name = format!("{name}, coefficient of {} (exact)", monomial(power, 0));
+    /// The entries of exact coefficients: of polynomials in the nodes where there is a node polynomial,
+    /// and of the tableau itself otherwise.
+    fn exact_entries(&self) -> Vec<Entry> {
+        let mut entries = Vec::new();
+        let Some(exact) = &self.exact else {
+            return entries;
+        };
+        let functions = exact.node_polynomial.is_some();
+        let node_polynomial = exact.node_polynomial.iter();
+        let lists = node_polynomial.map(|list| ("the node polynomial", list));
+        for (name, list) in lists.chain([("b", &exact.b), ("b̃", &exact.b_tilde)]) {
+            for (index, value) in list.get_ref().iter().enumerate() {
+                let name = if functions {
+                    format!("{name}, coefficient of {} (exact)", monomial(index, 0))
+                } else {
+                    format!("{name}_{} (exact)", index + 1)
+                };
                 entries.push(one(name, value));
             }
         }
         for (name, matrix) in [("a", &exact.a), ("ã", &exact.a_tilde)] {
             for (row, list) in matrix.get_ref().iter().enumerate() {
                 for (column, value) in list.get_ref().iter().enumerate() {
-                    let name = format!("{name}, coefficient of {} (exact)", monomial(column, row));
+                    let name = if functions {
+                        format!("{name}, coefficient of {} (exact)", monomial(column, row))
+                    } else {
+                        format!("{name}_{} (exact)", subscript(row + 1, column + 1))
+                    };
                     entries.push(one(name, value));
                 }
             }
         }
+        entries
+    }
+
+    fn entries(&self) -> Vec<Entry> {
+        let mut entries = self.exact_entries();
         let decimals = &self.decimals;
         entries.push(one("digits".to_owned(), &decimals.digits));
         for (name, list) in [

@@ -28,6 +28,21 @@
 //! All quantities with one index are polynomials in a node, all with two are polynomials in two nodes
 //! (theory.md §3.1), so rational coefficients hold irrational tableaux exactly. Every list has as many
 //! entries as there are stages, the node polynomial has one more.
+//!
+//! Where the tier is `constant field`, `[exact]` has no node polynomial, and its entries are expressions
+//! such as `"(pi - 4)/(4*pi)"`. Where it is `enclosure`, there is no `[exact]`: the definition is the
+//! lossless part.
+//!
+//! A person writes the definition only, and [`check`](crate::check()), [`read`] and the macro derive the
+//! rest:
+//!
+//! ```toml
+//! name = "kutta-3"
+//!
+//! [provenance]                         # the keys of a Definition
+//! a = "[[0, 0, 0], [1/2, 0, 0], [-1, 2, 0]]"
+//! b = "1/6, 2/3, 1/6"
+//! ```
 
 mod document;
 mod read;

@@ -19,8 +19,9 @@ use crate::tableau::{Exact, Provenance, Tableau};
 
 /// Reads a tableau from the exact data of a TOML file.
 ///
-/// The result is what the exact data say, whether or not it follows from basis and nodes; decimals
-/// and properties must be there but are not looked at. [`check`](crate::check()) looks at everything.
+/// Where the file has functions of the nodes, the result is what these say, whether or not it follows
+/// from the definition; decimals and properties are not looked at. Any other tableau is derived anew from
+/// its definition. [`check`](crate::check()) looks at everything.
 ///
 /// # Errors
 /// [`ErrorKind::Document`] where the text is no TOML, a key is missing or unknown, a list has a wrong
@@ -34,7 +35,7 @@ use crate::tableau::{Exact, Provenance, Tableau};
 /// let error = toml::read("verlet.toml", &text.replacen("\"1/2\"", "\"1/0\"", 1), &Limits::default());
 /// assert_eq!(
 ///     error.unwrap_err().to_string(),
-///     "verlet.toml, line 13, column 6: `1/0` is no rational number such as 3 or -3/4"
+///     "verlet.toml, line 14, column 6: `1/0` is no rational number such as 3 or -3/4"
 /// );
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
@@ -44,10 +45,16 @@ pub fn read(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Err
         text,
     };
     let document = Document::parse(file, limits)?;
-    let exact = &document.exact;
-    let modulus = polynomial(file, &exact.node_polynomial)?;
-    let algebra = algebra(&modulus, document.stages()).map_err(|kind| {
-        let span = exact.node_polynomial.span();
+    let functions = document.derived.as_ref().and_then(|derived| {
+        let exact = derived.exact.as_ref()?;
+        Some((derived.stages(), exact, exact.node_polynomial.as_ref()?))
+    });
+    let Some((stages, exact, node_polynomial)) = functions else {
+        return document.derive(file, limits);
+    };
+    let modulus = polynomial(file, node_polynomial)?;
+    let algebra = algebra(&modulus, stages).map_err(|kind| {
+        let span = node_polynomial.span();
         file.error(&super::super::entries::first_line(text, span), kind)
     })?;
     let origin = document.origin();

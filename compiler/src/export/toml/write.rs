@@ -2,6 +2,7 @@
 
 use crate::algebra::{NodeAlgebra, Tensor};
 use crate::arithmetic::polynomial::Polynomial;
+use crate::definition::Key;
 use crate::export::json::evidence;
 use crate::export::layout::{right, widths};
 use crate::pair::Pair;
@@ -51,14 +52,21 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
     let provenance = tableau.provenance();
     text.push_str("\n[provenance]\n");
     for (key, part) in provenance.definition.parts() {
-        text.push_str(&format!("{} = {}\n", key.name(), string(part)));
+        let value = match key {
+            Key::Exchange => part.to_owned(),
+            _ => string(part),
+        };
+        text.push_str(&format!("{} = {value}\n", key.name()));
     }
+    text.push_str(&format!("tier = {}\n", string(tableau.tier().name())));
     if let Some(source) = &provenance.source {
         text.push_str(&format!("source = {}\n", string(source)));
     }
 
     match &tableau.exact {
         Exact::Nodes(pair) => write_functions_of_nodes(&mut text, pair),
+        Exact::Field(_) => write_expressions(&mut text, tableau),
+        Exact::Reals(_) => {}
     }
     write_decimals(&mut text, tableau, digits);
 
@@ -92,6 +100,18 @@ fn write_functions_of_nodes(text: &mut String, pair: &Pair<NodeAlgebra>) {
     };
     write_matrix(text, "a", &rows(&pair.a), power_of_y);
     write_matrix(text, "a_tilde", &rows(&pair.a_tilde), power_of_y);
+}
+
+fn write_expressions(text: &mut String, tableau: &Tableau) {
+    let forms = tableau.exact_forms().map(|form| {
+        let form = form.as_deref().unwrap_or_default();
+        quoted(form)
+    });
+    text.push_str("\n[exact]\n");
+    write_vector(text, "b", &forms.b);
+    write_vector(text, "b_tilde", &forms.b_tilde);
+    write_matrix(text, "a", &forms.a, stage);
+    write_matrix(text, "a_tilde", &forms.a_tilde, stage);
 }
 
 fn write_decimals(text: &mut String, tableau: &Tableau, digits: usize) {

@@ -123,7 +123,9 @@ mod tests {
     /// Two stages that nothing tells apart: all entries of both matrices are the same number.
     fn twins(entry: BigRational) -> Tableau {
         let mut tableau = crate::derive("polynomial(2)", "0, 1").expect("derived");
-        let Exact::Nodes(pair) = &mut tableau.exact;
+        let Exact::Nodes(pair) = &mut tableau.exact else {
+            panic!("rational nodes");
+        };
         let matrix = pair
             .algebra
             .outer(&Polynomial::constant(entry), &Polynomial::one());

@@ -1,0 +1,323 @@
+//! The field that holds some given constants (theory.md §3.2).
+
+use std::collections::HashMap;
+use std::num::NonZeroU32;
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{Signed, ToPrimitive, Zero as _};
+
+use super::field::{ConstantField, Extension, FieldElement, Notation, NumberField, Transcendental};
+use super::{Field, Number, Zero};
+use crate::arithmetic::algebraic_number::AlgebraicNumber;
+use crate::arithmetic::polynomial::Polynomial;
+use crate::arithmetic::rational::ratio;
+use crate::expression::{Input, parse_list};
+use crate::symbolic::{Constant, Tree};
+
+/// A [`ConstantField`] together with what the algebraic and transcendental parts of some constants are in
+/// it.
+#[derive(Debug, Clone)]
+pub struct Constants {
+    field: ConstantField,
+    /// The radicals and roots.
+    algebraic: HashMap<Constant, Polynomial>,
+    /// `cos(π/n)` with the `n` of which all angles are multiples.
+    cosine: Option<(u32, Polynomial)>,
+}
+
+impl PartialEq for Constants {
+    fn eq(&self, other: &Self) -> bool {
+        self.field.algebraic() == other.field.algebraic()
+            && self.field.generator() == other.field.generator()
+    }
+}
+
+/// The parts of constants from which a field is made.
+#[derive(Default)]
+struct Parts {
+    pi: bool,
+    /// The least common denominators of the exponents, the arguments in radians and the multiples of π.
+    exponents: Option<u32>,
+    radians: Option<u32>,
+    angles: Option<u32>,
+    /// Radicals and roots; what stands inside one comes before it.
+    radicals: Vec<Constant>,
+    seen: HashMap<Constant, ()>,
+}
+
+/// The least common multiple of a denominator and those before; `None` where it is out of proportion.
+fn common(known: Option<u32>, value: &BigRational) -> Option<Option<u32>> {
+    let denominator = value.denom().to_u32()?;
+    let all = u64::from(known.unwrap_or(1)).lcm(&u64::from(denominator));
+    Some(Some(u32::try_from(all).ok()?))
+}
+
+impl Parts {
+    /// Collects the parts of a constant; `None` where a part lies in no constant field.
+    fn collect(&mut self, constant: &Constant) -> Option<()> {
+        if matches!(constant.tree(), Tree::Rational(_))
+            || self.seen.insert(constant.clone(), ()).is_some()
+        {
+            return Some(());
+        }
+        match constant.tree() {
+            Tree::Rational(_) => {}
+            Tree::Pi => self.pi = true,
+            Tree::Root(_) => self.radicals.push(constant.clone()),
+            Tree::Sqrt(x) | Tree::Cbrt(x) => {
+                self.collect(x)?;
+                self.radicals.push(constant.clone());
+            }
+            Tree::Exp(x) => self.exponents = common(self.exponents, x.as_rational()?)?,
+            Tree::Cos(x) | Tree::Sin(x) => {
+                let (radians, turns) = x.linear_in_pi()?;
+                if !radians.is_zero() {
+                    self.radians = common(self.radians, &radians)?;
+                }
+                // The sine is the cosine of the complement.
+                self.angles = common(self.angles, &turns)?;
+                self.angles = common(self.angles, &(ratio(1, 2) - turns))?;
+            }
+            Tree::Ln(_) => return None,
+            Tree::Product(factors) => {
+                for (x, _) in factors {
+                    self.collect(x)?;
+                }
+            }
+            Tree::Sum(_, terms) => {
+                for (x, _) in terms {
+                    self.collect(x)?;
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// The one transcendental number; `None` where there are several.
+    fn transcendental(&self) -> Option<Option<Transcendental>> {
+        let one = |n: Option<u32>| n.and_then(NonZeroU32::new);
+        let kinds = [
+            self.pi.then_some(Transcendental::Pi),
+            one(self.exponents).map(|denominator| Transcendental::Exponential { denominator }),
+            one(self.radians).map(|denominator| Transcendental::HalfAngleTangent { denominator }),
+        ];
+        let mut kinds = kinds.into_iter().flatten();
+        let first = kinds.next();
+        kinds.next().is_none().then_some(first)
+    }
+}
+
+impl Constants {
+    /// The smallest field that is known to hold all constants; `None` where they are not algebraic over one
+    /// transcendental number, π, `e^{1/n}` or `tan(1/(2n))`, or where the degree exceeds the bounds of
+    /// number fields.
+    pub fn containing<'a>(constants: impl IntoIterator<Item = &'a Constant>) -> Option<Self> {
+        let mut parts = Parts::default();
+        for constant in constants {
+            parts.collect(constant)?;
+        }
+        let transcendental = parts.transcendental()?;
+        let mut result = Constants {
+            field: ConstantField::new(NumberField::rationals(), transcendental),
+            algebraic: HashMap::new(),
+            cosine: None,
+        };
+        if let Some(n) = parts.angles.filter(|&n| n > 1) {
+            let extension = result.field.algebraic().cosine(n)?;
+            result.extend(&extension);
+            result.cosine = Some((n, extension.number));
+        }
+        for radical in &parts.radicals {
+            let number_field = result.field.algebraic();
+            let inner = |x: &Constant| result.element(x)?.as_algebraic();
+            let extension = match radical.tree() {
+                Tree::Sqrt(x) => number_field.square_root(&inner(x)?)?,
+                Tree::Cbrt(x) => number_field.cube_root(&inner(x)?)?,
+                Tree::Root(root) => {
+                    let number = AlgebraicNumber::real_root(&root.polynomial, root.index)?;
+                    number_field.adjoin(&number, Notation::Powers(radical.to_string()))?
+                }
+                _ => return None,
+            };
+            result.extend(&extension);
+            result.algebraic.insert(radical.clone(), extension.number);
+        }
+        Some(result)
+    }
+
+    /// Moves to a larger number field.
+    fn extend(&mut self, extension: &Extension) {
+        self.field = self.field.extended(extension);
+        for image in self.algebraic.values_mut() {
+            *image = extension.embed(image);
+        }
+        if let Some((_, image)) = &mut self.cosine {
+            *image = extension.embed(image);
+        }
+    }
+
+    /// A constant whose parts are known here.
+    fn element(&self, constant: &Constant) -> Option<FieldElement> {
+        let field = &self.field;
+        match constant.tree() {
+            Tree::Rational(value) => Some(field.rational(value.clone())),
+            Tree::Pi => field
+                .transcendental()
+                .filter(|_| matches!(field.generator(), Some(Transcendental::Pi))),
+            Tree::Root(_) | Tree::Sqrt(_) | Tree::Cbrt(_) => {
+                let image = self.algebraic.get(constant)?;
+                Some(field.from_algebraic(image))
+            }
+            Tree::Exp(x) => match field.generator()? {
+                Transcendental::Exponential { denominator } => {
+                    field.exponential(multiple(x.as_rational()?, denominator.get())?)
+                }
+                _ => None,
+            },
+            Tree::Cos(x) => Some(self.sine_cosine(x)?.1),
+            Tree::Sin(x) => Some(self.sine_cosine(x)?.0),
+            Tree::Ln(_) => None,
+            Tree::Product(factors) => {
+                let mut product = field.one();
+                for (x, exponent) in factors {
+                    let power = field.power(&self.element(x)?, *exponent)?;
+                    product = field.multiply(&product, &power);
+                }
+                Some(product)
+            }
+            Tree::Sum(value, terms) => {
+                let mut sum = field.rational(value.clone());
+                for (x, factor) in terms {
+                    let term = field.multiply(&self.element(x)?, &field.rational(factor.clone()));
+                    sum = field.add(&sum, &term);
+                }
+                Some(sum)
+            }
+        }
+    }
+
+    /// `sin x` and `cos x` for `x = q₀ + q₁π`.
+    fn sine_cosine(&self, x: &Constant) -> Option<(FieldElement, FieldElement)> {
+        let field = &self.field;
+        let (radians, turns) = x.linear_in_pi()?;
+        let sine = self.cosine_of(&(ratio(1, 2) - &turns))?;
+        let cosine = self.cosine_of(&turns)?;
+        if radians.is_zero() {
+            return Some((sine, cosine));
+        }
+        let Transcendental::HalfAngleTangent { denominator } = field.generator()? else {
+            return None;
+        };
+        let (s, c) = field.sine_cosine(multiple(&radians, denominator.get())?)?;
+        // sin(x + y) and cos(x + y)
+        let product = |x, y| field.multiply(x, y);
+        Some((
+            field.add(&product(&s, &cosine), &product(&c, &sine)),
+            field.subtract(&product(&c, &cosine), &product(&s, &sine)),
+        ))
+    }
+
+    /// `cos(q π)`.
+    fn cosine_of(&self, turns: &BigRational) -> Option<FieldElement> {
+        let Some((n, cosine)) = &self.cosine else {
+            // Whole multiples of π only.
+            let whole = turns.is_integer().then(|| turns.to_integer());
+            let value = match whole {
+                Some(whole) if whole.is_even() => 1,
+                Some(_) => -1,
+                None => return None,
+            };
+            return Some(self.field.rational(ratio(value, 1)));
+        };
+        let scaled = turns.abs() * BigRational::from_integer((*n).into());
+        let period = BigInt::from(2 * u64::from(*n));
+        let k = scaled
+            .is_integer()
+            .then(|| scaled.to_integer().mod_floor(&period))?
+            .to_u32()?;
+        let value = self.field.algebraic().cosine_of_multiple(cosine, k);
+        Some(self.field.from_algebraic(&value))
+    }
+
+    /// Whether an element is zero.
+    pub fn is_zero(&self, x: &FieldElement) -> bool {
+        x.is_zero()
+    }
+
+    /// An element as a constant; `None` where it is beyond the bounds of constants.
+    pub fn to_constant(&self, x: &FieldElement) -> Option<Constant> {
+        // What is printed is read again.
+        let text = self.field.display(x);
+        let input = Input {
+            name: "constant",
+            text: &text,
+        };
+        let items = parse_list(input).ok()?;
+        items.first()?.constant(input).ok()
+    }
+}
+
+/// The `k` with `value = k/n`.
+fn multiple(value: &BigRational, n: u32) -> Option<i32> {
+    let scaled = value * BigRational::from_integer(n.into());
+    scaled.is_integer().then(|| scaled.to_integer().to_i32())?
+}
+
+impl Field for Constants {
+    type Element = FieldElement;
+
+    fn rational(&self, value: &BigRational) -> FieldElement {
+        self.field.rational(value.clone())
+    }
+
+    fn constant(&self, value: &Constant) -> Option<FieldElement> {
+        self.element(value)
+    }
+
+    fn add(&self, x: &FieldElement, y: &FieldElement) -> FieldElement {
+        self.field.add(x, y)
+    }
+
+    fn subtract(&self, x: &FieldElement, y: &FieldElement) -> FieldElement {
+        self.field.subtract(x, y)
+    }
+
+    fn multiply(&self, x: &FieldElement, y: &FieldElement) -> FieldElement {
+        self.field.multiply(x, y)
+    }
+
+    fn inverse(&self, x: &FieldElement) -> Option<FieldElement> {
+        self.field.inverse(x)
+    }
+
+    fn verified_bits(&self) -> Option<u32> {
+        None
+    }
+
+    fn zero(&self, x: &FieldElement) -> Zero {
+        if x.is_zero() { Zero::Yes } else { Zero::No }
+    }
+
+    /// The simplest, so that elements stay short.
+    fn pivot(&self, candidates: &[&FieldElement]) -> Option<usize> {
+        let nonzero = candidates.iter().enumerate().filter(|(_, x)| !x.is_zero());
+        let length =
+            |list: &[Polynomial]| -> usize { list.iter().map(|c| c.coefficients().len()).sum() };
+        nonzero
+            .min_by_key(|(_, x)| length(x.numerator()) + length(x.denominator()))
+            .map(|(index, _)| index)
+    }
+
+    fn number(&self, x: &FieldElement) -> Number<'_> {
+        match x.as_rational() {
+            Some(value) => Number::Rational(value),
+            None => Number::Field(&self.field, x.clone()),
+        }
+    }
+
+    fn exact(&self, x: &FieldElement) -> Option<String> {
+        Some(self.field.display(x))
+    }
+}

@@ -1,0 +1,226 @@
+//! Real numbers as expressions that are enclosed as narrowly as needed (theory.md §3.3).
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use num_rational::BigRational;
+use num_traits::{One, Zero as _};
+
+use super::{Field, Number, Zero};
+use crate::arithmetic::interval::Interval;
+use crate::symbolic::Constant;
+
+/// Binary places to which a number that may be zero is compared with zero. Half the smallest positive
+/// double is `2⁻¹⁰⁷⁵`, so that what is not told from zero is the double zero.
+pub const ZERO_BITS: u32 = 1280;
+
+/// A real number: constants joined by field operations.
+///
+/// The expression is a graph, not a tree: what is shared is evaluated once, and the finest enclosure so
+/// far is kept.
+#[derive(Debug, Clone)]
+pub struct Real(Arc<Expression>);
+
+#[derive(Debug)]
+struct Expression {
+    operation: Operation,
+    finest: Mutex<Option<Interval>>,
+}
+
+#[derive(Debug)]
+enum Operation {
+    Rational(BigRational),
+    Constant(Constant),
+    Add(Real, Real),
+    Subtract(Real, Real),
+    Multiply(Real, Real),
+    Inverse(Real),
+}
+
+impl Real {
+    fn new(operation: Operation) -> Self {
+        Real(Arc::new(Expression {
+            operation,
+            finest: Mutex::new(None),
+        }))
+    }
+
+    /// A rational number.
+    pub fn rational(value: BigRational) -> Self {
+        Real::new(Operation::Rational(value))
+    }
+
+    /// A constant.
+    pub fn constant(value: Constant) -> Self {
+        match value.as_rational() {
+            Some(value) => Real::rational(value.clone()),
+            None => Real::new(Operation::Constant(value)),
+        }
+    }
+
+    /// The value, if the expression is known to be a rational.
+    pub fn as_rational(&self) -> Option<&BigRational> {
+        match &self.0.operation {
+            Operation::Rational(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// An enclosure of width at most `2⁻ᵇⁱᵗˢ`.
+    pub fn enclose(&self, bits: u32) -> Interval {
+        let mut working = bits + 32;
+        loop {
+            if let Some(interval) = self.evaluate(working)
+                && interval.width_bits() <= i64::from(working) - i64::from(bits)
+            {
+                return interval;
+            }
+            // The inverses in an expression are of numbers that are known not to be zero, so some
+            // precision suffices.
+            working += working / 2;
+        }
+    }
+
+    /// The value by interval arithmetic with this many binary places; `None` where the enclosure of a
+    /// divisor is still too wide.
+    fn evaluate(&self, working: u32) -> Option<Interval> {
+        let known = self
+            .0
+            .finest
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone();
+        if let Some(known) = known.filter(|known| known.bits() >= working) {
+            return Some(known.with_bits(working));
+        }
+        let value = match &self.0.operation {
+            Operation::Rational(value) => Interval::enclosing(value, working),
+            Operation::Constant(constant) => constant.enclose(working)?.with_bits(working),
+            Operation::Add(x, y) => x.evaluate(working)?.add(&y.evaluate(working)?),
+            Operation::Subtract(x, y) => x.evaluate(working)?.subtract(&y.evaluate(working)?),
+            Operation::Multiply(x, y) => x.evaluate(working)?.multiply(&y.evaluate(working)?),
+            Operation::Inverse(x) => {
+                let one = Interval::enclosing(&BigRational::one(), working);
+                one.divide(&x.evaluate(working)?)?
+            }
+        };
+        *self.0.finest.lock().unwrap_or_else(PoisonError::into_inner) = Some(value.clone());
+        Some(value)
+    }
+
+    /// What is known about whether the number equals a rational.
+    pub fn difference(&self, value: &BigRational) -> Zero {
+        if let Some(known) = self.as_rational() {
+            return if known == value { Zero::Yes } else { Zero::No };
+        }
+        let mut bits = 128;
+        loop {
+            if !self.enclose(bits).contains(value) {
+                return Zero::No;
+            }
+            if bits >= ZERO_BITS {
+                return Zero::Within(ZERO_BITS);
+            }
+            bits = (2 * bits).min(ZERO_BITS);
+        }
+    }
+}
+
+impl PartialEq for Real {
+    /// Whether both are the same expression; different expressions may have equal values.
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+            || match (&self.0.operation, &other.0.operation) {
+                (Operation::Rational(x), Operation::Rational(y)) => x == y,
+                (Operation::Constant(x), Operation::Constant(y)) => x == y,
+                _ => false,
+            }
+    }
+}
+
+/// The real numbers, as expressions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Reals;
+
+impl Field for Reals {
+    type Element = Real;
+
+    fn rational(&self, value: &BigRational) -> Real {
+        Real::rational(value.clone())
+    }
+
+    fn constant(&self, value: &Constant) -> Option<Real> {
+        Some(Real::constant(value.clone()))
+    }
+
+    fn add(&self, x: &Real, y: &Real) -> Real {
+        match (x.as_rational(), y.as_rational()) {
+            (Some(p), Some(q)) => self.rational(&(p + q)),
+            (Some(p), _) if p.is_zero() => y.clone(),
+            (_, Some(q)) if q.is_zero() => x.clone(),
+            _ => Real::new(Operation::Add(x.clone(), y.clone())),
+        }
+    }
+
+    fn subtract(&self, x: &Real, y: &Real) -> Real {
+        match (x.as_rational(), y.as_rational()) {
+            (Some(p), Some(q)) => self.rational(&(p - q)),
+            (_, Some(q)) if q.is_zero() => x.clone(),
+            _ if x == y => self.rational(&BigRational::default()),
+            _ => Real::new(Operation::Subtract(x.clone(), y.clone())),
+        }
+    }
+
+    fn multiply(&self, x: &Real, y: &Real) -> Real {
+        match (x.as_rational(), y.as_rational()) {
+            (Some(p), Some(q)) => self.rational(&(p * q)),
+            (Some(p), _) if p.is_zero() => x.clone(),
+            (_, Some(q)) if q.is_zero() => y.clone(),
+            (Some(p), _) if p.is_one() => y.clone(),
+            (_, Some(q)) if q.is_one() => x.clone(),
+            _ => Real::new(Operation::Multiply(x.clone(), y.clone())),
+        }
+    }
+
+    fn inverse(&self, x: &Real) -> Option<Real> {
+        match x.as_rational() {
+            Some(value) => (!value.is_zero()).then(|| self.rational(&value.recip())),
+            None if self.zero(x) == Zero::No => Some(Real::new(Operation::Inverse(x.clone()))),
+            None => None,
+        }
+    }
+
+    fn verified_bits(&self) -> Option<u32> {
+        Some(ZERO_BITS)
+    }
+
+    fn zero(&self, x: &Real) -> Zero {
+        x.difference(&BigRational::default())
+    }
+
+    /// The largest, so that enclosures stay narrow.
+    fn pivot(&self, candidates: &[&Real]) -> Option<usize> {
+        let size = |x: &Real| x.enclose(PIVOT_BITS).magnitude_bits();
+        let sizes = candidates.iter().map(|x| size(x)).enumerate();
+        // Of equal ones the first.
+        let (index, _) = sizes.max_by_key(|&(index, size)| (size, std::cmp::Reverse(index)))?;
+        let nonzero = |index: usize| self.zero(candidates[index]) == Zero::No;
+        if nonzero(index) {
+            return Some(index);
+        }
+        (0..candidates.len()).find(|&index| nonzero(index))
+    }
+
+    fn number(&self, x: &Real) -> Number<'_> {
+        match x.as_rational() {
+            Some(value) => Number::Rational(value.clone()),
+            None => Number::Real(x.clone()),
+        }
+    }
+
+    fn exact(&self, x: &Real) -> Option<String> {
+        x.as_rational().map(|value| value.to_string())
+    }
+}
+
+/// Binary places of the enclosures by which pivots are compared.
+const PIVOT_BITS: u32 = 64;

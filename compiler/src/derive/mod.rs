@@ -1,0 +1,122 @@
+//! From a definition to the tableau (LZ §4.4, steps 1–5; T §2.2; theory.md §2).
+//!
+//! The tier follows from the definition: polynomial bases at all roots of one polynomial are derived in
+//! the node algebra; anything else in a constant field, if one holds all values and integrals of the
+//! basis, and as certified enclosures otherwise.
+
+mod dense;
+mod linear;
+mod node;
+mod problem;
+mod tiers;
+
+use std::ops::Range;
+
+use self::problem::{Construction, Problem};
+use crate::basis::Basis;
+use crate::definition::{Definition, Key};
+use crate::error::{Error, ErrorKind, Place};
+use crate::limits::Limits;
+use crate::quadrature::{Nodes, QuadratureRule};
+use crate::tableau::Tableau;
+
+/// Derives the tableau of a basis at nodes, both given as text, within the default [`Limits`].
+///
+/// # Errors
+/// As [`Definition::derive`].
+///
+/// ```
+/// let tableau = symplectic_compiler::derive("polynomial(3)", "lobatto(3)")?;
+/// assert_eq!(tableau.stages(), 3);
+/// assert!(tableau.properties().symplectic.holds);
+///
+/// let error = symplectic_compiler::derive("polynomial(2)", "0, 0").unwrap_err();
+/// assert_eq!(error.to_string(), "nodes, column 4: the node 0 is listed twice; nodes must be distinct");
+/// # Ok::<(), symplectic_compiler::Error>(())
+/// ```
+pub fn derive(basis: &str, nodes: &str) -> Result<Tableau, Error> {
+    derive_within(basis, nodes, &Limits::default())
+}
+
+/// As [`derive()`], within given limits.
+///
+/// # Errors
+/// As [`Definition::derive`].
+pub fn derive_within(basis: &str, nodes: &str, limits: &Limits) -> Result<Tableau, Error> {
+    Definition::new([(Key::Basis, basis), (Key::Nodes, nodes)]).derive(limits)
+}
+
+impl Definition {
+    /// Derives the tableau.
+    ///
+    /// # Errors
+    /// The first of [`Definition::derive_or_all_errors`].
+    pub fn derive(&self, limits: &Limits) -> Result<Tableau, Error> {
+        self.derive_or_all_errors(limits).map_err(|mut errors| {
+            let first = ErrorKind::Definition {
+                message: "this definition cannot be derived".to_owned(),
+            };
+            if errors.is_empty() {
+                return first.into();
+            }
+            errors.swap_remove(0)
+        })
+    }
+
+    /// Derives the tableau, or says everything that is wrong with the parts.
+    ///
+    /// # Errors
+    /// Wrong expressions, unknown names, too many stages, nodes that are equal or outside `[0, 1]`,
+    /// dependent functions, each at its place in the part; parts that do not go together;
+    /// [`ErrorKind::NotSquare`], [`ErrorKind::SingularBasis`], [`ErrorKind::ZeroWeight`] and what
+    /// cannot be told from the last two.
+    pub fn derive_or_all_errors(&self, limits: &Limits) -> Result<Tableau, Vec<Error>> {
+        let problem = Problem::read(self, limits)?;
+        problem.derive().map_err(|kind| vec![self.place(kind)])
+    }
+
+    /// An error of the derivation at the part that it is about.
+    fn place(&self, kind: ErrorKind) -> Error {
+        let keys: &[Key] = if kind.is_about_basis() {
+            &[Key::Basis]
+        } else {
+            &[Key::Nodes, Key::Quadrature, Key::A]
+        };
+        let part = keys.iter().find_map(|&key| Some((key, self.get(key)?)));
+        match part {
+            None => kind.into(),
+            Some((key, text)) => Error::at(
+                kind,
+                Place {
+                    input: key.name().to_owned(),
+                    text: text.to_owned(),
+                    span: trimmed(text),
+                },
+            ),
+        }
+    }
+}
+
+/// The part of a text that is not white space around it.
+fn trimmed(text: &str) -> Range<usize> {
+    let start = text.len() - text.trim_start().len();
+    start..start + text.trim().len()
+}
+
+/// Derives the tableau of a basis `ψ_1, …, ψ_s` at the nodes `c_1, …, c_s` of a rule.
+///
+/// # Errors
+/// [`ErrorKind::NotSquare`], [`ErrorKind::SingularBasis`], [`ErrorKind::ZeroWeight`].
+pub fn derive_from(basis: &Basis, rule: &QuadratureRule) -> Result<Tableau, ErrorKind> {
+    let problem = Problem {
+        construction: Construction::Collocation {
+            basis: basis.clone(),
+            nodes: Nodes::Rule(rule.clone()),
+        },
+        exchange: false,
+    };
+    problem.derive()
+}
+
+#[cfg(test)]
+mod tests;

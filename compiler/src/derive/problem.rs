@@ -1,0 +1,323 @@
+//! The parts of a definition, read: what is to be derived.
+
+use crate::basis::Basis;
+use crate::definition::{Definition, Key};
+use crate::error::{Error, ErrorKind};
+use crate::expression::{Expression, Input, parse_list, parse_matrix};
+use crate::limits::Limits;
+use crate::quadrature::{Nodes, check_stages};
+use crate::symbolic::Constant;
+
+/// A definition whose texts are read.
+pub struct Problem {
+    pub construction: Construction,
+    /// Whether positions and momenta are exchanged in the end.
+    pub exchange: bool,
+}
+
+/// The constructions of theory.md §2, and coefficients that are given.
+pub enum Construction {
+    /// As many functions as nodes.
+    Collocation { basis: Basis, nodes: Nodes },
+    /// A quadrature formula with at least as many nodes as there are functions.
+    Galerkin {
+        basis: Basis,
+        nodes: Nodes,
+        /// The weights, if they are not the interpolatory ones.
+        weights: Option<Vec<Constant>>,
+    },
+    /// Coefficients as they are.
+    Given {
+        a: Vec<Vec<Constant>>,
+        b: Vec<Constant>,
+        momenta: Momenta,
+    },
+}
+
+/// The coefficients for momenta beside given ones for positions.
+pub enum Momenta {
+    /// `ã = a`, `b̃ = b`.
+    Equal,
+    /// `ã` such that the pair is symplectic, `b̃ = b`.
+    SymplecticPartner,
+    /// Given ones.
+    Given {
+        a_tilde: Vec<Vec<Constant>>,
+        b_tilde: Vec<Constant>,
+    },
+}
+
+/// The word for [`Momenta::SymplecticPartner`].
+const SYMPLECTIC_PARTNER: &str = "symplectic_partner";
+
+impl Problem {
+    /// Reads all parts.
+    ///
+    /// # Errors
+    /// Everything that is wrong with them, one error a part at most.
+    pub fn read(definition: &Definition, limits: &Limits) -> Result<Self, Vec<Error>> {
+        let mut errors = Errors(Vec::new());
+        let has = |key| definition.get(key).is_some();
+        let derived = [Key::Basis, Key::Nodes, Key::Quadrature, Key::Weights];
+        let given = [Key::A, Key::B, Key::ATilde, Key::BTilde];
+        let exchange = errors.note(exchange(definition)).unwrap_or_default();
+        let construction = if given.into_iter().any(has) {
+            if let Some(other) = derived.into_iter().find(|&key| has(key)) {
+                errors.0.push(misfit(format!(
+                    "coefficients are given by `a` and `b`: leave out `{}`, or them",
+                    other.name()
+                )));
+            }
+            read_given(definition, limits, &mut errors)
+        } else {
+            read_derived(definition, limits, &mut errors)
+        };
+        match construction {
+            Some(construction) if errors.0.is_empty() => Ok(Problem {
+                construction,
+                exchange,
+            }),
+            _ => Err(errors.0),
+        }
+    }
+
+    /// The parts in canonical form.
+    pub fn definition(&self) -> Definition {
+        let row = |row: &Vec<Constant>| {
+            let row: Vec<String> = row.iter().map(ToString::to_string).collect();
+            row.join(", ")
+        };
+        let rows = |rows: &[Vec<Constant>]| {
+            let rows: Vec<String> = rows.iter().map(|r| format!("[{}]", row(r))).collect();
+            format!("[{}]", rows.join(", "))
+        };
+        let mut parts = match &self.construction {
+            Construction::Collocation { basis, nodes } => vec![
+                (Key::Basis, basis.name().to_owned()),
+                (Key::Nodes, nodes.name().to_owned()),
+            ],
+            Construction::Galerkin {
+                basis,
+                nodes,
+                weights,
+            } => {
+                let weights = weights.as_ref().map(|weights| (Key::Weights, row(weights)));
+                let parts = [
+                    (Key::Basis, basis.name().to_owned()),
+                    (Key::Quadrature, nodes.name().to_owned()),
+                ];
+                parts.into_iter().chain(weights).collect()
+            }
+            Construction::Given { a, b, momenta } => {
+                let mut parts = vec![(Key::A, rows(a)), (Key::B, row(b))];
+                match momenta {
+                    Momenta::Equal => {}
+                    Momenta::SymplecticPartner => {
+                        parts.push((Key::ATilde, SYMPLECTIC_PARTNER.to_owned()));
+                    }
+                    Momenta::Given { a_tilde, b_tilde } => {
+                        parts.push((Key::ATilde, rows(a_tilde)));
+                        if b_tilde != b {
+                            parts.push((Key::BTilde, row(b_tilde)));
+                        }
+                    }
+                }
+                parts
+            }
+        };
+        if self.exchange {
+            parts.push((Key::Exchange, "true".to_owned()));
+        }
+        Definition::new(parts)
+    }
+}
+
+/// Errors that are reported together.
+struct Errors(Vec<Error>);
+
+impl Errors {
+    fn note<T>(&mut self, result: Result<T, Error>) -> Option<T> {
+        result.map_err(|error| self.0.push(error)).ok()
+    }
+}
+
+/// An error about the parts together.
+fn misfit(message: String) -> Error {
+    ErrorKind::Definition { message }.into()
+}
+
+fn exchange(definition: &Definition) -> Result<bool, Error> {
+    match definition.get(Key::Exchange) {
+        None | Some("false") => Ok(false),
+        Some("true") => Ok(true),
+        Some(text) => {
+            let input = Input {
+                name: Key::Exchange.name(),
+                text,
+            };
+            let kind = ErrorKind::Type {
+                found: crate::expression::shown(text),
+                expected: "`true` or `false`".to_owned(),
+            };
+            Err(input.error(&(0..text.len()), kind))
+        }
+    }
+}
+
+fn read_derived(
+    definition: &Definition,
+    limits: &Limits,
+    errors: &mut Errors,
+) -> Option<Construction> {
+    let basis = definition.get(Key::Basis);
+    let basis = basis.map(|text| errors.note(Basis::parse(text, limits)));
+    let mut nodes = |key: Key| {
+        let text = definition.get(key);
+        text.map(|text| errors.note(Nodes::parse(key.name(), text, limits)))
+    };
+    let (square, rectangular) = (nodes(Key::Nodes), nodes(Key::Quadrature));
+    let weights = definition.get(Key::Weights);
+    let weights = weights.map(|text| errors.note(read_vector(Key::Weights, text)));
+    let missing = |what: &str| {
+        misfit(format!(
+            "{what}a method needs `basis` with `nodes` or `quadrature`, or `a` and `b`"
+        ))
+    };
+    match (basis, square, rectangular, weights) {
+        (Some(basis), Some(nodes), None, None) => Some(Construction::Collocation {
+            basis: basis?,
+            nodes: nodes?,
+        }),
+        (Some(basis), None, Some(nodes), None) => Some(Construction::Galerkin {
+            basis: basis?,
+            nodes: nodes?,
+            weights: None,
+        }),
+        (Some(basis), None, Some(nodes), Some(weights)) => {
+            let (basis, nodes, weights) = (basis?, nodes?, weights?);
+            if weights.len() != nodes.len() {
+                errors.0.push(misfit(format!(
+                    "{} weights for {} nodes; a quadrature formula has one for each",
+                    weights.len(),
+                    nodes.len()
+                )));
+                return None;
+            }
+            Some(Construction::Galerkin {
+                basis,
+                nodes,
+                weights: Some(weights),
+            })
+        }
+        (_, Some(_), Some(_), _) => {
+            errors.0.push(misfit(
+                "`nodes` are those of the square construction and `quadrature` of the rectangular one: leave out one of them"
+                    .to_owned(),
+            ));
+            None
+        }
+        (_, _, None, Some(_)) => {
+            let message = "`weights` go with `quadrature`; with `nodes` they follow from the basis";
+            errors.0.push(misfit(message.to_owned()));
+            None
+        }
+        (None, None, None, None) => {
+            errors.0.push(missing(""));
+            None
+        }
+        (None, ..) => {
+            errors.0.push(missing("`basis` is missing; "));
+            None
+        }
+        (Some(_), None, None, None) => {
+            errors.0.push(missing("`nodes` are missing; "));
+            None
+        }
+    }
+}
+
+fn read_given(
+    definition: &Definition,
+    limits: &Limits,
+    errors: &mut Errors,
+) -> Option<Construction> {
+    let (Some(a), Some(b)) = (definition.get(Key::A), definition.get(Key::B)) else {
+        let message =
+            "given coefficients need both `a` and `b`; `a_tilde` and `b_tilde` may be left out";
+        errors.0.push(misfit(message.to_owned()));
+        return None;
+    };
+    let a = errors.note(read_matrix(Key::A, a, limits));
+    let b = errors.note(read_vector(Key::B, b));
+    let a_tilde = match definition.get(Key::ATilde) {
+        None => Some(None),
+        Some(SYMPLECTIC_PARTNER) => Some(Some(None)),
+        Some(text) => errors
+            .note(read_matrix(Key::ATilde, text, limits))
+            .map(|matrix| Some(Some(matrix))),
+    };
+    let b_tilde = match definition.get(Key::BTilde) {
+        None => Some(None),
+        Some(text) => errors.note(read_vector(Key::BTilde, text)).map(Some),
+    };
+    let (a, b, a_tilde, b_tilde) = (a?, b?, a_tilde?, b_tilde?);
+    let momenta = match (a_tilde, b_tilde) {
+        (None, None) => Momenta::Equal,
+        (Some(None), None) => Momenta::SymplecticPartner,
+        (Some(Some(a_tilde)), b_tilde) => Momenta::Given {
+            a_tilde,
+            b_tilde: b_tilde.unwrap_or_else(|| b.clone()),
+        },
+        (None | Some(None), Some(_)) => {
+            let message = "`b_tilde` goes with a given `a_tilde`";
+            errors.0.push(misfit(message.to_owned()));
+            return None;
+        }
+    };
+    let stages = a.len();
+    let mut check = |key: Key, found: usize| {
+        if found != stages {
+            errors.0.push(misfit(format!(
+                "`{}` has {found} entries or rows where `a` has {stages} rows",
+                key.name()
+            )));
+        }
+    };
+    check(Key::B, b.len());
+    if let Momenta::Given { a_tilde, b_tilde } = &momenta {
+        check(Key::ATilde, a_tilde.len());
+        check(Key::BTilde, b_tilde.len());
+    }
+    Some(Construction::Given { a, b, momenta })
+}
+
+fn constants(input: Input<'_>, items: &[Expression]) -> Result<Vec<Constant>, Error> {
+    items.iter().map(|item| item.constant(input)).collect()
+}
+
+fn read_vector(key: Key, text: &str) -> Result<Vec<Constant>, Error> {
+    let input = Input {
+        name: key.name(),
+        text,
+    };
+    constants(input, &parse_list(input)?)
+}
+
+fn read_matrix(key: Key, text: &str, limits: &Limits) -> Result<Vec<Vec<Constant>>, Error> {
+    let input = Input {
+        name: key.name(),
+        text,
+    };
+    let rows = parse_matrix(input)?;
+    let whole = 0..text.len();
+    let stages = rows.len();
+    check_stages(&stages.into(), limits).map_err(|kind| input.error(&whole, kind))?;
+    if let Some((span, row)) = rows.iter().find(|(_, row)| row.len() != stages) {
+        let kind = ErrorKind::Type {
+            found: format!("a row of {} entries", row.len()),
+            expected: format!("a square matrix: {stages} rows of {stages} entries"),
+        };
+        return Err(input.error(span, kind));
+    }
+    rows.iter().map(|(_, row)| constants(input, row)).collect()
+}

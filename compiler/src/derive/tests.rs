@@ -1,0 +1,133 @@
+//! Tests of the derivation.
+
+use num_rational::BigRational;
+use proptest::prelude::*;
+
+use super::*;
+use crate::algebra::NodeAlgebra;
+use crate::arithmetic::matrix;
+use crate::arithmetic::polynomial::Polynomial;
+use crate::arithmetic::rational::ratio;
+use crate::pair::Pair;
+use crate::symbolic::Function;
+use crate::tableau::Exact;
+
+fn basis_of(polynomials: &[Polynomial]) -> Result<Basis, ErrorKind> {
+    let functions = polynomials.iter().map(Function::polynomial);
+    Basis::new(functions.collect::<Result<_, _>>()?)
+}
+
+/// Whether a basis of polynomials spans the constants, on which consistency rests.
+fn spans_constants(polynomials: &[Polynomial]) -> bool {
+    basis_of(&[polynomials, &[Polynomial::one()]].concat()).is_err()
+}
+
+#[test]
+fn what_cannot_be_derived_is_refused_at_its_place() {
+    let cases = [
+        (
+            "polynomial(2)",
+            "gauss(3)",
+            "basis, column 1: 2 basis functions and 3 nodes",
+        ),
+        ("1", "0, 1", "basis, column 1: 1 basis function and 2 nodes"),
+        // t(t − 1) vanishes at both nodes.
+        (
+            "1, t - t^2",
+            "0, 1",
+            "nodes, column 1: the matrix of the basis at the nodes is singular: -t^2 + t vanishes at every node",
+        ),
+        (
+            "1, t^2 - t^4",
+            "0, 1",
+            "nodes, column 1: the matrix of the basis at the nodes is singular",
+        ),
+        (
+            "polynomial(2)",
+            "1/2, 1",
+            "nodes, column 1: the weight b_2 at the node c_2 = 1 is zero",
+        ),
+    ];
+    for (basis, nodes, message) in cases {
+        let error = derive(basis, nodes).expect_err(message).to_string();
+        assert!(error.starts_with(message), "{basis} at {nodes}: {error}");
+    }
+}
+
+fn nodes_of(tableau: &Tableau) -> &Pair<NodeAlgebra> {
+    match &tableau.exact {
+        Exact::Nodes(pair) => pair,
+        _ => panic!("not in the node algebra"),
+    }
+}
+
+proptest! {
+    /// LZ's formulas evaluated directly at rational nodes, with a matrix inverse: another route.
+    #[test]
+    fn the_tableau_follows_the_formulas(
+        nodes in prop::collection::btree_set(0i64..12, 1..5),
+        coefficients in prop::collection::vec(-4i64..5, 20),
+    ) {
+        let size = nodes.len();
+        let c: Vec<BigRational> = nodes.iter().map(|&n| ratio(n, 11)).collect();
+        let functions: Vec<Polynomial> = coefficients.chunks(5).take(size).map(Polynomial::from_integers).collect();
+        let Ok(basis) = basis_of(&functions) else { return Ok(()) };
+        let text = c.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
+        let rule = QuadratureRule::parse(&text, &Limits::default()).expect("nodes");
+        let m: Vec<Vec<BigRational>> = functions.iter().map(|f| c.iter().map(|x| f.evaluate(x)).collect()).collect();
+        match (derive_from(&basis, &rule), matrix::inverse(&m)) {
+            (Err(ErrorKind::SingularBasis { .. }), inverse) => prop_assert!(inverse.is_err()),
+            (result, Ok(inverse)) => {
+                let integral = |k: usize, x: &BigRational| functions[k].antiderivative().evaluate(x);
+                let b: Vec<BigRational> = (0..size)
+                    .map(|j| (0..size).map(|k| &inverse[j][k] * integral(k, &ratio(1, 1))).sum())
+                    .collect();
+                let a: Vec<Vec<BigRational>> = c.iter().map(|x| (0..size)
+                    .map(|j| (0..size).map(|k| integral(k, x) * &inverse[j][k]).sum()).collect()).collect();
+                let zero = b.iter().position(|b| *b == ratio(0, 1));
+                match result {
+                    Err(ErrorKind::ZeroWeight { index, .. }) => prop_assert_eq!(Some(index - 1), zero),
+                    Err(other) => prop_assert!(false, "{}", other),
+                    Ok(tableau) => {
+                        prop_assert_eq!(zero, None);
+                        let pair = nodes_of(&tableau);
+                        for i in 0..size {
+                            prop_assert_eq!(pair.b.evaluate(&c[i]), b[i].clone());
+                            for j in 0..size {
+                                prop_assert_eq!(pair.a.row_at(&c[i]).evaluate(&c[j]), a[i][j].clone());
+                                let tilde = (&b[i] * &b[j] - &b[j] * &a[j][i]) / &b[i];
+                                prop_assert_eq!(pair.a_tilde.row_at(&c[i]).evaluate(&c[j]), tilde);
+                            }
+                        }
+                        prop_assert!(tableau.properties().symplectic.holds);
+                        if spans_constants(&functions) {
+                            prop_assert_eq!(pair.c(), pair.algebra.variable());
+                            prop_assert!(tableau.properties().consistent.holds);
+                        }
+                    }
+                }
+            }
+            (result, Err(_)) => prop_assert!(false, "singular, but {:?}", result.map(|_| ())),
+        }
+    }
+
+    #[test]
+    fn the_tableau_depends_on_the_span_only(entries in prop::collection::vec(-3i64..4, 9), nodes in prop::sample::select(vec!["gauss(3)", "lobatto(3)", "0, 1/5, 1", "chebyshev(3)"])) {
+        let rows: Vec<Vec<BigRational>> = entries.chunks(3).map(|r| r.iter().map(|&x| ratio(x, 1)).collect()).collect();
+        prop_assume!(matrix::inverse(&rows).is_ok());
+        let changed = basis_of(&entries.chunks(3).map(Polynomial::from_integers).collect::<Vec<_>>()).expect("independent");
+        let rule = QuadratureRule::parse(nodes, &Limits::default()).expect("nodes");
+        let (one, other) = (derive_from(&Basis::monomials(3), &rule).expect("derived"), derive_from(&changed, &rule).expect("derived"));
+        prop_assert!(one.has_coefficients_of(&other));
+    }
+}
+
+#[test]
+fn polynomial_bases_give_the_weights_of_the_rule() {
+    for nodes in ["gauss(4)", "radau-left(3)", "fejer(5)", "newton-cotes(4)"] {
+        let rule = QuadratureRule::parse(nodes, &Limits::default()).expect("nodes");
+        let tableau = derive_from(&Basis::monomials(rule.len()), &rule).expect("derived");
+        assert_eq!(nodes_of(&tableau).b, *rule.weights());
+        assert!(tableau.properties().consistent.holds);
+    }
+}
