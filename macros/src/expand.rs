@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use proc_macro2::{Ident, TokenStream};
-use quote::{ToTokens, quote};
+use quote::{ToTokens, quote, quote_spanned};
 use symplectic_compiler::emit::{Header, method};
 use symplectic_compiler::export::read_text;
 use symplectic_compiler::{Evidence, Key, Limits, Properties, Tableau, check};
@@ -74,20 +74,23 @@ fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
         field("require").map_or_else(Vec::new, |field| requirements(field, &mut errors));
 
     let mut rebuild = TokenStream::new();
-    let part = definition
+    let is_part = |field: &&Field| Key::find(&field.key.to_string()).is_some();
+    let parts: Vec<String> = definition
         .fields
         .iter()
-        .find(|field| Key::find(&field.key.to_string()).is_some());
-    let tableau = match (field("file"), part) {
-        (Some(file), None) => read(file, &limits).map(|(tableau, tracking)| {
+        .filter(is_part)
+        .map(|part| format!("`{}`", part.key))
+        .collect();
+    let tableau = match (field("file"), parts.is_empty()) {
+        (Some(file), true) => read(file, &limits).map(|(tableau, tracking)| {
             rebuild = tracking;
             tableau
         }),
-        (Some(file), Some(part)) => Err(syn::Error::new(
+        (Some(file), false) => Err(syn::Error::new(
             file.key.span(),
             format!(
-                "`file` says everything: leave out `{}`, or `file`",
-                part.key
+                "`file` says everything: leave out {}, or `file`",
+                parts.join(" and ")
             ),
         )),
         (None, _) => derive(definition, &limits),
@@ -101,12 +104,31 @@ fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
                 visibility: definition.visibility.to_token_stream(),
                 name: definition.name.clone(),
             };
+            let warning = inconsistent(&tableau, &definition.name);
             let code = method(&tableau.named(definition.name.to_string()), &header)
                 .map_err(|kind| syn::Error::new(definition.name.span(), kind.to_string()))?;
-            return Ok(quote!(#rebuild #code));
+            return Ok(quote!(#rebuild #warning #code));
         }
     }
     errors.0.map_or(Ok(TokenStream::new()), Err)
+}
+
+/// A warning at the name of a method that is not consistent: a person hardly wants one.
+///
+/// A use of something deprecated is the only warning that a macro can make.
+fn inconsistent(tableau: &Tableau, name: &Ident) -> Option<TokenStream> {
+    let consistent = tableau.properties().consistent;
+    let witness = consistent.witness.as_deref().unwrap_or_default();
+    let note = format!("the method is not consistent, of order 0: {witness}");
+    (!consistent.holds).then(|| {
+        quote_spanned! {name.span()=>
+            const _: () = {
+                #[deprecated(note = #note)]
+                const INCONSISTENT: () = ();
+                INCONSISTENT
+            };
+        }
+    })
 }
 
 /// Derives the tableau of the parts of a definition, with errors at the tokens of each.

@@ -263,6 +263,6 @@ with_function!(FromAnotherMacro, 1 + t);
 fn what_another_macro_puts_in_is_one_operand() {
     assert_eq!(
         FromAnotherMacro::DEFINITION,
-        "basis: [1, 2*t + 2], nodes: lobatto(2)"
+        "basis: [1, 2*t + 2], nodes: [0, 1]"
     );
 }

@@ -180,7 +180,7 @@ fn read_derived(
     let weights = weights.map(|text| errors.note(read_vector(Key::Weights, text)));
     let missing = |what: &str| {
         misfit(format!(
-            "{what}a method needs `basis` with `nodes` or `quadrature`, or `a` and `b`"
+            "{what}a method needs `basis` with `nodes` or `quadrature`, or `a` and `b`, or a file"
         ))
     };
     match (basis, square, rectangular, weights) {
