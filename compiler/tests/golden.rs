@@ -180,6 +180,60 @@ fn the_papers_tableaux_come_out_exactly() {
     }
 }
 
+/// LZ Example 3, whose Ã the paper misprints: by its own formula it is that of Störmer–Verlet.
+#[test]
+fn a_half_wave_gives_stoermer_verlet() {
+    let waves = derive("1, cos(pi*t)", "0, 1").expect("derived");
+    let forms = waves.exact_forms();
+    assert_eq!(shown(&forms.b), ["1/2", "1/2"]);
+    assert_eq!(
+        forms.a.iter().map(|r| shown(r)).collect::<Vec<_>>(),
+        [["0", "0"], ["1/2", "1/2"]]
+    );
+    assert_eq!(
+        forms.a_tilde.iter().map(|r| shown(r)).collect::<Vec<_>>(),
+        [["1/2", "0"], ["1/2", "0"]]
+    );
+    assert!(waves.has_coefficients_of(&derive("polynomial(2)", "0, 1").expect("derived")));
+    assert!(!waves.has_coefficients_of(&derive("polynomial(2)", "0, 2/3").expect("derived")));
+}
+
+/// LZ Example 4, as theory.md §2 has it, with c̃.
+#[test]
+fn half_waves_at_three_nodes_come_out_exactly() {
+    let forms = derive("1, cos(pi*t), sin(pi*t)", "0, 1/2, 1")
+        .expect("derived")
+        .exact_forms();
+    let end = "(pi - 2)/(2*pi)";
+    assert_eq!(shown(&forms.b), [end, "2/pi", end]);
+    assert_eq!(shown(&forms.c), ["0", "1/2", "1"]);
+    let rows = |matrix: &[Vec<Option<String>>]| matrix.iter().map(|r| shown(r)).collect::<Vec<_>>();
+    assert_eq!(
+        rows(&forms.a),
+        [
+            ["0", "0", "0"],
+            ["1/4", "1/pi", "(pi - 4)/(4*pi)"],
+            [end, "2/pi", end]
+        ]
+    );
+    assert_eq!(
+        rows(&forms.a_tilde),
+        [
+            [end, "(pi - 4)/(pi^2 - 2*pi)", "0"],
+            [end, "1/pi", "0"],
+            [end, "1/(pi - 2)", "0"]
+        ]
+    );
+    assert_eq!(
+        shown(&forms.c_tilde),
+        [
+            "(pi^2 - 2*pi - 4)/(2*pi^2 - 4*pi)",
+            "1/2",
+            "(pi^2 - 2*pi + 4)/(2*pi^2 - 4*pi)"
+        ]
+    );
+}
+
 /// `p + q√d`.
 #[derive(Debug, Clone, PartialEq)]
 struct Surd(BigRational, BigRational);

@@ -1,6 +1,6 @@
 //! The field that holds some given constants (theory.md §3.2).
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::num::NonZeroU32;
 
 use num_bigint::BigInt;
@@ -25,7 +25,13 @@ pub struct Constants {
     algebraic: HashMap<Constant, Polynomial>,
     /// `cos(π/n)` with the `n` of which all angles are multiples.
     cosine: Option<(u32, Polynomial)>,
+    /// The constants that the field was made for.
+    known: HashMap<Constant, FieldElement>,
 }
+
+/// The largest product of the degree in `X` and the root of the number of constants: elimination among
+/// rational functions grows with both.
+const MAX_DEGREES: f64 = 160.0;
 
 impl PartialEq for Constants {
     fn eq(&self, other: &Self) -> bool {
@@ -44,7 +50,9 @@ struct Parts {
     angles: Option<u32>,
     /// Radicals and roots; what stands inside one comes before it.
     radicals: Vec<Constant>,
-    seen: HashMap<Constant, ()>,
+    seen: HashSet<Constant>,
+    /// All exponents and arguments in radians.
+    arguments: Vec<BigRational>,
 }
 
 /// The least common multiple of a denominator and those before; `None` where it is out of proportion.
@@ -57,9 +65,7 @@ fn common(known: Option<u32>, value: &BigRational) -> Option<Option<u32>> {
 impl Parts {
     /// Collects the parts of a constant; `None` where a part lies in no constant field.
     fn collect(&mut self, constant: &Constant) -> Option<()> {
-        if matches!(constant.tree(), Tree::Rational(_))
-            || self.seen.insert(constant.clone(), ()).is_some()
-        {
+        if matches!(constant.tree(), Tree::Rational(_)) || !self.seen.insert(constant.clone()) {
             return Some(());
         }
         match constant.tree() {
@@ -70,11 +76,16 @@ impl Parts {
                 self.collect(x)?;
                 self.radicals.push(constant.clone());
             }
-            Tree::Exp(x) => self.exponents = common(self.exponents, x.as_rational()?)?,
+            Tree::Exp(x) => {
+                let exponent = x.as_rational()?;
+                self.exponents = common(self.exponents, exponent)?;
+                self.arguments.push(exponent.abs());
+            }
             Tree::Cos(x) | Tree::Sin(x) => {
                 let (radians, turns) = x.linear_in_pi()?;
                 if !radians.is_zero() {
                     self.radians = common(self.radians, &radians)?;
+                    self.arguments.push(radians.abs());
                 }
                 // The sine is the cosine of the complement.
                 self.angles = common(self.angles, &turns)?;
@@ -95,6 +106,15 @@ impl Parts {
         Some(())
     }
 
+    /// The largest power of `X` in an exponential, a sine or a cosine.
+    fn degree(&self) -> Option<f64> {
+        let denominator = self.exponents.or(self.radians).unwrap_or(1);
+        let Some(largest) = self.arguments.iter().max() else {
+            return Some(0.0);
+        };
+        (largest * BigRational::from_integer(denominator.into())).to_f64()
+    }
+
     /// The one transcendental number; `None` where there are several.
     fn transcendental(&self) -> Option<Option<Transcendental>> {
         let one = |n: Option<u32>| n.and_then(NonZeroU32::new);
@@ -111,18 +131,23 @@ impl Parts {
 
 impl Constants {
     /// The smallest field that is known to hold all constants; `None` where they are not algebraic over one
-    /// transcendental number, π, `e^{1/n}` or `tan(1/(2n))`, or where the degree exceeds the bounds of
-    /// number fields.
+    /// transcendental number, π, `e^{1/n}` or `tan(1/(2n))`, or where a degree exceeds the bounds of number
+    /// fields, or that of rational functions among as many constants.
     pub fn containing<'a>(constants: impl IntoIterator<Item = &'a Constant>) -> Option<Self> {
+        let constants: Vec<&Constant> = constants.into_iter().collect();
         let mut parts = Parts::default();
-        for constant in constants {
+        for constant in &constants {
             parts.collect(constant)?;
         }
         let transcendental = parts.transcendental()?;
+        if parts.degree()? * (constants.len() as f64).sqrt() > MAX_DEGREES {
+            return None;
+        }
         let mut result = Constants {
             field: ConstantField::new(NumberField::rationals(), transcendental),
             algebraic: HashMap::new(),
             cosine: None,
+            known: HashMap::new(),
         };
         if let Some(n) = parts.angles.filter(|&n| n > 1) {
             let extension = result.field.algebraic().cosine(n)?;
@@ -143,6 +168,12 @@ impl Constants {
             };
             result.extend(&extension);
             result.algebraic.insert(radical.clone(), extension.number);
+        }
+        for constant in constants {
+            if constant.as_rational().is_none() && !result.known.contains_key(constant) {
+                let element = result.element(constant)?;
+                result.known.insert(constant.clone(), element);
+            }
         }
         Some(result)
     }
@@ -273,7 +304,10 @@ impl Field for Constants {
     }
 
     fn constant(&self, value: &Constant) -> Option<FieldElement> {
-        self.element(value)
+        match self.known.get(value) {
+            Some(element) => Some(element.clone()),
+            None => self.element(value),
+        }
     }
 
     fn add(&self, x: &FieldElement, y: &FieldElement) -> FieldElement {

@@ -109,14 +109,14 @@ impl Number<'_> {
 
     /// The nearest double, ties to even.
     pub fn to_f64(&self) -> f64 {
-        self.round(rounding::to_f64, |&double| exact(double))
+        self.round(0, rounding::to_f64, |&double| exact(double))
     }
 
     /// The nearest single, ties to even; infinite beyond the largest single.
     ///
     /// Not always the single nearest to [`Number::to_f64`].
     pub fn to_f32(&self) -> f32 {
-        self.round(rounding::to_f32, |&single| exact(single.into()))
+        self.round(0, rounding::to_f32, |&single| exact(single.into()))
     }
 
     /// What [`Number::to_f64`] leaves out: the double nearest to the number minus `double`, ties to even.
@@ -129,6 +129,7 @@ impl Number<'_> {
             return 0.0;
         }
         self.round(
+            0,
             |value| rounding::to_f64(&(value - &double)),
             |&low| &double + exact(low),
         )
@@ -136,15 +137,20 @@ impl Number<'_> {
 
     /// The number rounded to `digits` significant decimal digits, ties to even.
     pub fn decimal(&self, digits: usize) -> Decimal {
-        self.round(|value| Decimal::round(value, digits), Decimal::value)
+        // A digit has less than 10/3 bits; numbers much smaller than 1 need more.
+        let bits = digits.min(1 << 24) as u32 * 10 / 3 + 64;
+        let round = |value: &BigRational| Decimal::round(value, digits);
+        self.round(bits, round, Decimal::value)
     }
 
-    /// Rounds by refining the enclosure until both ends round to the same.
+    /// Rounds by refining the enclosure, with this many binary places at first, until both ends round to
+    /// the same.
     ///
     /// That ends unless the number is zero or the middle between two neighbours of the target format,
     /// which is decided as far as it can be when an enclosure has become narrow and does not exclude it.
     fn round<T: PartialEq>(
         &self,
+        bits: u32,
         round: impl Fn(&BigRational) -> T,
         value: impl Fn(&T) -> BigRational,
     ) -> T {
@@ -154,7 +160,7 @@ impl Number<'_> {
         if self.is_zero() {
             return round(&BigRational::zero());
         }
-        let mut interval = self.enclose(0);
+        let mut interval = self.enclose(bits);
         let mut excluded = None;
         loop {
             let (low, high) = (interval.low(), interval.high());

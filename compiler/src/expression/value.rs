@@ -1,105 +1,22 @@
-//! Syntax trees to values: polynomials in `t`, rationals, counts of stages.
+//! Syntax trees to rationals and counts of stages.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
 
-use super::{Expression, ExpressionKind, Input, MAX_BITS, MAX_DEGREE, MAX_EXPONENT, Operator};
-use crate::arithmetic::polynomial::Polynomial;
+use super::{Expression, Input};
 use crate::error::{Error, ErrorKind};
 
 impl Expression {
-    /// The value as a polynomial in `t`.
-    ///
-    /// # Errors
-    /// Unknown names and functions, division by zero or by a polynomial in `t`, exponents that are
-    /// not small natural numbers, values beyond the size limits of this module.
-    pub fn polynomial(&self, input: Input<'_>) -> Result<Polynomial, Error> {
-        let value = match &self.kind {
-            ExpressionKind::Number(value) => Polynomial::constant(value.clone()),
-            ExpressionKind::Name(name) if name == "t" => Polynomial::variable(),
-            ExpressionKind::Name(name) => {
-                return Err(self.unknown(input, "name", name, "t, numbers"));
-            }
-            ExpressionKind::Call { function, name, .. } => {
-                let kind = ErrorKind::Unknown {
-                    what: "function",
-                    name: function.clone(),
-                    known: "inside an expression only t, numbers and + - * / ^".to_owned(),
-                };
-                return Err(input.error(name, kind));
-            }
-            ExpressionKind::Negate(inner) => -&inner.polynomial(input)?,
-            ExpressionKind::Binary {
-                operator: Operator::Power,
-                left,
-                right,
-            } => {
-                let base = left.polynomial(input)?;
-                let exponent = right.exponent(input)?;
-                let n = exponent as usize;
-                self.check(
-                    input,
-                    "the degree",
-                    base.degree().unwrap_or(0).saturating_mul(n),
-                    MAX_DEGREE,
-                )?;
-                self.check(
-                    input,
-                    "the size of the coefficients in bits",
-                    bits(&base).saturating_mul(n),
-                    MAX_BITS,
-                )?;
-                base.power(exponent)
-            }
-            ExpressionKind::Binary {
-                operator,
-                left,
-                right,
-            } => {
-                let (a, b) = (left.polynomial(input)?, right.polynomial(input)?);
-                match operator {
-                    Operator::Add => &a + &b,
-                    Operator::Subtract => &a - &b,
-                    Operator::Multiply => {
-                        let degree = a.degree().unwrap_or(0) + b.degree().unwrap_or(0);
-                        self.check(input, "the degree", degree, MAX_DEGREE)?;
-                        &a * &b
-                    }
-                    Operator::Divide | Operator::Power => match b.as_constant() {
-                        Some(divisor) if divisor == BigRational::default() => {
-                            return Err(input.error(&right.span, ErrorKind::DivisionByZero));
-                        }
-                        Some(divisor) => a.scale(&divisor.recip()),
-                        None => {
-                            let kind = ErrorKind::Type {
-                                found: "a divisor that depends on `t`".to_owned(),
-                                expected: "a constant".to_owned(),
-                            };
-                            return Err(input.error(&right.span, kind));
-                        }
-                    },
-                }
-            }
-        };
-        self.check(
-            input,
-            "the size of the coefficients in bits",
-            bits(&value),
-            MAX_BITS,
-        )?;
-        Ok(value)
-    }
-
     /// The value as a rational number.
     ///
     /// # Errors
-    /// As [`Self::polynomial`], and where the value depends on `t`.
+    /// As [`Self::constant`], and where the value is not known to be rational.
     pub fn rational(&self, input: Input<'_>) -> Result<BigRational, Error> {
-        self.polynomial(input)?.as_constant().ok_or_else(|| {
+        let value = self.constant(input)?;
+        value.as_rational().cloned().ok_or_else(|| {
             let kind = ErrorKind::Type {
-                found: "an expression that depends on `t`".to_owned(),
-                expected: "a constant".to_owned(),
+                found: shown(&value.to_string()),
+                expected: "a rational number".to_owned(),
             };
             input.error(&self.span, kind)
         })
@@ -121,21 +38,6 @@ impl Expression {
         Ok(value.to_integer())
     }
 
-    fn exponent(&self, input: Input<'_>) -> Result<u32, Error> {
-        let value = self.rational(input)?;
-        let exponent = value
-            .is_integer()
-            .then(|| value.to_integer().to_u32())
-            .flatten();
-        exponent.filter(|&n| n <= MAX_EXPONENT).ok_or_else(|| {
-            let kind = ErrorKind::Exponent {
-                limit: MAX_EXPONENT,
-                found: shown(&value.to_string()),
-            };
-            input.error(&self.span, kind)
-        })
-    }
-
     /// An error about a name that is not known.
     pub(crate) fn unknown(
         &self,
@@ -151,19 +53,6 @@ impl Expression {
         };
         input.error(&self.span, kind)
     }
-
-    fn check(
-        &self,
-        input: Input<'_>,
-        what: &'static str,
-        size: usize,
-        limit: usize,
-    ) -> Result<(), Error> {
-        if size > limit {
-            return Err(input.error(&self.span, ErrorKind::ExpressionSize { what, size, limit }));
-        }
-        Ok(())
-    }
 }
 
 /// A word of the input as it is repeated in a message: whole if it is short.
@@ -174,17 +63,6 @@ pub(crate) fn shown(text: &str) -> String {
     }
     let start: String = text.chars().take(LENGTH).collect();
     format!("{start}…")
-}
-
-/// The length of the longest number in a polynomial.
-fn bits(polynomial: &Polynomial) -> usize {
-    let longest = polynomial
-        .numerators()
-        .iter()
-        .map(BigInt::bits)
-        .max()
-        .unwrap_or(0);
-    longest.max(polynomial.denominator().bits()) as usize
 }
 
 #[cfg(test)]
@@ -199,10 +77,10 @@ mod tests {
         };
         let all = parse_list(input).and_then(|list| {
             list.iter()
-                .map(|e| e.polynomial(input))
+                .map(|e| e.function(input))
                 .collect::<Result<Vec<_>, _>>()
         });
-        all.map(|list| list.iter().map(|p| p.display("t").to_string()).collect())
+        all.map(|list| list.iter().map(ToString::to_string).collect())
             .map_err(|e| e.to_string())
     }
 

@@ -141,6 +141,10 @@ impl NodeAlgebra {
             .unwrap_or_else(std::sync::PoisonError::into_inner);
         match &*cache {
             Some(known) if known.first().is_some_and(|i| i.bits() == bits) => Arc::clone(known),
+            // A coarser enclosure comes from the finest.
+            Some(known) if known.first().is_some_and(|i| i.bits() > bits) => {
+                Arc::new(known.iter().map(|node| node.with_bits(bits)).collect())
+            }
             _ => {
                 let nodes = self
                     .roots

@@ -1,6 +1,7 @@
 //! Values of functions of the nodes: algebraic numbers.
 
 use std::borrow::Cow;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -25,8 +26,11 @@ pub struct NodeNumber<'a> {
 #[derive(Debug, Clone)]
 enum Source<'a> {
     Element(Cow<'a, Polynomial>, usize),
-    Entry(&'a Tensor, usize, usize),
+    Entry(&'a Tensor, usize, usize, Arc<Row>),
 }
+
+/// The finest enclosures so far of the entries of a row, which are computed together.
+type Row = Mutex<Vec<Interval>>;
 
 /// Binary places of the first enclosure, beyond the cancellation that the coefficients suggest.
 const FIRST_BITS: u32 = 192;
@@ -60,14 +64,14 @@ impl<'a> NodeNumber<'a> {
         let nodes = algebra.enclose_nodes(FIRST_BITS + tensor.bits());
         (0..algebra.dimension())
             .map(|row| {
-                let starts = tensor.enclose_row(&nodes, row).into_iter().enumerate();
-                starts
-                    .map(|(column, start)| NodeNumber {
-                        algebra,
-                        source: Source::Entry(tensor, row, column),
-                        start,
-                    })
-                    .collect()
+                let starts = tensor.enclose_row(&nodes, row);
+                let finest = Arc::new(Mutex::new(starts.clone()));
+                let number = |(column, start)| NodeNumber {
+                    algebra,
+                    source: Source::Entry(tensor, row, column, Arc::clone(&finest)),
+                    start,
+                };
+                starts.into_iter().enumerate().map(number).collect()
             })
             .collect()
     }
@@ -79,11 +83,18 @@ impl<'a> NodeNumber<'a> {
         if bits <= self.start.bits() {
             return self.start.clone();
         }
-        let nodes = self.algebra.enclose_nodes(bits);
         match &self.source {
-            Source::Element(element, node) => nodes[*node].evaluate(element),
-            Source::Entry(tensor, row, column) => {
-                tensor.enclose_row(&nodes, *row).swap_remove(*column)
+            Source::Element(element, node) => {
+                let bits = bits + magnitude_bits(element);
+                self.algebra.enclose_nodes(bits)[*node].evaluate(element)
+            }
+            Source::Entry(tensor, row, column, finest) => {
+                let bits = bits + tensor.bits();
+                let mut finest = finest.lock().unwrap_or_else(PoisonError::into_inner);
+                if finest[*column].bits() < bits {
+                    *finest = tensor.enclose_row(&self.algebra.enclose_nodes(bits), *row);
+                }
+                finest[*column].clone()
             }
         }
     }
@@ -99,7 +110,7 @@ impl<'a> NodeNumber<'a> {
                 &(&**element - &Polynomial::constant(value.clone())),
                 *node,
             ),
-            Source::Entry(tensor, row, column) => {
+            Source::Entry(tensor, row, column, _) => {
                 let shifted = tensor.subtract(&Tensor::from_products(
                     self.algebra,
                     &[(Polynomial::constant(value.clone()), Polynomial::one())],
