@@ -31,8 +31,10 @@ enum Space {
 }
 
 /// The names of bases with one member for each number of functions.
-const FAMILIES: [(&str, fn(usize) -> Vec<Polynomial>); 2] =
-    [("polynomial", monomials), ("legendre", legendre)];
+const FAMILIES: [(&str, Members); 2] = [("polynomial", monomials), ("legendre", legendre)];
+
+/// The member of a family with this number of functions.
+type Members = fn(usize) -> Vec<Polynomial>;
 
 impl Basis {
     /// Reads `polynomial(3)`, which is `1, t, t^2`, `legendre(3)`, or a list of functions of t such as

@@ -42,6 +42,7 @@ mod pair;
 mod properties;
 mod quadrature;
 pub mod schedule;
+pub mod stability;
 pub mod symbolic;
 mod tableau;
 

@@ -33,6 +33,17 @@ pub trait Field: Debug + PartialEq {
     fn zero(&self, x: &Self::Element) -> Zero;
     /// The best divisor among elements: the index of one that is known not to be zero.
     fn pivot(&self, candidates: &[&Self::Element]) -> Option<usize>;
+    /// A positive rational whose products with these elements are cheaper to compute with: a common
+    /// denominator. It may always be 1.
+    fn common_denominator<'a>(
+        &self,
+        _elements: impl Iterator<Item = &'a Self::Element>,
+    ) -> BigRational
+    where
+        Self::Element: 'a,
+    {
+        BigRational::from_integer(1.into())
+    }
     /// An element as a number.
     fn number(&self, x: &Self::Element) -> Number<'_>;
     /// A readable exact form, where there is one.
@@ -78,6 +89,7 @@ fn zip<T>(x: &[T], y: &[T], operation: impl Fn(&T, &T) -> T) -> Vec<T> {
 impl<F: Field> StageAlgebra for Dense<F> {
     type Vector = Vector<F>;
     type Matrix = Matrix<F>;
+    type Constants = F;
 
     fn stages(&self) -> usize {
         self.stages
@@ -105,6 +117,22 @@ impl<F: Field> StageAlgebra for Dense<F> {
             inverse.ok_or_else(|| (i, self.field.zero(x)))
         };
         f.iter().enumerate().map(inverse).collect()
+    }
+
+    fn constants(&self) -> &F {
+        &self.field
+    }
+
+    fn coordinates(&self, f: &Vector<F>) -> Vector<F> {
+        f.clone()
+    }
+
+    fn functional(&self, f: &Vector<F>) -> Vector<F> {
+        f.clone()
+    }
+
+    fn operator(&self, m: &Matrix<F>) -> Matrix<F> {
+        m.clone()
     }
 
     fn sum(&self, f: &Vector<F>) -> Number<'_> {

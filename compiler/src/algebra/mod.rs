@@ -14,6 +14,7 @@ mod dense;
 pub mod field;
 pub mod node;
 mod number;
+mod rationals;
 mod real;
 mod stage_algebra;
 
@@ -22,6 +23,7 @@ pub use dense::{Dense, Field};
 pub use field::{ConstantField, FieldElement};
 pub use node::{ClosedForm, NodeAlgebra, Tensor};
 pub use number::{Number, Zero};
+pub use rationals::Rationals;
 pub use real::{Real, Reals, ZERO_BITS};
-pub use stage_algebra::StageAlgebra;
 pub(crate) use stage_algebra::group_by;
+pub use stage_algebra::{Scalar, StageAlgebra};

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 
 use num_rational::BigRational;
 
-use super::{Number, Zero};
+use super::{Field, Number, Zero};
 
 /// Arithmetic on vectors `f_i` and matrices `f_ij` over the stages of a tableau.
 ///
@@ -16,6 +16,8 @@ pub trait StageAlgebra: Debug + PartialEq + Sized {
     type Vector: Clone + Debug + PartialEq;
     /// Quantities with two indices.
     type Matrix: Clone + Debug + PartialEq;
+    /// The numbers over which this is a linear algebra: a sum over all stages is one.
+    type Constants: Field;
 
     /// The number of stages.
     fn stages(&self) -> usize;
@@ -33,6 +35,15 @@ pub trait StageAlgebra: Debug + PartialEq + Sized {
     /// # Errors
     /// The first stage at which `f` vanishes, or cannot be told from zero, and which of the two.
     fn reciprocal(&self, f: &Self::Vector) -> Result<Self::Vector, (usize, Zero)>;
+    /// The numbers over which this is a linear algebra.
+    fn constants(&self) -> &Self::Constants;
+    /// The coordinates of a vector in a basis that [`Self::functional`] and [`Self::operator`] also use.
+    fn coordinates(&self, f: &Self::Vector) -> Vec<Scalar<Self>>;
+    /// The row of the linear form `g ↦ Σ_i f_i g_i`.
+    fn functional(&self, f: &Self::Vector) -> Vec<Scalar<Self>>;
+    /// The rows of the linear map `g_i ↦ Σ_j m_ij g_j`.
+    fn operator(&self, m: &Self::Matrix) -> Vec<Vec<Scalar<Self>>>;
+
     /// `Σ_i f_i`.
     fn sum(&self, f: &Self::Vector) -> Number<'_>;
 
@@ -71,6 +82,9 @@ pub trait StageAlgebra: Debug + PartialEq + Sized {
     /// `Σ_{j in group} f_j`, for a group of [`Self::equal_rows`].
     fn merged_value(&self, f: &Self::Vector, group: &[usize]) -> Number<'_>;
 }
+
+/// A number of the field of constants of an algebra.
+pub type Scalar<A> = <<A as StageAlgebra>::Constants as Field>::Element;
 
 /// Groups what has equal keys; what has none stays alone.
 pub(crate) fn group_by<K>(

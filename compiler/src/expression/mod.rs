@@ -22,7 +22,7 @@ use num_rational::BigRational;
 
 use crate::error::{Error, ErrorKind, Place};
 
-pub use parser::{parse_list, parse_matrix};
+pub use parser::{Row, parse_list, parse_matrix};
 
 /// The longest text that is read.
 pub const MAX_LENGTH: usize = 100_000;

@@ -41,11 +41,14 @@ pub fn parse_list(input: Input<'_>) -> Result<Vec<Expression>, Error> {
     }
 }
 
+/// A row of a matrix and where it stands.
+pub type Row = (Range<usize>, Vec<Expression>);
+
 /// Reads a list of lists in brackets, a row each: `[[0, 0], [1/2, 1/2]]`.
 ///
 /// # Errors
 /// Anything that does not follow the grammar of this module, at its place.
-pub fn parse_matrix(input: Input<'_>) -> Result<Vec<(Range<usize>, Vec<Expression>)>, Error> {
+pub fn parse_matrix(input: Input<'_>) -> Result<Vec<Row>, Error> {
     const SHAPE: &str = "`[`; a matrix is a list of rows: [[0, 0], [1/2, 1/2]]";
     let tokens = tokenize(input)?;
     let mut parser = Parser {

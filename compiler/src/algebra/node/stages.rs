@@ -6,12 +6,13 @@ use num_rational::BigRational;
 
 use super::{NodeAlgebra, NodeNumber, Tensor, closed_form};
 use crate::algebra::stage_algebra::group_by;
-use crate::algebra::{Number, StageAlgebra, Zero};
+use crate::algebra::{Number, Rationals, StageAlgebra, Zero};
 use crate::arithmetic::polynomial::Polynomial;
 
 impl StageAlgebra for NodeAlgebra {
     type Vector = Polynomial;
     type Matrix = Tensor;
+    type Constants = Rationals;
 
     fn stages(&self) -> usize {
         self.dimension()
@@ -39,6 +40,29 @@ impl StageAlgebra for NodeAlgebra {
             let first = (0..self.dimension()).find(vanishes).unwrap_or(0);
             (first, Zero::Yes)
         })
+    }
+
+    fn constants(&self) -> &Rationals {
+        &Rationals
+    }
+
+    /// In the basis of the powers of `x`.
+    fn coordinates(&self, f: &Polynomial) -> Vec<BigRational> {
+        let mut coordinates = f.coefficients();
+        coordinates.resize(self.dimension(), BigRational::default());
+        coordinates
+    }
+
+    fn functional(&self, f: &Polynomial) -> Vec<BigRational> {
+        let power = |k| self.trace(&(&Polynomial::monomial(k) * f));
+        (0..self.dimension()).map(power).collect()
+    }
+
+    fn operator(&self, m: &Tensor) -> Vec<Vec<BigRational>> {
+        let image = |k| self.coordinates(&m.apply(self, &Polynomial::monomial(k)));
+        let columns: Vec<_> = (0..self.dimension()).map(image).collect();
+        let row = |i: usize| columns.iter().map(|column| column[i].clone()).collect();
+        (0..self.dimension()).map(row).collect()
     }
 
     fn sum(&self, f: &Polynomial) -> Number<'_> {

@@ -23,7 +23,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Derive(derive::Arguments),
+    Derive(Box<derive::Arguments>),
     List(list::Arguments),
     Show(show::Arguments),
     Check(check::Arguments),

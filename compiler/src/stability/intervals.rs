@@ -1,0 +1,146 @@
+//! The set of step sizes for which all powers of the matrix of one step are bounded.
+
+use std::cmp::Ordering;
+use std::fmt;
+
+use num_rational::BigRational;
+
+use super::cells::Cells;
+use super::end_point::{EndPoint, PositiveRoot};
+use super::fraction::Fraction;
+use super::oscillator::Step;
+use super::polynomial::RealPolynomial;
+
+/// An interval of step sizes `ν = hω > 0`; one point where both ends are the same and belong to it.
+#[derive(Debug, Clone)]
+pub struct StabilityInterval {
+    /// The lower end.
+    pub low: EndPoint,
+    /// The upper end.
+    pub high: EndPoint,
+    /// Whether the lower end belongs to the interval.
+    pub low_closed: bool,
+    /// Whether the upper end belongs to the interval.
+    pub high_closed: bool,
+}
+
+impl StabilityInterval {
+    /// Whether a step size is in the interval.
+    pub fn contains(&self, nu: &BigRational) -> bool {
+        let inside = |order: Ordering, outside: Ordering, closed: bool| {
+            order != outside && (closed || order.is_ne())
+        };
+        inside(self.low.compare(nu), Ordering::Greater, self.low_closed)
+            && inside(self.high.compare(nu), Ordering::Less, self.high_closed)
+    }
+}
+
+impl fmt::Display for StabilityInterval {
+    /// `(0, 2*sqrt(2))`, with brackets at ends that belong to it.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let open = if self.low_closed { '[' } else { '(' };
+        let close = if self.high_closed { ']' } else { ')' };
+        write!(f, "{open}{}, {}{close}", self.low, self.high)
+    }
+}
+
+/// What holds at a point.
+trait At {
+    fn sign(&self) -> Ordering;
+}
+
+/// A condition `f ≥ 0` on a rational function, at a cell or at a root.
+struct Signed<'a, P>(
+    &'a Fraction<P>,
+    &'a BigRational,
+    Option<&'a PositiveRoot<P>>,
+);
+
+impl<P: RealPolynomial> At for Signed<'_, P> {
+    /// The sign at the root, if there is one, which the sample lies next to; at the sample otherwise.
+    fn sign(&self) -> Ordering {
+        let Signed(fraction, sample, root) = self;
+        let vanishes =
+            |root: &PositiveRoot<P>| fraction.numerator.remainder(&root.polynomial).is_zero();
+        if root.is_some_and(vanishes) {
+            return Ordering::Equal;
+        }
+        let [n, d] = [&fraction.numerator, &fraction.denominator].map(|p| p.sign_at(sample));
+        if d.is_lt() { n.reverse() } else { n }
+    }
+}
+
+/// The step sizes `ν > 0` for which the powers of the matrix are bounded.
+///
+/// That is where the eigenvalues are in the closed unit disc ([`Step::conditions`]) and those on the circle
+/// are semisimple. A real matrix can only fail the latter with a double eigenvalue ±1, that is with
+/// `det M = 1` and `tr M = ±2`, unless `M = ±1`. Where the stages have no unique solution there is no
+/// step, and so no stability.
+pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Vec<StabilityInterval> {
+    let conditions = step.conditions();
+    let scalar = step.scalar();
+    let mut cuts = vec![step.stages.clone()];
+    for condition in &conditions {
+        cuts.push(condition.numerator.clone());
+        if !scalar.is_zero() && !condition.numerator.is_zero() {
+            cuts.push(condition.numerator.gcd(&scalar));
+        }
+    }
+    let cells = Cells::new(&cuts);
+    let bounded = |sample: &BigRational, root: Option<&PositiveRoot<P>>| {
+        let on_root = |polynomial: &P| {
+            root.is_some_and(|root| polynomial.remainder(&root.polynomial).is_zero())
+        };
+        if on_root(&step.stages) {
+            return false;
+        }
+        let [area, _, one, minus_one] =
+            [0, 1, 2, 3].map(|k| Signed(&conditions[k], sample, root).sign());
+        let signs = conditions.iter().map(|c| Signed(c, sample, root).sign());
+        let double = area.is_eq() && (one.is_eq() || minus_one.is_eq());
+        signs.into_iter().all(Ordering::is_ge) && (!double || scalar.is_zero() || on_root(&scalar))
+    };
+    let mut intervals = Vec::new();
+    let mut open: Option<(EndPoint, bool)> = None;
+    for (index, sample) in cells.samples.iter().enumerate() {
+        let inside = bounded(sample, None);
+        if inside && open.is_none() {
+            let end = index
+                .checked_sub(1)
+                .map(|k| EndPoint::square_root_of(&cells.roots[k]));
+            open = Some((end.unwrap_or(EndPoint::ZERO), false));
+        } else if !inside && let Some((low, low_closed)) = open.take() {
+            // The root before this cell was stable, and is the end.
+            let high = index
+                .checked_sub(1)
+                .map(|k| EndPoint::square_root_of(&cells.roots[k]));
+            intervals.push(StabilityInterval {
+                low,
+                high: high.unwrap_or(EndPoint::ZERO),
+                low_closed,
+                high_closed: true,
+            });
+        }
+        let Some(root) = cells.roots.get(index) else {
+            break;
+        };
+        match (bounded(sample, Some(root)), open.take()) {
+            (true, None) => open = Some((EndPoint::square_root_of(root), true)),
+            (true, known) => open = known,
+            (false, Some((low, low_closed))) => intervals.push(StabilityInterval {
+                low,
+                high: EndPoint::square_root_of(root),
+                low_closed,
+                high_closed: false,
+            }),
+            (false, None) => {}
+        }
+    }
+    intervals.extend(open.map(|(low, low_closed)| StabilityInterval {
+        low,
+        high: EndPoint::INFINITY,
+        low_closed,
+        high_closed: false,
+    }));
+    intervals
+}

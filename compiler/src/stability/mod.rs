@@ -1,0 +1,284 @@
+//! Linear stability as exact algebra (theory.md §5; Hairer, Lubich & Wanner, *Geometric Numerical
+//! Integration*, §I.5 and §IX.9; Hairer & Wanner, *Solving Ordinary Differential Equations II*, §IV.3).
+//!
+//! For the oscillator `q' = p`, `p' = −ω²q` one step is a 2×2 matrix whose entries are rational functions of
+//! `ν = hω`. Their coefficients are found without rounding, so that everything said about them is decided:
+//! signs by Sturm's theorem, equalities by arithmetic. Over the node algebra all of it is rational, for the
+//! coefficients of the functions are traces.
+
+mod cells;
+mod dispersion;
+mod end_point;
+mod field_polynomial;
+mod fraction;
+mod intervals;
+mod oscillator;
+mod polynomial;
+mod resolvent;
+mod runge_kutta;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+
+use num_rational::BigRational;
+use num_traits::Signed;
+use serde::Serialize;
+
+use self::field_polynomial::FieldPolynomial;
+use self::fraction::Fraction;
+use self::oscillator::{Parts, Step};
+use self::polynomial::RealPolynomial;
+use crate::algebra::{Field, Number, Scalar, StageAlgebra};
+use crate::arithmetic::polynomial::Polynomial;
+use crate::pair::Pair;
+use crate::properties::Evidence;
+use crate::tableau::{Tableau, over_algebra};
+
+pub use dispersion::Dispersion;
+pub use end_point::EndPoint;
+pub use fraction::{Coefficient, RationalFunction, Variable};
+pub use intervals::StabilityInterval;
+pub use runge_kutta::RungeKuttaStability;
+
+/// Linear stability of a method.
+#[derive(Debug, Clone)]
+pub struct Stability {
+    /// The matrix `M` with `(q1, p1/ω) = M (q0, p0/ω)`.
+    pub matrix: [[RationalFunction; 2]; 2],
+    /// The trace of `M`, a function of `ν²`.
+    pub trace: RationalFunction,
+    /// The determinant of `M`, a function of `ν²`; 1 for symplectic methods.
+    pub determinant: RationalFunction,
+    /// Whether `det M = 1`.
+    pub preserves_area: bool,
+    /// All step sizes `ν = hω > 0` for which the stages have a solution and all powers of `M` are bounded,
+    /// in ascending order, with as few intervals as possible.
+    pub intervals: Vec<StabilityInterval>,
+    /// Whether that is so for all `ν > 0`.
+    pub p_stable: bool,
+    /// The leading term of the phase error; `None` if the method has not even order 1.
+    pub dispersion: Option<Dispersion>,
+    /// The stability function, for methods with `ã = a` and `b̃ = b`.
+    pub runge_kutta: Option<RungeKuttaStability>,
+    /// How all this is known: proved, or verified where numbers are only known by enclosures.
+    pub evidence: Evidence,
+}
+
+impl Tableau {
+    /// Decides linear stability.
+    ///
+    /// ```
+    /// let lobatto = symplectic_compiler::derive("polynomial(3)", "lobatto(3)")?.stability();
+    /// assert_eq!(lobatto.trace.to_string(), "(ν⁴ − 22ν² + 48)/(ν² + 24)");
+    /// assert_eq!(lobatto.intervals_text(), "(0, 2*sqrt(2)) ∪ (2*sqrt(3), 2*sqrt(6))");
+    /// assert_eq!(lobatto.intervals[0].high.decimal(20), "2.8284271247461900976");
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    pub fn stability(&self) -> Stability {
+        over_algebra!(self, pair => Stability::of_pair(pair))
+    }
+}
+
+impl Stability {
+    /// Decides the linear stability of a pair.
+    pub(crate) fn of_pair<A: StageAlgebra + 'static>(pair: &Pair<A>) -> Self {
+        let field = pair.algebra.constants();
+        let parts = oscillator::parts(pair);
+        let function = (pair.equal_halves() == (true, true)).then(|| runge_kutta::parts(pair));
+        let rational = |list: &Vec<Scalar<A>>| rational_polynomial(field, list);
+        let evidence = match field.verified_bits() {
+            Some(bits) => Evidence::Verified { bits },
+            None => Evidence::Proved,
+        };
+        // Over the rationals the arithmetic of polynomials is much faster.
+        let lists = function.as_ref();
+        let rational_function = lists.map(|[d, n]| Some([rational(d)?, rational(n)?]));
+        if let (Some(parts), None | Some(Some(_))) = (parts.map(rational), &rational_function) {
+            return Stability::decide(&parts, rational_function.flatten(), evidence);
+        }
+        let over_field = |list: &Vec<Scalar<A>>| FieldPolynomial::new(&pair.algebra, list.clone());
+        let function = lists.map(|[d, n]| [over_field(d), over_field(n)]);
+        let parts = Parts {
+            determinant: over_field(&parts.determinant),
+            b_one: over_field(&parts.b_one),
+            b_c: over_field(&parts.b_c),
+            ab_one: over_field(&parts.ab_one),
+            ab_c: over_field(&parts.ab_c),
+            b_sum: over_field(&parts.b_sum),
+        };
+        Stability::decide(&parts, function, evidence)
+    }
+
+    fn decide<P: RealPolynomial>(
+        parts: &Parts<P>,
+        function: Option<[P; 2]>,
+        evidence: Evidence,
+    ) -> Self {
+        let step = Step::new(parts);
+        let intervals = intervals::stable(&step);
+        let even = |f: &Fraction<P>| f.exported(Variable::NuSquared);
+        let odd = |f: &Fraction<P>| f.exported(Variable::NuTimesSquared);
+        Stability {
+            matrix: [
+                [even(&step.m11), odd(&step.m12)],
+                [odd(&step.m21), even(&step.m22)],
+            ],
+            trace: even(&step.trace),
+            determinant: even(&step.determinant),
+            preserves_area: step.preserves_area(),
+            p_stable: matches!(intervals.as_slice(), [only] if only.low.is_zero() && only.high.is_infinite()),
+            intervals,
+            dispersion: dispersion::leading(&step),
+            runge_kutta: function.map(|[d, n]| runge_kutta::decide(&d, &n)),
+            evidence,
+        }
+    }
+
+    /// Whether a step size `ν = hω > 0` is in the set.
+    pub fn contains(&self, nu: &BigRational) -> bool {
+        self.intervals.iter().any(|interval| interval.contains(nu))
+    }
+
+    /// Whether all `0 < ν ≤ bound` are in the set.
+    pub fn stable_to(&self, bound: &BigRational) -> bool {
+        let first = self.intervals.first().filter(|first| first.low.is_zero());
+        first.is_some_and(|first| !bound.is_positive() || first.contains(bound))
+    }
+
+    /// The set as text: `(0, 2*sqrt(2)) ∪ (2*sqrt(3), 2*sqrt(6))`, or `∅`.
+    pub fn intervals_text(&self) -> String {
+        if self.intervals.is_empty() {
+            return "∅".to_owned();
+        }
+        let texts: Vec<String> = self.intervals.iter().map(ToString::to_string).collect();
+        texts.join(" ∪ ")
+    }
+
+    /// Everything as plain data, numbers with this many significant digits.
+    pub fn summary(&self, digits: usize) -> StabilitySummary {
+        let exact = |end: &EndPoint| end.exact().map(str::to_owned);
+        let intervals = self.intervals.iter();
+        StabilitySummary {
+            trace: self.trace.to_string(),
+            determinant: self.determinant.to_string(),
+            intervals: intervals
+                .clone()
+                .map(|i| [exact(&i.low), exact(&i.high)])
+                .collect(),
+            decimal: intervals
+                .clone()
+                .map(|i| [i.low.decimal(digits), i.high.decimal(digits)])
+                .collect(),
+            closed: intervals.map(|i| [i.low_closed, i.high_closed]).collect(),
+            p_stable: self.p_stable,
+            evidence: evidence_text(self.evidence),
+            dispersion_order: self.dispersion.as_ref().map(|d| d.order),
+            dispersion: self.dispersion.as_ref().map(|d| d.coefficient.to_string()),
+            runge_kutta: self.runge_kutta.as_ref().map(|rk| RungeKuttaSummary {
+                function: rk.function.to_string(),
+                at_infinity: rk.at_infinity.as_ref().map(ToString::to_string),
+                a_stable: rk.a_stable,
+                l_stable: rk.l_stable,
+                imaginary: exact(&rk.imaginary),
+                imaginary_decimal: rk.imaginary.decimal(digits),
+            }),
+        }
+    }
+}
+
+/// A polynomial whose coefficients are known to be rational.
+fn rational_polynomial<F: Field>(field: &F, list: &[F::Element]) -> Option<Polynomial> {
+    let values = list.iter().map(|x| match field.number(x) {
+        Number::Rational(value) => Some(value),
+        _ => None,
+    });
+    let values: Option<Vec<BigRational>> = values.collect();
+    Some(Polynomial::from_rationals(&values?))
+}
+
+fn evidence_text(evidence: Evidence) -> String {
+    match evidence {
+        Evidence::Verified { bits } => format!("verified to 2^-{bits}"),
+        _ => "proved".to_owned(),
+    }
+}
+
+impl fmt::Display for Stability {
+    /// A few lines of text.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "trace: {}", self.trace)?;
+        if !self.preserves_area {
+            writeln!(f, "determinant: {}", self.determinant)?;
+        }
+        let p_stable = if self.p_stable { " (P-stable)" } else { "" };
+        let evidence = evidence_text(self.evidence);
+        write!(
+            f,
+            "stable for ν in {}{p_stable}, {evidence}",
+            self.intervals_text()
+        )?;
+        if let Some(Dispersion { order, coefficient }) = &self.dispersion {
+            write!(
+                f,
+                "\nphase: order {order}, error {coefficient} ν^{}",
+                order + 1
+            )?;
+        }
+        let Some(rk) = &self.runge_kutta else {
+            return Ok(());
+        };
+        let yes = |holds: bool| if holds { "yes" } else { "no" };
+        write!(
+            f,
+            "\nR(z) = {}\nA-stable: {}, L-stable: {}, on the imaginary axis up to {}",
+            rk.function,
+            yes(rk.a_stable),
+            yes(rk.l_stable),
+            rk.imaginary
+        )
+    }
+}
+
+/// Linear stability as plain data.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StabilitySummary {
+    /// The trace as text.
+    pub trace: String,
+    /// The determinant as text.
+    pub determinant: String,
+    /// The ends of the intervals exactly, where that is short.
+    pub intervals: Vec<[Option<String>; 2]>,
+    /// The ends of the intervals as decimals.
+    pub decimal: Vec<[String; 2]>,
+    /// Which ends belong to their intervals.
+    pub closed: Vec<[bool; 2]>,
+    /// Whether the method is stable for all step sizes.
+    pub p_stable: bool,
+    /// How that is known.
+    pub evidence: String,
+    /// The order of the phase error.
+    pub dispersion_order: Option<usize>,
+    /// The coefficient of the phase error.
+    pub dispersion: Option<String>,
+    /// The stability function of a Runge–Kutta method.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub runge_kutta: Option<RungeKuttaSummary>,
+}
+
+/// Linear stability of a Runge–Kutta method as plain data.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RungeKuttaSummary {
+    /// The stability function as text.
+    pub function: String,
+    /// Its value at infinity; `None` if infinite.
+    pub at_infinity: Option<String>,
+    /// Whether the method is A-stable.
+    pub a_stable: bool,
+    /// Whether the method is L-stable.
+    pub l_stable: bool,
+    /// The bound on the imaginary axis exactly, where that is short.
+    pub imaginary: Option<String>,
+    /// The bound on the imaginary axis as a decimal.
+    pub imaginary_decimal: String,
+}

@@ -1,0 +1,167 @@
+//! One step for the oscillator `q' = p`, `p' = −ω²q` as a matrix.
+
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use super::fraction::Fraction;
+use super::polynomial::RealPolynomial;
+use super::resolvent::{Resolvent, apply, apply_left, dot};
+use crate::algebra::{Scalar, StageAlgebra};
+use crate::pair::Pair;
+
+/// What the matrix of one step is made of: polynomials in `x`, the constant first.
+///
+/// With `ν = hω`, `x = ν²` and `(q, p/ω)` the stages are `(1 + xAÃ) Q = 1 q0 + νA1 p0/ω` and
+/// `(1 + xÃA) P = 1 p0/ω − νÃ1 q0`, so that with `D = det(1 + xÃA) = det(1 + xAÃ)` and
+/// `⟨u, v⟩ = uᵀ adj(1 + xÃA) v`
+///
+/// ```text
+/// D M = ⎛ D − x⟨b, Ã1⟩                 ν⟨b, 1⟩     ⎞
+///       ⎝ −ν(D b̃ᵀ1 − x⟨Aᵀb̃, Ã1⟩)      D − x⟨Aᵀb̃, 1⟩ ⎠
+/// ```
+///
+/// by `(1 + xAÃ)⁻¹A = A(1 + xÃA)⁻¹` and `(1 + xAÃ)⁻¹ = 1 − xA(1 + xÃA)⁻¹Ã`.
+pub(super) struct Parts<T> {
+    /// `D`
+    pub(super) determinant: T,
+    /// `⟨b, 1⟩`
+    pub(super) b_one: T,
+    /// `⟨b, Ã1⟩`
+    pub(super) b_c: T,
+    /// `⟨Aᵀb̃, 1⟩`
+    pub(super) ab_one: T,
+    /// `⟨Aᵀb̃, Ã1⟩`
+    pub(super) ab_c: T,
+    /// `b̃ᵀ1`
+    pub(super) b_sum: T,
+}
+
+impl<T> Parts<T> {
+    pub(super) fn map<U>(&self, mut each: impl FnMut(&T) -> Option<U>) -> Option<Parts<U>> {
+        Some(Parts {
+            determinant: each(&self.determinant)?,
+            b_one: each(&self.b_one)?,
+            b_c: each(&self.b_c)?,
+            ab_one: each(&self.ab_one)?,
+            ab_c: each(&self.ab_c)?,
+            b_sum: each(&self.b_sum)?,
+        })
+    }
+}
+
+/// The parts over the field of constants.
+pub(super) fn parts<A: StageAlgebra>(pair: &Pair<A>) -> Parts<Vec<Scalar<A>>> {
+    let algebra = &*pair.algebra;
+    let field = algebra.constants();
+    let [a, a_tilde] = [&pair.a, &pair.a_tilde].map(|m| algebra.operator(m));
+    let [b, b_tilde] = [&pair.b, &pair.b_tilde].map(|f| algebra.functional(f));
+    let one = algebra.coordinates(&algebra.constant(&BigRational::one()));
+    let c_tilde = apply(field, &a_tilde, &one);
+    let ab = apply_left(field, &b_tilde, &a);
+    let resolvent = Resolvent::of_product(field, &a_tilde, &a);
+    let [b_one, ab_one] = pair_of(resolvent.adjugate(&[&b, &ab], &one));
+    let [b_c, ab_c] = pair_of(resolvent.adjugate(&[&b, &ab], &c_tilde));
+    Parts {
+        determinant: resolvent.determinant(),
+        b_one,
+        b_c,
+        ab_one,
+        ab_c,
+        b_sum: vec![dot(field, &b_tilde, &one)],
+    }
+}
+
+/// The two lists for two vectors.
+fn pair_of<T>(lists: Vec<Vec<T>>) -> [Vec<T>; 2] {
+    let mut lists = lists.into_iter();
+    [(); 2].map(|()| lists.next().unwrap_or_default())
+}
+
+/// The matrix of one step: `M11`, `M12/ν`, `M21/ν` and `M22` as functions of `x`.
+#[derive(Debug)]
+pub(super) struct Step<P> {
+    /// `det(1 + xÃA)`; where it vanishes the stages have no solution, or many.
+    pub(super) stages: P,
+    pub(super) m11: Fraction<P>,
+    pub(super) m12: Fraction<P>,
+    pub(super) m21: Fraction<P>,
+    pub(super) m22: Fraction<P>,
+    pub(super) trace: Fraction<P>,
+    pub(super) determinant: Fraction<P>,
+}
+
+impl<P: RealPolynomial> Step<P> {
+    pub(super) fn new(parts: &Parts<P>) -> Self {
+        let d = &parts.determinant;
+        let m11 = d.subtract(&parts.b_c.shift());
+        let m22 = d.subtract(&parts.ab_one.shift());
+        let m12 = parts.b_one.clone();
+        let m21 = parts.ab_c.shift().subtract(&d.multiply(&parts.b_sum));
+        // The determinant of a matrix with a resolvent is a quotient by D, but that only shows after
+        // reduction.
+        let determinant = m11.multiply(&m22).subtract(&m12.multiply(&m21).shift());
+        let square = d.multiply(d);
+        let determinant = match determinant.subtract(&square).is_zero() {
+            true => Fraction::new(
+                &d.constant(&BigRational::one()),
+                &d.constant(&BigRational::one()),
+            ),
+            false => Fraction::new(&determinant, &square),
+        };
+        Step {
+            stages: d.clone(),
+            trace: Fraction::new(&m11.add(&m22), d),
+            m11: Fraction::new(&m11, d),
+            m12: Fraction::new(&m12, d),
+            m21: Fraction::new(&m21, d),
+            m22: Fraction::new(&m22, d),
+            determinant,
+        }
+    }
+
+    /// A polynomial that vanishes where the matrix is a multiple of the identity, and, as far as `x > 0`
+    /// is no pole, nowhere else.
+    pub(super) fn scalar(&self) -> P {
+        let difference = Fraction::new(
+            &self
+                .m11
+                .numerator
+                .multiply(&self.m22.denominator)
+                .subtract(&self.m22.numerator.multiply(&self.m11.denominator)),
+            &self.m11.denominator.multiply(&self.m22.denominator),
+        );
+        let off = self.m12.numerator.gcd(&self.m21.numerator);
+        off.gcd(&difference.numerator)
+    }
+
+    /// Whether `det M = 1`.
+    pub(super) fn preserves_area(&self) -> bool {
+        self.determinant.is(&BigRational::one())
+    }
+
+    /// `1 − det M`, `1 + det M`, `1 + det M − tr M` and `1 + det M + tr M`.
+    ///
+    /// Both eigenvalues of a real matrix are in the closed unit disc iff none of them is negative: with
+    /// `χ(λ) = λ² − tr λ + det`, the last two are `χ(1)` and `χ(−1)` (Jury; Schur, Cohn). If the eigenvalues are
+    /// complex, `|λ|² = det ≤ 1`. If they are real, `χ(±1) ≥ 0` leaves no eigenvalue alone outside
+    /// `[−1, 1]` on a side, and two on one side have a product greater than 1.
+    pub(super) fn conditions(&self) -> [Fraction<P>; 4] {
+        let (t, d) = (&self.trace, &self.determinant);
+        let one = BigRational::one();
+        let minus = -&one;
+        let zero = BigRational::zero();
+        let condition = |determinant: &BigRational, trace: &BigRational| {
+            // 1 + a det + b tr
+            let both = d.denominator.multiply(&t.denominator);
+            let det = d.numerator.multiply(&t.denominator).scale(determinant);
+            let trace = t.numerator.multiply(&d.denominator).scale(trace);
+            Fraction::new(&both.add(&det).add(&trace), &both)
+        };
+        [
+            condition(&minus, &zero),
+            condition(&one, &zero),
+            condition(&one, &minus),
+            condition(&one, &one),
+        ]
+    }
+}

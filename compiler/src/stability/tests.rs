@@ -1,0 +1,449 @@
+//! Methods whose stability is known, and the whole catalogue against floating-point arithmetic.
+
+use std::sync::Arc;
+
+use super::*;
+use crate::algebra::{Dense, NodeAlgebra, Rationals, Zero};
+use crate::arithmetic::rational::{parse, ratio};
+use crate::arithmetic::rounding::to_f64;
+use crate::catalogue;
+use crate::coefficients::Coefficients;
+use crate::symbolic::Constant;
+
+fn derived(basis: &str, nodes: &str) -> Stability {
+    crate::derive(basis, nodes).expect("derived").stability()
+}
+
+fn matrix(rows: &[&[&str]]) -> Vec<Vec<BigRational>> {
+    let row = |row: &&[&str]| row.iter().map(|x| parse(x).expect("a rational")).collect();
+    rows.iter().map(row).collect()
+}
+
+fn pair(a: &[&[&str]], b: &[&str]) -> Pair<Dense<Rationals>> {
+    let algebra = Arc::new(Dense::new(Rationals, b.len()));
+    Pair::equal(algebra, matrix(a), matrix(&[b]).remove(0))
+}
+
+fn runge_kutta(a: &[&[&str]], b: &[&str]) -> (Stability, RungeKuttaStability) {
+    let stability = Stability::of_pair(&pair(a, b));
+    let function = stability.runge_kutta.clone().expect("one tableau");
+    (stability, function)
+}
+
+#[test]
+fn the_examples_of_the_theory() {
+    let verlet = derived("polynomial(2)", "lobatto(2)");
+    assert_eq!(verlet.trace.to_string(), "2 − ν²");
+    assert_eq!(verlet.intervals_text(), "(0, 2)");
+    let dispersion = verlet.dispersion.as_ref().expect("consistent");
+    assert_eq!(
+        (dispersion.order, dispersion.coefficient.text.as_str()),
+        (2, "1/24")
+    );
+    assert!(verlet.preserves_area && !verlet.p_stable);
+    assert!(verlet.stable_to(&ratio(1999, 1000)) && !verlet.stable_to(&ratio(2, 1)));
+    let lobatto = derived("polynomial(3)", "lobatto(3)");
+    assert_eq!(lobatto.trace.to_string(), "(ν⁴ − 22ν² + 48)/(ν² + 24)");
+    assert_eq!(
+        lobatto.intervals_text(),
+        "(0, 2*sqrt(2)) ∪ (2*sqrt(3), 2*sqrt(6))"
+    );
+    assert!(!lobatto.contains(&ratio(3, 1)) && lobatto.contains(&ratio(4, 1)));
+    assert!(!lobatto.stable_to(&ratio(3, 1)));
+    let json = serde_json::to_string(&lobatto.summary(5)).expect("plain data");
+    assert!(
+        json.contains(
+            r#""intervals":[["0","2*sqrt(2)"],["2*sqrt(3)","2*sqrt(6)"]],"decimal":[["0","2.8284"],["3.4641","4.8990"]]"#
+        ),
+        "{json}"
+    );
+}
+
+#[test]
+fn gauss_is_stable_for_all_steps() {
+    for s in 1..=5 {
+        let gauss = derived(&format!("polynomial({s})"), &format!("gauss({s})"));
+        assert!(gauss.p_stable && gauss.preserves_area, "{gauss}");
+        assert!(gauss.stable_to(&ratio(1_000_000_007, 3)));
+        let rk = gauss.runge_kutta.expect("one tableau");
+        assert!(rk.a_stable && !rk.l_stable && rk.imaginary.is_infinite());
+        let sign = if s % 2 == 0 { 1 } else { -1 };
+        assert_eq!(
+            rk.at_infinity.and_then(|c| c.rational),
+            Some(ratio(sign, 1))
+        );
+        // The phase error is that of the diagonal Padé approximant of exp(iν), −s!²/((2s)!(2s+1)!).
+        let factorial = |n: usize| (1..=n as i64).product::<i64>();
+        let error = ratio(-factorial(s).pow(2), factorial(2 * s)) / ratio(factorial(2 * s + 1), 1);
+        let found = gauss.dispersion.map(|d| (d.order, d.coefficient.rational));
+        assert_eq!(found, Some((2 * s, Some(error))));
+    }
+    let midpoint = derived("polynomial(1)", "gauss(1)");
+    assert_eq!(
+        midpoint
+            .runge_kutta
+            .expect("one tableau")
+            .function
+            .to_string(),
+        "(z + 2)/(2 − z)"
+    );
+    // θ = 2 arctan(ν/2) = ν − ν³/12 + …
+    let error = midpoint.dispersion.map(|d| d.coefficient.text);
+    assert_eq!(error.as_deref(), Some("-1/12"));
+}
+
+#[test]
+fn explicit_runge_kutta_methods() {
+    let (euler, rk) = runge_kutta(&[&["0"]], &["1"]);
+    assert_eq!(rk.function.to_string(), "z + 1");
+    assert!(rk.imaginary.is_zero() && !rk.a_stable && rk.at_infinity.is_none());
+    assert!(euler.intervals.is_empty() && !euler.preserves_area);
+    assert_eq!(euler.intervals_text(), "∅");
+    assert_eq!(euler.determinant.to_string(), "ν² + 1");
+    // θ = arctan ν = ν − ν³/3 + …
+    let error = euler.dispersion.expect("consistent");
+    assert_eq!((error.order, error.coefficient.text.as_str()), (2, "-1/3"));
+    let (kutta, rk) = runge_kutta(
+        &[&["0", "0", "0"], &["1/2", "0", "0"], &["-1", "2", "0"]],
+        &["1/6", "2/3", "1/6"],
+    );
+    assert_eq!(rk.imaginary.exact(), Some("sqrt(3)"));
+    // Damped up to the end, and bounded there.
+    assert_eq!(kutta.intervals_text(), "(0, sqrt(3)]");
+    let (classical, rk) = runge_kutta(
+        &[
+            &["0", "0", "0", "0"],
+            &["1/2", "0", "0", "0"],
+            &["0", "1/2", "0", "0"],
+            &["0", "0", "1", "0"],
+        ],
+        &["1/6", "1/3", "1/3", "1/6"],
+    );
+    assert_eq!(rk.imaginary.decimal(11), "2.8284271247");
+    assert_eq!(classical.intervals_text(), "(0, 2*sqrt(2)]");
+    assert_eq!(rk.function.to_string(), "(z⁴ + 4z³ + 12z² + 24z + 24)/24");
+    assert_eq!(classical.dispersion.map(|d| d.order), Some(4));
+}
+
+#[test]
+fn implicit_runge_kutta_methods() {
+    let (euler, rk) = runge_kutta(&[&["1"]], &["1"]);
+    assert!(rk.a_stable && rk.l_stable && euler.p_stable);
+    assert_eq!(rk.function.to_string(), "1/(1 − z)");
+    let (_, radau) = runge_kutta(&[&["5/12", "-1/12"], &["3/4", "1/4"]], &["3/4", "1/4"]);
+    assert_eq!(radau.function.to_string(), "(2z + 6)/(z² − 4z + 6)");
+    assert!(radau.a_stable && radau.l_stable);
+    let (_, lobatto) = runge_kutta(
+        &[
+            &["1/6", "-1/3", "1/6"],
+            &["1/6", "5/12", "-1/12"],
+            &["1/6", "2/3", "1/6"],
+        ],
+        &["1/6", "2/3", "1/6"],
+    );
+    assert!(lobatto.l_stable && lobatto.imaginary.is_infinite());
+    // Of order 3 with γ = 1/6: bounded by 1 nowhere on the axis near 0, or with poles on the left.
+    let (_, negative) = runge_kutta(&[&["-1/2"]], &["1"]);
+    assert!(!negative.a_stable && !negative.imaginary.is_infinite());
+    // R(z) = 1/(1 + z) is bounded on the axis by 1, and has a pole on the left.
+    let (_, reversed) = runge_kutta(&[&["-1"]], &["-1"]);
+    assert!(reversed.imaginary.is_infinite() && !reversed.a_stable);
+}
+
+/// `Q(√2)`, by way of the nodes ∓√2.
+#[derive(Debug, PartialEq)]
+struct Surds(NodeAlgebra);
+
+impl Surds {
+    fn new() -> Self {
+        Surds(NodeAlgebra::new(&Polynomial::from_integers(&[-2, 0, 1])).expect("nodes"))
+    }
+}
+
+impl Field for Surds {
+    type Element = Polynomial;
+
+    fn rational(&self, value: &BigRational) -> Polynomial {
+        Polynomial::constant(value.clone())
+    }
+
+    fn constant(&self, value: &Constant) -> Option<Polynomial> {
+        value.as_rational().cloned().map(Polynomial::constant)
+    }
+
+    fn add(&self, x: &Polynomial, y: &Polynomial) -> Polynomial {
+        x + y
+    }
+
+    fn subtract(&self, x: &Polynomial, y: &Polynomial) -> Polynomial {
+        x - y
+    }
+
+    fn multiply(&self, x: &Polynomial, y: &Polynomial) -> Polynomial {
+        self.0.multiply(x, y)
+    }
+
+    fn inverse(&self, x: &Polynomial) -> Option<Polynomial> {
+        self.0.inverse(x).ok()
+    }
+
+    fn verified_bits(&self) -> Option<u32> {
+        None
+    }
+
+    fn zero(&self, x: &Polynomial) -> Zero {
+        if x.is_zero() { Zero::Yes } else { Zero::No }
+    }
+
+    fn pivot(&self, candidates: &[&Polynomial]) -> Option<usize> {
+        candidates.iter().position(|x| !x.is_zero())
+    }
+
+    fn number(&self, x: &Polynomial) -> Number<'_> {
+        x.as_constant().map_or_else(
+            || Number::Node(crate::algebra::node::NodeNumber::at(&self.0, x.clone(), 1)),
+            Number::Rational,
+        )
+    }
+
+    fn exact(&self, x: &Polynomial) -> Option<String> {
+        Some(x.display("sqrt(2)").to_string())
+    }
+}
+
+/// Two stages with γ on the diagonal, stiffly accurate, of order 2 for γ = 1 ± √2/2.
+fn diagonally_implicit(gamma: &Polynomial) -> RungeKuttaStability {
+    let algebra = Arc::new(Dense::new(Surds::new(), 2));
+    let rest = &Polynomial::one() - gamma;
+    let a = vec![
+        vec![gamma.clone(), Polynomial::zero()],
+        vec![rest.clone(), gamma.clone()],
+    ];
+    let stability = Stability::of_pair(&Pair::equal(algebra, a, vec![rest, gamma.clone()]));
+    stability.runge_kutta.expect("one tableau")
+}
+
+#[test]
+fn methods_over_a_field() {
+    for sign in [-1, 1] {
+        let gamma = Polynomial::from_rationals(&[ratio(1, 1), ratio(sign, 2)]);
+        let rk = diagonally_implicit(&gamma);
+        assert!(rk.a_stable && rk.l_stable, "{}", rk.function);
+        assert!(rk.imaginary.is_infinite() && rk.function.rational.is_none());
+    }
+    // 1 − 3√2/4 is negative: the poles are on the left.
+    let gamma = Polynomial::from_rationals(&[ratio(1, 1), ratio(-3, 4)]);
+    assert!(!diagonally_implicit(&gamma).a_stable);
+    // A kick and a drift, with weights whose product is √2: tr M = 2 − √2ν².
+    let algebra = Arc::new(Dense::new(Surds::new(), 1));
+    let pair = Pair {
+        a: vec![vec![Polynomial::variable()]],
+        a_tilde: vec![vec![Polynomial::zero()]],
+        b: vec![Polynomial::variable()],
+        b_tilde: vec![Polynomial::one()],
+        algebra,
+    };
+    let stability = Stability::of_pair(&pair);
+    assert_eq!(stability.trace.to_string(), "2 − sqrt(2) ν²");
+    assert_eq!(stability.intervals_text(), "(0, sqrt(2*sqrt(2)))");
+    assert_eq!(stability.intervals[0].high.to_f64(), 2f64.powf(0.75));
+    assert!(stability.preserves_area && stability.dispersion.is_none());
+}
+
+/// The same by the arithmetic for any field, whether the polynomials are rational or not.
+fn over_field<A: StageAlgebra + 'static>(pair: &Pair<A>) -> Stability {
+    let make = |list: &Vec<Scalar<A>>| FieldPolynomial::new(&pair.algebra, list.clone());
+    let parts = oscillator::parts(pair).map(|list| Some(make(list)));
+    let equal = pair.equal_halves() == (true, true);
+    let function = equal.then(|| runge_kutta::parts(pair).map(|list| make(&list)));
+    Stability::decide(&parts.expect("all of them"), function, Evidence::Proved)
+}
+
+#[test]
+fn both_kinds_of_polynomials_agree() {
+    for (basis, nodes) in [
+        ("polynomial(3)", "lobatto(3)"),
+        ("polynomial(4)", "lobatto(4)"),
+        ("polynomial(3)", "gauss(3)"),
+        ("polynomial(3)", "radau-right(3)"),
+        ("polynomial(4)", "newton-cotes(4)"),
+    ] {
+        let tableau = crate::derive(basis, nodes).expect("derived");
+        let fast = tableau.stability();
+        let general = over_algebra!(&tableau, pair => over_field(pair));
+        assert_eq!(fast.p_stable, general.p_stable);
+        assert_eq!(fast.intervals.len(), general.intervals.len());
+        for (x, y) in fast.intervals.iter().zip(&general.intervals) {
+            assert_eq!(x.low.decimal(40), y.low.decimal(40));
+            assert_eq!(x.high.decimal(40), y.high.decimal(40));
+            assert_eq!((x.low_closed, x.high_closed), (y.low_closed, y.high_closed));
+        }
+        let order = |s: &Stability| {
+            s.dispersion
+                .as_ref()
+                .map(|d| (d.order, d.coefficient.clone()))
+        };
+        assert_eq!(order(&fast), order(&general));
+    }
+    let rk = pair(&[&["5/12", "-1/12"], &["3/4", "1/4"]], &["3/4", "1/4"]);
+    let radau = over_field(&rk).runge_kutta.expect("one tableau");
+    assert!(radau.a_stable && radau.l_stable);
+}
+
+/// A pair that is not symplectic, with `det M = 1 − x²/4` and `tr M = 2 − x + x²/4`, and one whose step is not
+/// defined where the matrix is.
+#[test]
+fn pairs_that_are_not_symplectic() {
+    // Two stages of Heun for q, of Heun for p.
+    let (heun, _) = runge_kutta(&[&["0", "0"], &["1", "0"]], &["1/2", "1/2"]);
+    // det = (1 − x/2)² + x = 1 + x²/4: unstable for all steps.
+    assert_eq!(heun.determinant.to_string(), "(ν⁴ + 4)/4");
+    assert!(heun.intervals.is_empty());
+    // Explicit for q, implicit for p with too small weights: damped.
+    let algebra = Arc::new(Dense::new(Rationals, 1));
+    let damped = Pair {
+        a: matrix(&[&["1"]]),
+        a_tilde: matrix(&[&["1"]]),
+        b: matrix(&[&["1"]]).remove(0),
+        b_tilde: matrix(&[&["1/2"]]).remove(0),
+        algebra: Arc::clone(&algebra),
+    };
+    let damped = Stability::of_pair(&damped);
+    assert!(!damped.preserves_area && damped.p_stable, "{damped}");
+    // A second stage that no weight sees, and that has no solution at ν = 1.
+    let algebra = Arc::new(Dense::new(Rationals, 2));
+    let unseen = Pair {
+        a: matrix(&[&["1/2", "0"], &["0", "1"]]),
+        a_tilde: matrix(&[&["1/2", "0"], &["0", "-1"]]),
+        b: matrix(&[&["1", "0"]]).remove(0),
+        b_tilde: matrix(&[&["1", "0"]]).remove(0),
+        algebra,
+    };
+    let unseen = Stability::of_pair(&unseen);
+    assert_eq!(unseen.intervals_text(), "(0, 1) ∪ (1, ∞)");
+    assert_eq!(unseen.trace.to_string(), "(8 − 2ν²)/(ν² + 4)");
+}
+
+/// Two Störmer–Verlet steps of half the length: `tr M = T² − 2` with `T = 2 − ν²/4` touches −2 at `ν = 2√2`, where
+/// `M = −1`, and the set is not split there.
+#[test]
+fn a_touching_trace_does_not_split_an_interval_if_the_matrix_is_scalar() {
+    let algebra = Arc::new(Dense::new(Rationals, 4));
+    let verlet = Pair {
+        a: matrix(&[
+            &["0", "0", "0", "0"],
+            &["1/4", "1/4", "0", "0"],
+            &["1/4", "1/4", "0", "0"],
+            &["1/4", "1/4", "1/4", "1/4"],
+        ]),
+        a_tilde: matrix(&[
+            &["1/4", "0", "0", "0"],
+            &["1/4", "0", "0", "0"],
+            &["1/4", "1/4", "1/4", "0"],
+            &["1/4", "1/4", "1/4", "0"],
+        ]),
+        b: matrix(&[&["1/4", "1/4", "1/4", "1/4"]]).remove(0),
+        b_tilde: matrix(&[&["1/4", "1/4", "1/4", "1/4"]]).remove(0),
+        algebra,
+    };
+    let stability = Stability::of_pair(&verlet);
+    assert_eq!(stability.trace.to_string(), "(ν⁴ − 16ν² + 32)/16");
+    assert_eq!(stability.intervals_text(), "(0, 4)");
+    let error = stability.dispersion.expect("consistent");
+    assert_eq!(error.coefficient.text, "1/96");
+}
+
+/// The trace and the spectral radius of one step from the coefficients in floating-point arithmetic.
+fn trace_and_radius(c: &Coefficients<f64>, nu: f64) -> (f64, f64) {
+    let s = c.b.len();
+    // (1 + ν²AÃ) Q = q0 + νA1 p0 by elimination with pivots.
+    let mut rows: Vec<Vec<f64>> = (0..s)
+        .map(|i| {
+            let mut row: Vec<f64> = (0..s)
+                .map(|j| {
+                    let sum: f64 = (0..s).map(|k| c.a[i][k] * c.a_tilde[k][j]).sum();
+                    f64::from(u8::from(i == j)) + nu * nu * sum
+                })
+                .collect();
+            row.extend([1.0, nu * c.a[i].iter().sum::<f64>()]);
+            row
+        })
+        .collect();
+    for k in 0..s {
+        let pivot = (k..s).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()));
+        rows.swap(k, pivot.expect("a row"));
+        let reference = rows[k].clone();
+        for (i, row) in rows.iter_mut().enumerate().filter(|(i, _)| *i != k) {
+            let factor = row[k] / reference[k];
+            row.iter_mut()
+                .zip(&reference)
+                .for_each(|(x, r)| *x -= factor * r);
+            assert!(i < s);
+        }
+    }
+    let column = |start: [f64; 2], column: usize| {
+        let q: Vec<f64> = (0..s).map(|i| rows[i][s + column] / rows[i][i]).collect();
+        let p: Vec<f64> = (0..s)
+            .map(|i| start[1] - nu * (0..s).map(|j| c.a_tilde[i][j] * q[j]).sum::<f64>())
+            .collect();
+        let [dq, dp] = [(&c.b, &p), (&c.b_tilde, &q)]
+            .map(|(b, f)| b.iter().zip(f).map(|(x, y)| x * y).sum::<f64>());
+        [start[0] + nu * dq, start[1] - nu * dp]
+    };
+    let ([m11, m21], [m12, m22]) = (column([1.0, 0.0], 0), column([0.0, 1.0], 1));
+    let (trace, determinant) = (m11 + m22, m11 * m22 - m12 * m21);
+    let discriminant = trace * trace / 4.0 - determinant;
+    let radius = if discriminant < 0.0 {
+        determinant.sqrt()
+    } else {
+        trace.abs() / 2.0 + discriminant.sqrt()
+    };
+    (trace, radius)
+}
+
+#[test]
+fn the_catalogue_agrees_with_floating_point_arithmetic() {
+    let (mut inside, mut outside) = (0, 0);
+    for entry in catalogue::entries() {
+        let tableau = entry.derive().expect("derived");
+        let stability = tableau.stability();
+        let coefficients = tableau.to_f64();
+        assert!(stability.preserves_area, "{}", entry.name);
+        let proved = tableau.tier() != crate::Tier::Enclosure;
+        assert_eq!(
+            stability.evidence == Evidence::Proved,
+            proved,
+            "{}",
+            entry.name
+        );
+        let ends: Vec<f64> = stability
+            .intervals
+            .iter()
+            .flat_map(|i| [i.low.to_f64(), i.high.to_f64()])
+            .collect();
+        for k in 1..200 {
+            let nu = ratio(k * 7, 50);
+            let x = to_f64(&nu);
+            if ends.iter().any(|end| (end - x).abs() < 1e-3) {
+                continue;
+            }
+            let (trace, radius) = trace_and_radius(&coefficients, x);
+            let stable = stability.contains(&nu);
+            // Close to a touching trace the radius is 1 up to the root of the rounding errors.
+            assert_eq!(
+                stable,
+                radius < 1.0 + 1e-5,
+                "{}: ν = {x}, radius {radius}",
+                entry.name
+            );
+            *(if stable { &mut inside } else { &mut outside }) += 1;
+            let exact = stability.trace.value_at(x);
+            assert!(
+                (trace - exact).abs() < 1e-6 * exact.abs().max(1.0),
+                "{}: ν = {x}, traces {trace}, {exact}",
+                entry.name
+            );
+        }
+    }
+    assert!(inside > 1000 && outside > 1000);
+}
