@@ -13,17 +13,18 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | bases, nodes and weights | [`Basis`], [`QuadratureRule`], [`FAMILIES`] |
-//! | the derivation | [`derive()`], [`derive_from`] |
-//! | the exact coefficients | [`Tableau`], in the [`algebra`] of its nodes |
+//! | what a tableau is derived from | [`Definition`], of [`symbolic`] functions and constants |
+//! | bases, nodes and weights | [`Basis`], [`Nodes`], [`QuadratureRule`], [`FAMILIES`] |
+//! | the derivation | [`derive()`], [`Definition::derive`], [`derive_from`] |
+//! | the exact coefficients | [`Tableau`], in an [`algebra`] of one of three [`Tier`]s |
 //! | what is proved about them | [`Properties`], each a [`Property`] with its [`Evidence`] |
 //! | text, JSON, TOML; reading and checking files | [`export`], [`check`] |
 //! | known methods | [`catalogue`] |
 //! | Rust code | [`emit`], from the order of computation found in [`schedule`] |
 //!
-//! Statements about a tableau are decided in exact arithmetic (theory: `Q[x]/(m)` for the node polynomial
-//! `m`; no root is approximated to derive or to prove anything). Numbers are rounded from certified
-//! enclosures, ties decided exactly, so every printed digit and every double is the correct one.
+//! Statements about a tableau are decided in exact arithmetic where its coefficients are functions of the
+//! nodes or elements of a constant field, and refuted or verified by enclosures elsewhere. Numbers are rounded
+//! from certified enclosures, ties decided exactly, so every printed digit and every double is the correct one.
 
 pub mod algebra;
 pub mod arithmetic;

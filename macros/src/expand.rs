@@ -9,7 +9,7 @@ use symplectic_compiler::export::read_text;
 use symplectic_compiler::{Evidence, Key, Limits, Properties, Tableau, check};
 use syn::parse::Parser;
 use syn::punctuated::Punctuated;
-use syn::{LitInt, LitStr, Token, bracketed};
+use syn::{LitInt, LitStr, Token, bracketed, parenthesized};
 
 use crate::definition::{Definition, Definitions, Field};
 use crate::source::Source;
@@ -42,7 +42,7 @@ impl Errors {
 }
 
 /// The keys beside the parts of a definition.
-const KEYS: [&str; 3] = ["file", "require", "max_stages"];
+const KEYS: [&str; 4] = ["file", "require", "accept", "max_stages"];
 
 fn known_keys() -> Vec<&'static str> {
     Key::ALL.map(Key::name).into_iter().chain(KEYS).collect()
@@ -73,6 +73,9 @@ fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
     let requirements =
         field("require").map_or_else(Vec::new, |field| requirements(field, &mut errors));
 
+    let accepted = field("accept").map_or(Ok(None), |field| accepted(field).map(Some));
+    let accepted = errors.note(accepted).flatten();
+
     let mut rebuild = TokenStream::new();
     let is_part = |field: &&Field| Key::find(&field.key.to_string()).is_some();
     let parts: Vec<String> = definition
@@ -96,7 +99,7 @@ fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
         (None, _) => derive(definition, &limits),
     };
     if let Some(tableau) = errors.note(tableau) {
-        errors.note(prove(&tableau, &requirements));
+        errors.note(prove(&tableau, &requirements, accepted));
         if errors.0.is_none() {
             let attributes = &definition.attributes;
             let header = Header {
@@ -226,8 +229,27 @@ fn max_stages(field: &Field) -> syn::Result<Limits> {
     })
 }
 
-/// Every requirement has to be proved.
-fn prove(tableau: &Tableau, requirements: &[Ident]) -> syn::Result<()> {
+/// `accept: verified(100 bits)`: the binary places.
+fn accepted(field: &Field) -> syn::Result<u32> {
+    let shape = |input: syn::parse::ParseStream<'_>| {
+        let content;
+        let word: Ident = input.parse()?;
+        parenthesized!(content in input);
+        let number: LitInt = content.parse()?;
+        let unit: Ident = content.parse()?;
+        if word != "verified" || unit != "bits" || !content.is_empty() {
+            return Err(content.error("another word"));
+        }
+        number.base10_parse()
+    };
+    shape.parse2(field.value.clone()).map_err(|_| {
+        let message = "expected a number of binary places: `accept: verified(100 bits)`";
+        syn::Error::new_spanned(&field.value, message)
+    })
+}
+
+/// Every requirement has to be proved, or verified to as many binary places as are accepted.
+fn prove(tableau: &Tableau, requirements: &[Ident], accepted: Option<u32>) -> syn::Result<()> {
     let mut errors = Errors(None);
     if requirements.is_empty() {
         return Ok(());
@@ -244,8 +266,16 @@ fn prove(tableau: &Tableau, requirements: &[Ident]) -> syn::Result<()> {
                 let message = format!("the method is not `{name}`: {witness}");
                 errors.note::<()>(Err(syn::Error::new(name.span(), message)));
             }
-            Evidence::Verified { bits } => {
-                let message = format!("`{name}` is not proved, only verified to 2^-{bits}");
+            Evidence::Verified { bits }
+                if property.holds && accepted.is_some_and(|accepted| accepted <= bits) => {}
+            Evidence::Verified { bits } if property.holds => {
+                let message = format!(
+                    "`{name}` is not proved, only verified to 2^-{bits}; `accept: verified({bits} bits)` takes that for enough"
+                );
+                errors.note::<()>(Err(syn::Error::new(name.span(), message)));
+            }
+            Evidence::Verified { .. } => {
+                let message = format!("the method is not known to be `{name}`: {witness}");
                 errors.note::<()>(Err(syn::Error::new(name.span(), message)));
             }
         }

@@ -1,6 +1,6 @@
 //! The macro that makes a method.
 
-/// Derives a method from a basis and nodes, proves what is required of it, and emits it as a type.
+/// Derives a method from its definition, proves what is required of it, and emits it as a type.
 ///
 /// ```
 /// symplectic::tableau! {
@@ -16,25 +16,33 @@
 /// Any number of definitions may stand in one macro. The type is `Copy`, has no fields and implements
 /// [`Method`](crate::Method); its coefficients are constants, each the double nearest to the exact one:
 /// `A`, `A_TILDE`, `B`, `B_TILDE`, `C`, `C_TILDE`; for other scalars than f64 there is
-/// [`Method::COEFFICIENTS`](crate::Method::COEFFICIENTS), rounded from the exact ones again. Its page in the documentation shows the exact tableau
-/// and what is proved about it.
+/// [`Method::COEFFICIENTS`](crate::Method::COEFFICIENTS), rounded from the exact ones again. Its page in the
+/// documentation shows the exact tableau and what is proved about it.
 ///
 /// | key | value |
 /// |---|---|
-/// | `basis` | `polynomial(s)`, or a list of `s` linearly independent polynomials in `t`: `[1, t, t^2 - 1/3]` |
-/// | `nodes` | `gauss(s)`, `lobatto(s)`, `radau-left(s)`, `radau-right(s)`, `chebyshev(s)`, `clenshaw-curtis(s)`, `fejer(s)`, `newton-cotes(s)`, or a list of distinct rationals in `[0, 1]`: `[0, 1/3, 1]` |
-/// | `file` | instead of both: a table file, relative to the crate: `"tableaux/gauss-4.toml"`; it is derived and proved anew, and an edit of it rebuilds the crate |
+/// | `basis` | `polynomial(s)`, `legendre(s)`, or a list of `s` linearly independent functions of `t`: `[1, t, exp(-t/2)]`, `[1, cos(pi*t), sin(pi*t)]` |
+/// | `nodes` | `gauss(s)`, `lobatto(s)`, `radau-left(s)`, `radau-right(s)`, `chebyshev(s)`, `clenshaw-curtis(s)`, `fejer(s)`, `newton-cotes(s)`, or a list of distinct numbers in `[0, 1]`: `[0, 1/3, 1]`, `[1/2 - sqrt(2)/4, 1/2 + sqrt(2)/4]`: as many as functions |
+/// | `quadrature` | instead of `nodes`: the same with at least as many nodes as functions (rectangular Galerkin construction) |
+/// | `weights` | of the quadrature, if not the interpolatory ones: `[1/6, 2/3, 1/6]` |
+/// | `a`, `b` | instead of `basis`: given coefficients, `[[0, 0], [1/2, 1/2]]` and `[1/2, 1/2]` |
+/// | `a_tilde`, `b_tilde` | with them: those for momenta, or `a_tilde: symplectic_partner`; the same as for positions if left out |
+/// | `exchange` | `true` where positions and momenta are exchanged in the end |
+/// | `file` | instead of all these: a TOML file with a definition or a whole tableau, relative to the crate: `"tableaux/gauss-4.toml"`; it is derived and proved anew, and an edit of it rebuilds the crate |
 /// | `require` | properties that have to be proved: `symplectic`, `symmetric`, `consistent`, `equal_matrices`, `explicit`, `first_row_zero`, `stiffly_accurate`, `first_same_as_last`, `positive_weights` |
+/// | `accept` | `verified(100 bits)`: what is verified to as many binary places satisfies a requirement too; only tableaux that no exact arithmetic holds need it |
 /// | `max_stages` | a bound on the number of stages other than 32 |
 ///
 /// The coefficients are those of Leok & Zhang, *Discrete Hamiltonian variational integrators*, §4.4: with
 /// `M = [ψ_i(c_j)]` and `B_i = ∫_0^1 ψ_i`, `b = M⁻¹B`, `a = A_ψ M⁻ᵀ` where `(A_ψ)_ij = ∫_0^{c_i} ψ_j`, and
-/// `ã_ij = (b_i b_j − b_j a_ji)/b_i`.
+/// `ã_ij = (b_i b_j − b_j a_ji)/b_i`. The rectangular construction is that of Tang, *Two types of
+/// variational integrators*, §2.2.
 ///
 /// # Errors
 ///
 /// What cannot be derived or is not proved does not compile; the error stands at the offending tokens, and
-/// all errors of all definitions are reported together.
+/// all errors of all definitions are reported together. A method that is not consistent compiles with a
+/// warning, unless `consistent` is required.
 ///
 /// ```compile_fail
 /// symplectic::tableau! {

@@ -43,6 +43,26 @@ symplectic::tableau! {
     /// A coefficient whose double is the middle of two singles.
     BetweenSingles { basis: polynomial(1), nodes: [1/2 + 1/2^25 + 1/2^70] }
 
+    /// Other tiers and constructions.
+    Waves { basis: [1, cos(pi*t), sin(pi*t)], nodes: [0, 1/2, 1], require: [symplectic, symmetric] }
+    NotConjugate { basis: polynomial(2), nodes: [1/2 - sqrt(2)/4, 1 - e^-1], require: [symplectic] }
+    HalfWaves {
+        basis: [1, t, cos(pi*t), sin(pi*t)],
+        nodes: gauss(4),
+        require: [symplectic, symmetric, consistent],
+        accept: verified(1000 bits),
+    }
+    Tang { basis: legendre(2), quadrature: gauss(4), require: [symplectic, symmetric] }
+    Simpson { basis: polynomial(2), quadrature: [0, 1/2, 1], weights: [1/6, 2/3, 1/6] }
+    Exchanged { basis: polynomial(2), nodes: lobatto(2), exchange: true, require: [symplectic, explicit] }
+    Heun { a: [[0, 0], [1, 0]], b: [1/2, 1/2], require: [consistent, explicit, equal_matrices] }
+    GaussPartner {
+        a: [[1/4, 1/4 - sqrt(3)/6], [1/4 + sqrt(3)/6, 1/4]],
+        b: [1/2, 1/2],
+        a_tilde: symplectic_partner,
+        require: [symplectic, symmetric, equal_matrices],
+    }
+
     #[allow(non_camel_case_types)]
     #[derive(Hash)]
     lower_case { basis: polynomial(1), nodes: [0] }
@@ -122,6 +142,7 @@ fn coefficients_are_rounded_from_the_derivation_for_every_scalar()
     check! {
         GaussFromFile GaussFromRule LobattoFromFile LobattoFromRule LobattoFromLists LobattoFromOtherLists RadauLeft
         RadauRight Chebyshev ClenshawCurtis Fejer NewtonCotes Verlet Midpoint lower_case BetweenSingles
+        Waves NotConjugate HalfWaves Tang Simpson Exchanged Heun GaussPartner
     }
     Ok(())
 }
@@ -265,4 +286,48 @@ fn what_another_macro_puts_in_is_one_operand() {
         FromAnotherMacro::DEFINITION,
         "basis: [1, 2*t + 2], nodes: [0, 1]"
     );
+}
+
+/// A wrong coefficient or time of any of them would show: the order of the drift on a system without force, and that
+/// symplectic methods keep the area.
+#[test]
+fn methods_of_all_tiers_step() -> Result<(), Error> {
+    use symplectic::nalgebra::SVector;
+    use symplectic::{State, hamiltonian};
+
+    fn area<M: Method>(method: M) -> Result<f64, Error> {
+        type Vector = SVector<f64, 1>;
+        let step = |q: f64, p: f64| {
+            let system = hamiltonian(
+                |_, q: &Vector, p: &Vector, v: &mut Vector| v[0] = p[0] * (1.0 + q[0] * q[0]),
+                |_, q: &Vector, p: &Vector, f: &mut Vector| f[0] = -q[0] * (1.0 + p[0] * p[0]),
+            );
+            let start = State::new(0.0, SVector::from([q]), SVector::from([p]));
+            let mut integrator = Integrator::new(method, system, start, 0.2)?;
+            integrator.step()?;
+            let State { q, p, .. } = integrator.state();
+            Ok::<_, Error>([q[0], p[0]])
+        };
+        let d = 1e-5;
+        let [east, west] = [step(0.4 + d, 0.3)?, step(0.4 - d, 0.3)?];
+        let [north, south] = [step(0.4, 0.3 + d)?, step(0.4, 0.3 - d)?];
+        let derivative = |a: [f64; 2], b: [f64; 2], i: usize| (a[i] - b[i]) / (2.0 * d);
+        Ok(derivative(east, west, 0) * derivative(north, south, 1)
+            - derivative(east, west, 1) * derivative(north, south, 0))
+    }
+
+    for area in [
+        area(Waves)?,
+        area(NotConjugate)?,
+        area(HalfWaves)?,
+        area(Tang)?,
+        area(Simpson)?,
+        area(Exchanged)?,
+        area(GaussPartner)?,
+    ] {
+        // Central differences of 1e-5: errors of 1e-10 times third derivatives, and of rounding by 1e-5.
+        assert!((area - 1.0).abs() < 1e-8, "{area}");
+    }
+    assert!((area(Heun)? - 1.0).abs() > 1e-4);
+    Ok(())
 }
