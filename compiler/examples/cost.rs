@@ -1,4 +1,4 @@
-//! How the time of a derivation grows with the number of stages.
+//! How the time of a derivation grows with the number of stages, and what it is in the other tiers.
 //!
 //! `cargo run --release --example cost`; other numbers of stages as arguments. One thread; the median of
 //! several runs.
@@ -7,31 +7,43 @@
 use std::time::{Duration, Instant};
 
 use symplectic_compiler::export::{DEFAULT_DIGITS, json};
-use symplectic_compiler::{Error, Limits, derive_within};
+use symplectic_compiler::{Definition, Error, Limits};
 
 /// Everything that `derive --format json` does.
-fn compile(family: &str, stages: usize) -> Result<Duration, Error> {
+fn compile(definition: &str, stages: usize, digits: usize) -> Result<Duration, Error> {
     let start = Instant::now();
-    let limits = Limits { stages };
-    let tableau = derive_within(
-        &format!("polynomial({stages})"),
-        &format!("{family}({stages})"),
-        &limits,
-    )?;
-    let text = json::write(&tableau, DEFAULT_DIGITS);
+    let tableau = Definition::parse(definition)?.derive(&Limits { stages })?;
+    let text = json::write(&tableau, digits);
     let time = start.elapsed();
     assert!(!text.is_empty());
     Ok(time)
 }
 
-fn median(family: &str, stages: usize) -> Result<f64, Error> {
+/// Milliseconds.
+fn median(definition: &str, stages: usize, digits: usize) -> Result<f64, Error> {
     let runs = if stages > 16 { 3 } else { 9 };
     let mut times = (0..runs)
-        .map(|_| compile(family, stages))
+        .map(|_| compile(definition, stages, digits))
         .collect::<Result<Vec<_>, _>>()?;
     times.sort();
     Ok(times[runs / 2].as_secs_f64() * 1e3)
 }
+
+/// Definitions beyond polynomials at classical nodes, with their digits.
+const OTHERS: [(&str, usize); 12] = [
+    ("basis: [1], nodes: [0]", 40),
+    ("basis: [1, cos(pi*t)], nodes: [0, 1]", 40),
+    ("basis: [1, cos(pi*t), sin(pi*t)], nodes: [0, 1/2, 1]", 40),
+    ("basis: polynomial(3), nodes: chebyshev(3)", 40),
+    ("basis: polynomial(2), nodes: [1/2 - sqrt(2)/4, 3/4]", 40),
+    ("basis: [1, cos(t), sin(t)], nodes: [0, 1/2, 1]", 40),
+    ("basis: [1, exp(t), exp(-t)], nodes: [0, 1/2, 1]", 40),
+    ("basis: legendre(3), quadrature: gauss(6)", 40),
+    ("basis: [1, t, cos(pi*t), sin(pi*t)], nodes: gauss(4)", 40),
+    ("basis: [1, cos(t), sin(t), cos(2*t), sin(2*t)], nodes: gauss(5)", 40),
+    ("basis: [1, cos(t), sin(t), cos(pi*t), sin(pi*t)], nodes: gauss(5)", 40),
+    ("basis: polynomial(20), nodes: gauss(20)", 200),
+];
 
 fn main() -> Result<(), Error> {
     let arguments: Vec<usize> = std::env::args()
@@ -54,12 +66,17 @@ fn main() -> Result<(), Error> {
         } else {
             "clenshaw-curtis"
         };
-        let [gauss, lobatto, third] = [
-            median("gauss", s)?,
-            median("lobatto", s)?,
-            median(third, s)?,
-        ];
+        let time = |family: &str| {
+            let definition = format!("basis: polynomial({s}), nodes: {family}({s})");
+            median(&definition, s, DEFAULT_DIGITS)
+        };
+        let [gauss, lobatto, third] = [time("gauss")?, time("lobatto")?, time(third)?];
         println!("| {s} | {gauss:.1} | {lobatto:.1} | {third:.1} |");
+    }
+    println!("\n| definition | digits | |\n|---|---:|---:|");
+    for (definition, digits) in OTHERS {
+        let time = median(definition, 32, digits)?;
+        println!("| {definition} | {digits} | {time:.1} |");
     }
     Ok(())
 }
