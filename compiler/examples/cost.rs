@@ -40,8 +40,14 @@ const OTHERS: [(&str, usize); 12] = [
     ("basis: [1, exp(t), exp(-t)], nodes: [0, 1/2, 1]", 40),
     ("basis: legendre(3), quadrature: gauss(6)", 40),
     ("basis: [1, t, cos(pi*t), sin(pi*t)], nodes: gauss(4)", 40),
-    ("basis: [1, cos(t), sin(t), cos(2*t), sin(2*t)], nodes: gauss(5)", 40),
-    ("basis: [1, cos(t), sin(t), cos(pi*t), sin(pi*t)], nodes: gauss(5)", 40),
+    (
+        "basis: [1, cos(t), sin(t), cos(2*t), sin(2*t)], nodes: gauss(5)",
+        40,
+    ),
+    (
+        "basis: [1, cos(t), sin(t), cos(pi*t), sin(pi*t)], nodes: gauss(5)",
+        40,
+    ),
     ("basis: polynomial(20), nodes: gauss(20)", 200),
 ];
 

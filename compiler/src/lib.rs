@@ -18,6 +18,7 @@
 //! | the derivation | [`derive()`], [`Definition::derive`], [`derive_from`] |
 //! | the exact coefficients | [`Tableau`], in an [`algebra`] of one of three [`Tier`]s |
 //! | what is proved about them | [`Properties`], each a [`Property`] with its [`Evidence`] |
+//! | the order for each class of Hamiltonians, trees, the modified equation | [`order`] |
 //! | text, JSON, TOML; reading and checking files | [`export`], [`check`] |
 //! | known methods | [`catalogue`] |
 //! | Rust code | [`emit`], from the order of computation found in [`schedule`] |
@@ -39,6 +40,7 @@ mod error;
 pub mod export;
 pub mod expression;
 mod limits;
+pub mod order;
 mod pair;
 mod properties;
 mod quadrature;

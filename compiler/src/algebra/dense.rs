@@ -184,6 +184,10 @@ impl<F: Field> StageAlgebra for Dense<F> {
         m.iter().map(row).collect()
     }
 
+    fn exact_sum(&self, f: &Vector<F>) -> Option<String> {
+        self.field.exact(&self.total(f.iter()))
+    }
+
     fn exact_values(&self, f: &Vector<F>) -> Vec<Option<String>> {
         f.iter().map(|x| self.field.exact(x)).collect()
     }

@@ -46,6 +46,10 @@ pub trait StageAlgebra: Debug + PartialEq + Sized {
 
     /// `Σ_i f_i`.
     fn sum(&self, f: &Self::Vector) -> Number<'_>;
+    /// `Σ_i f_i g_i`.
+    fn inner(&self, f: &Self::Vector, g: &Self::Vector) -> Number<'_> {
+        self.sum(&self.multiply(f, g))
+    }
 
     /// The matrix `f_i g_j`.
     fn outer(&self, f: &Self::Vector, g: &Self::Vector) -> Self::Matrix;
@@ -64,6 +68,8 @@ pub trait StageAlgebra: Debug + PartialEq + Sized {
     fn values<'a>(&'a self, f: Cow<'a, Self::Vector>) -> Vec<Number<'a>>;
     /// The entries of a matrix.
     fn entries<'a>(&'a self, m: &'a Self::Matrix) -> Vec<Vec<Number<'a>>>;
+    /// A readable exact form of `Σ_i f_i`, where there is one.
+    fn exact_sum(&self, f: &Self::Vector) -> Option<String>;
     /// Readable exact forms of the values, where there are any.
     fn exact_values(&self, f: &Self::Vector) -> Vec<Option<String>>;
     /// Readable exact forms of the entries, where there are any.

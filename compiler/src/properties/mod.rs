@@ -36,7 +36,7 @@ pub enum Evidence {
 
 impl Evidence {
     /// The evidence for two statements that both hold.
-    fn and(self, other: Evidence) -> Evidence {
+    pub(crate) fn and(self, other: Evidence) -> Evidence {
         match (self, other) {
             (Evidence::Verified { bits }, Evidence::Verified { bits: others }) => {
                 Evidence::Verified {
@@ -185,7 +185,10 @@ fn vanishing<'a, 'n: 'a>(
 }
 
 /// How it is known that a matrix vanishes, or its first entry that does not.
-fn vanishing_matrix<A: StageAlgebra>(algebra: &A, residual: &A::Matrix) -> Result<Evidence, Entry> {
+pub(crate) fn vanishing_matrix<A: StageAlgebra>(
+    algebra: &A,
+    residual: &A::Matrix,
+) -> Result<Evidence, Entry> {
     let numbers = algebra.entries(residual);
     vanishing(numbers.iter().flatten()).map_err(|index| {
         let (i, j) = (index / algebra.stages(), index % algebra.stages());
@@ -202,7 +205,7 @@ fn vanishing_matrix<A: StageAlgebra>(algebra: &A, residual: &A::Matrix) -> Resul
 
 /// How it is known that a vector vanishes, or its first value that does not with its stage, counted
 /// from 1.
-fn vanishing_vector<A: StageAlgebra>(
+pub(crate) fn vanishing_vector<A: StageAlgebra>(
     algebra: &A,
     residual: &A::Vector,
 ) -> Result<Evidence, (usize, String)> {
@@ -214,7 +217,7 @@ fn vanishing_vector<A: StageAlgebra>(
 }
 
 /// An entry of a matrix, for a message.
-struct Entry {
+pub(crate) struct Entry {
     /// The index of the entry: `12`.
     index: String,
     /// The index of its mirror image: `21`.
@@ -228,7 +231,7 @@ struct Entry {
 }
 
 /// A number for a message: a short rational exactly, anything else by its first digits.
-fn shown(number: &Number<'_>) -> String {
+pub(crate) fn shown(number: &Number<'_>) -> String {
     number.short_rational().map_or_else(
         || format!("{}…", number.decimal(12)),
         |value| value.to_string(),

@@ -14,6 +14,7 @@ mod tensor;
 
 use std::sync::{Arc, Mutex};
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
 
 use crate::arithmetic::interval::Interval;
@@ -34,8 +35,9 @@ pub use tensor::Tensor;
 pub struct NodeAlgebra {
     modulus: Polynomial,
     roots: Vec<Root>,
-    /// `Tr xᵏ = Σ_i c_iᵏ` for `k < s`.
-    power_sums: Vec<BigRational>,
+    /// `Tr xᵏ = Σ_i c_iᵏ` for `k < 2s − 1`, the powers in a product of two elements, as the coefficients
+    /// of a polynomial.
+    power_sums: Polynomial,
     /// The finest enclosures of the nodes so far.
     enclosures: Mutex<Option<Arc<Vec<Interval>>>>,
 }
@@ -60,7 +62,7 @@ impl NodeAlgebra {
                 real: roots.len(),
             });
         }
-        let power_sums = power_sums(&modulus, degree);
+        let power_sums = Polynomial::from_rationals(&power_sums(&modulus, 2 * degree - 1));
         Ok(NodeAlgebra {
             modulus,
             roots,
@@ -110,12 +112,36 @@ impl NodeAlgebra {
 
     /// The trace `Σ_i f(c_i)`.
     pub fn trace(&self, element: &Polynomial) -> BigRational {
-        let coefficients = self.reduce(element).coefficients();
-        coefficients
+        if element.degree() < Some(2 * self.dimension() - 1) {
+            self.trace_of_numerators(element.numerators(), element.denominator())
+        } else {
+            self.trace(&self.reduce(element))
+        }
+    }
+
+    /// The trace of a product of two elements, `Σ_i f(c_i) g(c_i)`, without reducing the product.
+    pub fn trace_of_product(&self, left: &Polynomial, right: &Polynomial) -> BigRational {
+        let s = self.dimension();
+        let (f, g) = (left.numerators(), right.numerators());
+        if f.len() > s || g.len() > s {
+            return self.trace(&self.multiply(left, right));
+        }
+        let mut product = vec![BigInt::default(); (f.len() + g.len()).saturating_sub(1)];
+        for (i, x) in f.iter().enumerate() {
+            for (sum, y) in product[i..].iter_mut().zip(g) {
+                *sum += x * y;
+            }
+        }
+        self.trace_of_numerators(&product, &(left.denominator() * right.denominator()))
+    }
+
+    /// The trace of a polynomial of degree less than `2s − 1`.
+    fn trace_of_numerators(&self, numerators: &[BigInt], denominator: &BigInt) -> BigRational {
+        let products = numerators
             .iter()
-            .zip(&self.power_sums)
-            .map(|(c, p)| c * p)
-            .sum()
+            .zip(self.power_sums.numerators())
+            .map(|(n, p)| n * p);
+        BigRational::new(products.sum(), denominator * self.power_sums.denominator())
     }
 
     /// The basis of `K` that is dual to the powers of `x`: elements `e_k` with
@@ -247,7 +273,7 @@ mod tests {
             let f = Polynomial::from_integers(&c);
             let sum = k.enclose(&k.reduce(&f), 80).into_iter().reduce(|a, b| a.add(&b)).expect("nodes");
             prop_assert!(sum.contains(&k.trace(&f)));
-            prop_assert!(sum.high() - sum.low() < BigRational::new(One::one(), num_bigint::BigInt::one() << 60));
+            prop_assert!(sum.high() - sum.low() < BigRational::new(One::one(), BigInt::one() << 60));
         }
     }
 }

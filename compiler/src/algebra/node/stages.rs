@@ -69,6 +69,10 @@ impl StageAlgebra for NodeAlgebra {
         Number::Rational(self.trace(f))
     }
 
+    fn inner(&self, f: &Polynomial, g: &Polynomial) -> Number<'_> {
+        Number::Rational(self.trace_of_product(f, g))
+    }
+
     fn outer(&self, f: &Polynomial, g: &Polynomial) -> Tensor {
         Tensor::from_products(self, &[(f.clone(), g.clone())])
     }
@@ -109,6 +113,10 @@ impl StageAlgebra for NodeAlgebra {
         let rows = NodeNumber::of_tensor(self, m).into_iter();
         rows.map(|row| row.into_iter().map(Number::Node).collect())
             .collect()
+    }
+
+    fn exact_sum(&self, f: &Polynomial) -> Option<String> {
+        Some(self.trace(f).to_string())
     }
 
     fn exact_values(&self, f: &Polynomial) -> Vec<Option<String>> {

@@ -1,0 +1,94 @@
+//! What is found out about the order of a method.
+
+use std::fmt;
+
+use num_rational::BigRational;
+
+use super::class::HamiltonianClass;
+use super::tree::BicolouredTree;
+use crate::arithmetic::rounding::Decimal;
+use crate::properties::Evidence;
+
+/// The order of a method for each class of Hamiltonians.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OrderReport {
+    /// For every `H(q, p)`.
+    pub general: ClassOrder,
+    /// For `H = T(p) + U(q)`.
+    pub separable: ClassOrder,
+    /// For `H = pᵀM⁻¹p/2 + U(q)`.
+    pub nystrom: ClassOrder,
+}
+
+impl OrderReport {
+    /// The order for a class.
+    pub fn class(&self, class: HamiltonianClass) -> &ClassOrder {
+        match class {
+            HamiltonianClass::General => &self.general,
+            HamiltonianClass::Separable => &self.separable,
+            HamiltonianClass::Nystrom => &self.nystrom,
+        }
+    }
+}
+
+/// The order of a method for one class of Hamiltonians.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ClassOrder {
+    /// The order `p`: all conditions up to it hold.
+    pub order: usize,
+    /// How it is known that they hold: proved, or verified to some binary places.
+    pub evidence: Evidence,
+    /// A condition of order `p + 1` that does not hold. Where there is none, the order is at least `p`:
+    /// trees of higher order were not looked at.
+    pub refuted_by: Option<ViolatedCondition>,
+    /// The norm `(Σ_τ ((φ(τ) − 1/γ(τ))/σ(τ))²)^½` over the trees `τ` of order `p + 1` in the class, to 12
+    /// digits; each term is `α(τ)/|τ|! · (γ(τ) φ(τ) − 1)`, the coefficient of the elementary differential in
+    /// the local error. `None` where trees of that order are not enumerated.
+    pub error_constant: Option<Decimal>,
+}
+
+impl fmt::Display for ClassOrder {
+    /// `4, proved; not 5: q[q^4] has the weight 5/24 instead of 1/5, a difference of 1/120`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.refuted_by.is_none() {
+            f.write_str("at least ")?;
+        }
+        write!(f, "{}, ", self.order)?;
+        match self.evidence {
+            Evidence::Verified { bits } => write!(f, "verified to 2^-{bits}")?,
+            Evidence::Proved | Evidence::Refuted => f.write_str("proved")?,
+        }
+        match &self.refuted_by {
+            Some(violated) => write!(f, "; not {}: {violated}", self.order + 1),
+            None => Ok(()),
+        }
+    }
+}
+
+/// An order condition that does not hold.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ViolatedCondition {
+    /// The tree.
+    pub tree: BicolouredTree,
+    /// Its elementary weight `Σ_i b_i Φ_i`, exact where that is short, otherwise its first digits and `…`.
+    pub value: String,
+    /// What it should be, `1/γ`.
+    pub wanted: BigRational,
+    /// The value less what it should be, written like the value.
+    pub residual: String,
+}
+
+impl fmt::Display for ViolatedCondition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ViolatedCondition {
+            tree,
+            value,
+            wanted,
+            residual,
+        } = self;
+        write!(
+            f,
+            "{tree} has the weight {value} instead of {wanted}, a difference of {residual}"
+        )
+    }
+}

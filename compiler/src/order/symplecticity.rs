@@ -1,0 +1,248 @@
+//! Up to which order a method is symplectic.
+
+use super::class::HamiltonianClass;
+use super::enumeration::TreeRule;
+use super::tree::{BicolouredTree, Colour};
+use super::weights::{MAX_ORDER, Weights};
+use crate::algebra::{StageAlgebra, Zero};
+use crate::pair::Pair;
+use crate::properties::{Evidence, shown, vanishing_matrix, vanishing_vector};
+
+/// The order of symplecticity of a method that is not symplectic (pseudo-symplecticity, Aubry & Chartier
+/// 1998): the step changes the symplectic form by `O(hᵖ⁺¹)`.
+///
+/// With the elementary weights `φ` of the method, the largest `p` such that for all trees `u` with a
+/// root coloured `q` and `v` with one coloured `p`, `|u| + |v| ≤ p`,
+///
+/// ```text
+/// φ(u∘v) + φ(v∘u) = φ(u) φ(v)
+/// ```
+///
+/// and, for general `H`, such that weights of order up to `p` do not depend on the colour of the root
+/// (GNI VI.7, the conditions for symplectic P-series).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SymplecticityOrder {
+    /// The order `p`.
+    pub order: usize,
+    /// How it is known that the conditions up to order `p` hold.
+    pub evidence: Evidence,
+    /// A condition of order `p + 1` that does not hold, if one was found up to the limit.
+    pub violated: Option<SymplecticityViolation>,
+}
+
+/// A condition of symplecticity that does not hold.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SymplecticityViolation {
+    /// The tree `u` with a root coloured `q`.
+    pub left: BicolouredTree,
+    /// The tree `v` with a root coloured `p`; for one whose root may not change its colour, that root.
+    pub right: Option<BicolouredTree>,
+    /// `φ(u∘v) + φ(v∘u) − φ(u) φ(v)`, or the weight of `u` less the one with the other colour of the root.
+    pub defect: String,
+}
+
+/// What is known of the coefficients' conditions for symplecticity; `None` where one does not hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Symplecticity {
+    /// `b_i ã_ij + b̃_j a_ji = b_i b̃_j`
+    pub(super) matrices: Option<Evidence>,
+    /// `b = b̃`
+    pub(super) weights: Option<Evidence>,
+}
+
+impl Symplecticity {
+    pub(super) fn of<A: StageAlgebra>(pair: &Pair<A>) -> Self {
+        let algebra = &*pair.algebra;
+        let weights = algebra.subtract(&pair.b, &pair.b_tilde);
+        Symplecticity {
+            matrices: vanishing_matrix(algebra, &defect(pair)).ok(),
+            weights: vanishing_vector(algebra, &weights).ok(),
+        }
+    }
+
+    /// How it is known that the method is symplectic for a class.
+    pub(super) fn evidence(self, class: HamiltonianClass) -> Option<Evidence> {
+        match class {
+            HamiltonianClass::General => Some(self.matrices?.and(self.weights?)),
+            HamiltonianClass::Separable | HamiltonianClass::Nystrom => self.matrices,
+        }
+    }
+}
+
+/// `b_i ã_ij + b̃_j a_ji − b_i b̃_j` (MW 2.6.7).
+fn defect<A: StageAlgebra>(pair: &Pair<A>) -> A::Matrix {
+    let algebra = &*pair.algebra;
+    let momenta = algebra.scale_rows(&pair.a_tilde, &pair.b);
+    let positions = algebra.transpose(&algebra.scale_rows(&pair.a, &pair.b_tilde));
+    let sum = algebra.add_matrices(&momenta, &positions);
+    algebra.subtract_matrices(&sum, &algebra.outer(&pair.b, &pair.b_tilde))
+}
+
+/// The order of symplecticity for a class; `None` for a method that is symplectic by its coefficients.
+///
+/// Trees are looked at up to order `limit`; a method that is symplectic that far has no violated
+/// condition.
+pub(super) fn symplecticity_order<A: StageAlgebra>(
+    pair: &Pair<A>,
+    class: HamiltonianClass,
+    limit: usize,
+) -> Option<SymplecticityOrder> {
+    if Symplecticity::of(pair).evidence(class).is_some() {
+        return None;
+    }
+    let algebra = &*pair.algebra;
+    let defect = defect(pair);
+    let unequal = algebra.subtract(&pair.b, &pair.b_tilde);
+    let mut weights = Weights::new(pair, TreeRule::Class(class));
+    let mut evidence = Evidence::Proved;
+    // (M Φ(v))_i for the trees v coloured p, order by order.
+    let mut transferred: Vec<Vec<(u32, A::Vector)>> = Vec::new();
+    let limit = limit.min(MAX_ORDER);
+    for order in 1..=limit {
+        let mut check =
+            |terms: A::Vector, trees: &dyn Fn() -> (BicolouredTree, Option<BicolouredTree>)| {
+                let number = algebra.sum(&terms);
+                match number.zero() {
+                    Zero::Yes => None,
+                    Zero::Within(bits) => {
+                        evidence = evidence.and(Evidence::Verified { bits });
+                        None
+                    }
+                    Zero::No => {
+                        let (left, right) = trees();
+                        let defect = algebra.exact_sum(&terms).unwrap_or_else(|| shown(&number));
+                        Some(SymplecticityViolation {
+                            left,
+                            right,
+                            defect,
+                        })
+                    }
+                }
+            };
+        weights.grow(order);
+        let mut violated = None;
+        if class == HamiltonianClass::General {
+            let trees = weights.coloured(order, Colour::Q);
+            violated = trees.into_iter().find_map(|u| {
+                let terms = algebra.multiply(&unequal, weights.stages(u));
+                check(terms, &|| (weights.enumerated(u), None))
+            });
+        }
+        for size in 1..order {
+            let right = &transferred[order - size - 1];
+            for u in weights.coloured(size, Colour::Q) {
+                violated = violated.or_else(|| {
+                    right.iter().find_map(|(v, transferred)| {
+                        let terms = algebra.multiply(weights.stages(u), transferred);
+                        let trees = || (weights.enumerated(u), Some(weights.enumerated(*v)));
+                        check(terms, &trees)
+                    })
+                });
+            }
+        }
+        if violated.is_some() {
+            return Some(SymplecticityOrder {
+                order: order - 1,
+                evidence,
+                violated,
+            });
+        }
+        let black = weights.coloured(order, Colour::P).into_iter();
+        transferred.push(
+            black
+                .map(|v| (v, algebra.apply(&defect, weights.stages(v))))
+                .collect(),
+        );
+    }
+    Some(SymplecticityOrder {
+        order: limit,
+        evidence,
+        violated: None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::methods::{decimal, explicit_runge_kutta, rational, splitting};
+    use super::*;
+    use crate::tableau::Exact;
+    use num_rational::BigRational;
+
+    #[test]
+    fn known_methods_have_their_orders_of_symplecticity() {
+        let order = |pair: &Pair<_>| {
+            let found =
+                symplecticity_order(pair, HamiltonianClass::General, 8).expect("not symplectic");
+            assert_eq!(found.evidence, Evidence::Proved);
+            let violated = found.violated.expect("violated below order 8");
+            (found.order, violated)
+        };
+        // RK4 has its own order: a method of order p keeps the form as well as the exact flow to order p.
+        let (rk4, violated) = order(&explicit_runge_kutta("rk4"));
+        assert_eq!(rk4, 4);
+        let right = violated.right.expect("a pair of trees");
+        assert_eq!(violated.left.order() + right.order(), 5);
+        assert_eq!(order(&explicit_runge_kutta("kutta3")).0, 3);
+        let (euler, violated) = order(&explicit_runge_kutta("euler"));
+        // b ã + b̃ a − b b̃ = −1.
+        assert_eq!((euler, violated.defect.as_str()), (1, "-1"));
+    }
+
+    #[test]
+    fn the_explicit_midpoint_rule_is_symplectic_to_order_2() {
+        let pair = explicit_runge_kutta("midpoint");
+        let found =
+            symplecticity_order(&pair, HamiltonianClass::General, 6).expect("not symplectic");
+        assert_eq!(found.order, 2);
+    }
+
+    #[test]
+    fn symplectic_methods_have_no_such_order() {
+        let lobatto = crate::derive("polynomial(3)", "lobatto(3)").expect("derived");
+        let Exact::Nodes(pair) = &lobatto.exact else {
+            panic!("classical nodes");
+        };
+        assert_eq!(
+            symplecticity_order(pair, HamiltonianClass::General, 8),
+            None
+        );
+        // Drifts and kicks of different weights: symplectic for separable H only.
+        let ruth = splitting(
+            &[rational("2/3"), rational("-2/3"), rational("1")],
+            &[rational("7/24"), rational("3/4"), rational("-1/24")],
+        );
+        assert_eq!(
+            symplecticity_order(&ruth, HamiltonianClass::Separable, 8),
+            None
+        );
+        let general =
+            symplecticity_order(&ruth, HamiltonianClass::General, 8).expect("not symplectic");
+        assert_eq!(general.order, 1);
+        let violated = general.violated.expect("a violated condition");
+        assert_eq!(
+            (violated.left.to_string().as_str(), violated.right),
+            ("q[q]", None)
+        );
+        // The same with one digit changed is no longer symplectic for any class.
+        let mut changed = ruth;
+        changed.a[1][0] = &changed.a[1][0] + decimal("0.001");
+        let separable = symplecticity_order(&changed, HamiltonianClass::Separable, 8);
+        assert_eq!(separable.map(|found| found.order), Some(1));
+    }
+
+    #[test]
+    fn the_defects_are_what_elementary_weights_say() {
+        let rational = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+        let pair = explicit_runge_kutta("rk4");
+        let weights = |text: &str| {
+            let tree: BicolouredTree = text.parse().expect(text);
+            super::super::methods::weight(&pair, &tree)
+        };
+        // For RK4 u = q[q] and v = p[p[p]]: φ(u∘v) + φ(v∘u) − φ(u) φ(v).
+        let defect = weights("q[q,p[p[p]]]") + weights("p[p[p],q[q]]")
+            - weights("q[q]") * weights("p[p[p]]");
+        assert_ne!(defect, rational(0, 1));
+        let low = weights("q[p[p]]") + weights("p[p,q]") - weights("q") * weights("p[p]");
+        assert_eq!(low, rational(0, 1));
+    }
+}

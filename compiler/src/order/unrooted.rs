@@ -1,0 +1,210 @@
+//! Trees without a root: the order conditions that a symplectic method leaves.
+//!
+//! Let `u` have a root coloured `q` and `v` one coloured `p`, let `u∘v` be `u` with `v` as one more
+//! child of its root, and write `φ` for elementary weights. `b_i ã_ij + b̃_j a_ji = b_i b̃_j` gives
+//!
+//! ```text
+//! φ(u∘v) + φ(v∘u) = Σ_ij Φ_i(u) (b_i ã_ij + b̃_j a_ji) Φ_j(v) = φ(u) φ(v)
+//! ```
+//!
+//! and the exact flow, being symplectic too, has the same for `1/γ`. Hence where the conditions of
+//! lower orders hold, the residuals of `u∘v` and `v∘u` are equal up to the sign: the condition of a
+//! tree is the one of any tree that differs by the place of the root (GNI VI.7). Moving the root along
+//! an edge keeps which end of the edge is differentiated by `q` and which by `p`: a child coloured `q`
+//! makes the old root a child coloured `p` and the other way round. In a separable class that leaves
+//! all colours as they are. For general `H` the colour of the root itself makes no difference if
+//! `b = b̃`, so the classes are trees with directed edges. For one tableau, `ã = a`, colours make no
+//! difference at all, and the condition of a tree `u∘u` follows from lower orders: it is superfluous.
+//!
+//! On the way the root may pass a Nyström vertex for `q'` with two neighbours: its tree is not in the
+//! class, but the identity holds for it all the same.
+//!
+//! Each class has one representative: the root is the centroid, so that no child has more than half of
+//! the vertices. That takes the stages of trees of half the order only.
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::One;
+use std::collections::BTreeSet;
+
+use super::class::HamiltonianClass;
+use super::enumeration::{TreeRule, Trees};
+use super::tree::{BicolouredTree, Colour};
+
+impl Trees {
+    /// One tree for each condition of this order that a symplectic method leaves, as `(rest, last)`;
+    /// the order is at least 2 and at most one beyond the highest.
+    pub(super) fn representatives(&self, order: usize) -> impl Iterator<Item = (u32, u32)> {
+        let products = self.products_with_last(order, order.div_ceil(2) + 1);
+        products.filter(move |&(rest, last)| self.is_representative(order, rest, last))
+    }
+
+    /// Whether a product of this order represents its class; the order of `last` is at most half of it,
+    /// rounded up.
+    fn is_representative(&self, order: usize, rest: u32, last: u32) -> bool {
+        let size = self.size(last);
+        let (below, half) = (2 * size <= order, 2 * size == order);
+        match self.rule() {
+            // Two centroids, of which the earlier comes below the later; equal halves are superfluous.
+            TreeRule::OneColour => below && (!half || rest > last),
+            // One end of the edge between two centroids sees a child coloured p at the other.
+            TreeRule::Class(HamiltonianClass::General) => {
+                let root = self.colour(rest) == Colour::Q;
+                root && below && (!half || self.colour(last) == Colour::P)
+            }
+            TreeRule::Class(HamiltonianClass::Separable) => {
+                below && (!half || self.colour(rest) == Colour::P)
+            }
+            // The root is coloured p; a centroid coloured q has two branches of the same order, and the
+            // later of them takes the root.
+            TreeRule::Class(HamiltonianClass::Nystrom) => {
+                let branch = self.entry(last).product.map(|(_, child)| child);
+                let centroid = below || branch.is_some_and(|branch| rest >= branch);
+                self.colour(rest) == Colour::P && centroid
+            }
+        }
+    }
+}
+
+impl BicolouredTree {
+    /// The trees that differ from this one by the place of the root, this one among them.
+    ///
+    /// The colour of a new root is the one that it has as a child; its old parent gets the opposite of
+    /// that, see the head of this file.
+    pub fn rerooted(&self) -> BTreeSet<BicolouredTree> {
+        let mut found = BTreeSet::from([self.clone()]);
+        let mut pending = vec![self.clone()];
+        while let Some(tree) = pending.pop() {
+            for (index, child) in tree.children().iter().enumerate() {
+                let mut others = tree.children().to_vec();
+                others.remove(index);
+                let parent = BicolouredTree::new(child.colour().opposite(), others);
+                let mut children = child.children().to_vec();
+                children.push(parent);
+                let moved = BicolouredTree::new(child.colour(), children);
+                if found.insert(moved.clone()) {
+                    pending.push(moved);
+                }
+            }
+        }
+        found
+    }
+}
+
+/// `Σ 1/σ(τ)²` over all trees `τ` whose condition is the one of a tree: that tree only, or if it is a
+/// representative all that differ by the place of the root.
+pub(super) fn weight(
+    class: HamiltonianClass,
+    tree: &BicolouredTree,
+    representative: bool,
+) -> BigRational {
+    let one = |tree: &BicolouredTree| {
+        let symmetry = tree.symmetry();
+        BigRational::new(BigInt::one(), &symmetry * &symmetry)
+    };
+    if !representative || tree.children().is_empty() {
+        return one(tree);
+    }
+    match class {
+        // Each with a root of either colour.
+        HamiltonianClass::General => {
+            let recoloured =
+                |tree: BicolouredTree| BicolouredTree::new(Colour::Q, tree.children().to_vec());
+            let trees: BTreeSet<_> = tree.rerooted().into_iter().map(recoloured).collect();
+            let sum: BigRational = trees.iter().map(one).sum();
+            sum * BigRational::from_integer(2.into())
+        }
+        HamiltonianClass::Separable | HamiltonianClass::Nystrom => {
+            let trees = tree.rerooted();
+            trees.iter().filter(|t| class.contains(t)).map(one).sum()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn counts(rule: TreeRule, order: usize) -> Vec<usize> {
+        let trees = Trees::up_to(rule, order - 1);
+        (2..=order)
+            .map(|n| trees.representatives(n).count())
+            .collect()
+    }
+
+    #[test]
+    fn the_numbers_of_conditions_are_known() {
+        // Oriented trees, OEIS A000238.
+        let general = TreeRule::Class(HamiltonianClass::General);
+        assert_eq!(counts(general, 9), [1, 3, 8, 27, 91, 350, 1376, 5743]);
+        // Trees without a root, OEIS A000055, less those with two equal halves, OEIS A000081.
+        let free = [1, 1, 2, 3, 6, 11, 23, 47, 106];
+        let equal_halves = [1, 0, 1, 0, 2, 0, 4, 0, 9];
+        let expected = |each: fn(usize, usize) -> usize| -> Vec<usize> {
+            free.iter()
+                .zip(equal_halves)
+                .map(|(f, e)| each(*f, e))
+                .collect()
+        };
+        assert_eq!(counts(TreeRule::OneColour, 10), expected(|f, e| f - e));
+        // Two colourings each, which are one and the same for two equal halves.
+        let separable = TreeRule::Class(HamiltonianClass::Separable);
+        assert_eq!(counts(separable, 10), expected(|f, e| 2 * f - e));
+    }
+
+    /// The place of the root divides the trees into classes with one representative each.
+    #[test]
+    fn each_class_has_one_representative() {
+        for class in HamiltonianClass::ALL {
+            let trees = Trees::up_to(TreeRule::Class(class), 7);
+            let key = |tree: &BicolouredTree| -> BTreeSet<BicolouredTree> {
+                let rerooted = tree.rerooted().into_iter();
+                match class {
+                    HamiltonianClass::General => rerooted
+                        .map(|t| BicolouredTree::new(Colour::Q, t.children().to_vec()))
+                        .collect(),
+                    _ => rerooted.collect(),
+                }
+            };
+            for order in 2..=8 {
+                let all: BTreeSet<_> = trees
+                    .products(order)
+                    .map(|(rest, last)| key(&trees.product(rest, last)))
+                    .collect();
+                let chosen: Vec<_> = trees
+                    .representatives(order)
+                    .map(|(rest, last)| key(&trees.product(rest, last)))
+                    .collect();
+                let different: BTreeSet<_> = chosen.iter().cloned().collect();
+                assert_eq!(chosen.len(), different.len(), "{class} {order}");
+                assert_eq!(different, all, "{class} {order}");
+            }
+        }
+    }
+
+    #[test]
+    fn weights_are_those_of_all_trees() {
+        for class in HamiltonianClass::ALL {
+            let trees = Trees::up_to(TreeRule::Class(class), 6);
+            for order in 2..=6 {
+                let square = |tree: BicolouredTree| {
+                    let symmetry = tree.symmetry();
+                    BigRational::new(BigInt::one(), &symmetry * &symmetry)
+                };
+                let all: BigRational = trees.of_order(order).map(square).sum();
+                let chosen: BigRational = trees
+                    .representatives(order)
+                    .map(|(rest, last)| weight(class, &trees.product(rest, last), true))
+                    .sum();
+                assert_eq!(chosen, all, "{class} {order}");
+            }
+        }
+    }
+
+    #[test]
+    fn moving_the_root_keeps_the_direction_of_edges() {
+        let tree: BicolouredTree = "q[p,q]".parse().expect("a tree");
+        let rerooted: Vec<String> = tree.rerooted().iter().map(ToString::to_string).collect();
+        assert_eq!(rerooted, ["q[q,p]", "q[p[p]]", "p[q,p]", "p[q[q]]"]);
+    }
+}

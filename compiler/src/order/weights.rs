@@ -1,0 +1,181 @@
+//! Elementary weights over a pair of matrices, exactly.
+//!
+//! `Φ_i(u∘v) = Φ_i(u) Σ_j a_ij Φ_j(v)`, so with the stages of all smaller trees kept a tree takes one
+//! product of vectors, and as the root of a condition one inner product: in a node algebra a trace. What
+//! is kept for a tree: `Φ_i`, `b_i Φ_i` and `Σ_j a_ij Φ_j`, each computed when it is first needed.
+//! Conditions of the highest order keep nothing.
+
+use std::cell::OnceCell;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::One;
+
+use super::enumeration::{TreeRule, Trees};
+use super::tree::{BicolouredTree, Colour};
+use crate::algebra::{Number, StageAlgebra};
+use crate::pair::Pair;
+
+/// The highest order of trees that are enumerated: densities, at most `order!`, are kept in 64 bits.
+pub(super) const MAX_ORDER: usize = 20;
+
+/// The tree of a condition: one vertex, or a product of trees in the enumeration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Condition {
+    rest: u32,
+    last: Option<u32>,
+}
+
+/// What is kept for a tree, each once it is needed.
+struct Kept<V> {
+    /// `γ`
+    density: u64,
+    /// `Φ_i`
+    stages: OnceCell<V>,
+    /// `b_i Φ_i`, or with `b̃` for a root coloured `p`.
+    weighted: OnceCell<V>,
+    /// `Σ_j a_ij Φ_j`, or with `ã` for a root coloured `p`.
+    applied: OnceCell<V>,
+}
+
+/// The elementary weights of a method.
+pub(super) struct Weights<'a, A: StageAlgebra> {
+    pair: &'a Pair<A>,
+    trees: Trees,
+    kept: Vec<Kept<A::Vector>>,
+}
+
+impl<'a, A: StageAlgebra> Weights<'a, A> {
+    pub(super) fn new(pair: &'a Pair<A>, rule: TreeRule) -> Self {
+        Weights {
+            pair,
+            trees: Trees::up_to(rule, 0),
+            kept: Vec::new(),
+        }
+    }
+
+    /// The trees of all conditions of an order, or only those that a symplectic method leaves; the order
+    /// is between 1 and [`MAX_ORDER`].
+    pub(super) fn conditions(&mut self, order: usize, representatives: bool) -> Vec<Condition> {
+        self.grow(order - 1);
+        let product = |(rest, last)| Condition {
+            rest,
+            last: Some(last),
+        };
+        let trees = &self.trees;
+        if order == 1 {
+            let vertex = |rest| Condition { rest, last: None };
+            trees.indices(1).map(vertex).collect()
+        } else if representatives {
+            trees.representatives(order).map(product).collect()
+        } else {
+            trees.products(order).map(product).collect()
+        }
+    }
+
+    /// Makes the trees up to an order available.
+    pub(super) fn grow(&mut self, order: usize) {
+        self.trees.grow(order);
+        for index in self.kept.len()..self.trees.len() {
+            let density = match self.trees.entry(index as u32).product {
+                None => 1,
+                Some((rest, last)) => self.density(rest, last),
+            };
+            self.kept.push(Kept {
+                density,
+                stages: OnceCell::new(),
+                weighted: OnceCell::new(),
+                applied: OnceCell::new(),
+            });
+        }
+    }
+
+    fn density(&self, rest: u32, last: u32) -> u64 {
+        let (before, added) = (self.trees.size(rest) as u64, self.trees.size(last) as u64);
+        // γ(rest) has the factor |rest|, which becomes |rest| + |last|.
+        let grown = self.kept[rest as usize].density / before * (before + added);
+        grown * self.kept[last as usize].density
+    }
+
+    /// What the elementary weight has to be: `1/γ`.
+    pub(super) fn wanted(&self, condition: Condition) -> BigRational {
+        let Condition { rest, last } = condition;
+        let density = last.map_or(1, |last| self.density(rest, last));
+        BigRational::new(BigInt::one(), density.into())
+    }
+
+    /// The tree.
+    pub(super) fn tree(&self, condition: Condition) -> BicolouredTree {
+        let Condition { rest, last } = condition;
+        last.map_or_else(
+            || self.trees.tree(rest),
+            |last| self.trees.product(rest, last),
+        )
+    }
+
+    /// The elementary weight `Σ_i b_i Φ_i`.
+    pub(super) fn value(&self, condition: Condition) -> Number<'a> {
+        let algebra = &*self.pair.algebra;
+        let weighted = self.weighted(condition.rest);
+        match condition.last {
+            Some(last) => algebra.inner(weighted, self.applied(last)),
+            None => algebra.sum(weighted),
+        }
+    }
+
+    /// The terms `b_i Φ_i` of the elementary weight.
+    pub(super) fn terms(&self, condition: Condition) -> A::Vector {
+        let weighted = self.weighted(condition.rest);
+        match condition.last {
+            Some(last) => self.pair.algebra.multiply(weighted, self.applied(last)),
+            None => weighted.clone(),
+        }
+    }
+
+    /// The trees of an order with a root of this colour.
+    pub(super) fn coloured(&self, order: usize, colour: Colour) -> Vec<u32> {
+        let indices = self.trees.indices(order);
+        indices
+            .filter(|&index| self.trees.colour(index) == colour)
+            .collect()
+    }
+
+    /// A tree in the enumeration.
+    pub(super) fn enumerated(&self, index: u32) -> BicolouredTree {
+        self.trees.tree(index)
+    }
+
+    /// `Φ_i` of a tree in the enumeration.
+    pub(super) fn stages(&self, index: u32) -> &A::Vector {
+        self.kept[index as usize].stages.get_or_init(|| {
+            let algebra = &*self.pair.algebra;
+            match self.trees.entry(index).product {
+                None => algebra.constant(&BigRational::one()),
+                Some((rest, last)) if self.trees.entry(rest).product.is_none() => {
+                    self.applied(last).clone()
+                }
+                Some((rest, last)) => algebra.multiply(self.stages(rest), self.applied(last)),
+            }
+        })
+    }
+
+    fn weighted(&self, index: u32) -> &A::Vector {
+        self.kept[index as usize].weighted.get_or_init(|| {
+            let weights = match self.trees.colour(index) {
+                Colour::Q => &self.pair.b,
+                Colour::P => &self.pair.b_tilde,
+            };
+            self.pair.algebra.multiply(weights, self.stages(index))
+        })
+    }
+
+    fn applied(&self, index: u32) -> &A::Vector {
+        self.kept[index as usize].applied.get_or_init(|| {
+            let matrix = match self.trees.colour(index) {
+                Colour::Q => &self.pair.a,
+                Colour::P => &self.pair.a_tilde,
+            };
+            self.pair.algebra.apply(matrix, self.stages(index))
+        })
+    }
+}
