@@ -284,13 +284,21 @@ pub enum ErrorKind {
         /// What it should say.
         expected: String,
     },
-    /// A required property that is refuted.
-    #[error("the method is not `{requirement}`: {witness}")]
+    /// A requirement that is refuted.
+    #[error("{message}")]
     Requirement {
-        /// The property.
+        /// What does not hold, with the witness.
+        message: String,
+    },
+    /// A requirement that is only verified.
+    #[error(
+        "`{requirement}` is not proved, only verified to 2^-{bits}; `accept: verified({bits} bits)` takes that for enough"
+    )]
+    NotProved {
+        /// The requirement.
         requirement: String,
-        /// Why it does not hold.
-        witness: String,
+        /// The binary places to which it is verified.
+        bits: u32,
     },
 }
 

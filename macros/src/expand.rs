@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{ToTokens, quote, quote_spanned};
 use symplectic_compiler::emit::{Header, method};
 use symplectic_compiler::export::read_text;
-use symplectic_compiler::{Evidence, Key, Limits, Properties, Tableau, check};
-use syn::parse::Parser;
+use symplectic_compiler::{Key, Limits, Requirement, Tableau, check};
+use syn::parse::{Parse, ParseStream, Parser};
 use syn::punctuated::Punctuated;
 use syn::{LitInt, LitStr, Token, bracketed, parenthesized};
 
@@ -190,32 +190,48 @@ fn read(file: &Field, limits: &Limits) -> syn::Result<(Tableau, TokenStream)> {
     ))
 }
 
-/// `require: [symplectic, symmetric]`: the properties that exist; the others are errors.
-fn requirements(field: &Field, errors: &mut Errors) -> Vec<Ident> {
-    let list = |input: syn::parse::ParseStream<'_>| {
+/// A requirement with the tokens that it was read from.
+type Required = (Requirement, Source);
+
+/// `require: [symplectic, order >= 4]`: the requirements that exist; the others are errors.
+fn requirements(field: &Field, errors: &mut Errors) -> Vec<Required> {
+    let list = |input: ParseStream<'_>| {
         let content;
         bracketed!(content in input);
-        Punctuated::<Ident, Token![,]>::parse_terminated(&content)
+        Punctuated::<Item, Token![,]>::parse_terminated(&content)
     };
-    let names = list.parse2(field.value.clone()).map_err(|error| {
-        let message = "expected a list of properties: `require: [symplectic, symmetric]`";
+    let items = list.parse2(field.value.clone()).map_err(|error| {
+        let message = "expected a list of requirements: `require: [symplectic, order >= 4]`";
         syn::Error::new(error.span(), message)
     });
-    let known = |name: &Ident| {
-        if Properties::NAMES.iter().any(|known| name == known) {
-            return Ok(name.clone());
+    let items = errors.note(items).unwrap_or_default();
+    let read = |item: &Item| {
+        let source = Source::new(item.0.clone());
+        match Requirement::parse(&source.text) {
+            Ok(requirement) => Ok((requirement, source)),
+            Err(error) => Err(source.locate(&error)),
         }
-        let message = format!(
-            "unknown property `{name}`; known here: {}",
-            Properties::NAMES.join(", ")
-        );
-        Err(syn::Error::new(name.span(), message))
     };
-    let names = errors.note(names).unwrap_or_default();
-    names
+    items
         .iter()
-        .filter_map(|name| errors.note(known(name)))
+        .filter_map(|item| errors.note(read(item)))
         .collect()
+}
+
+/// The tokens up to the next comma.
+struct Item(TokenStream);
+
+impl Parse for Item {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        let mut tokens = TokenStream::new();
+        while !input.is_empty() && !input.peek(Token![,]) {
+            tokens.extend([input.parse::<TokenTree>()?]);
+        }
+        if tokens.is_empty() {
+            return Err(input.error("expected a requirement"));
+        }
+        Ok(Item(tokens))
+    }
 }
 
 fn max_stages(field: &Field) -> syn::Result<Limits> {
@@ -231,7 +247,7 @@ fn max_stages(field: &Field) -> syn::Result<Limits> {
 
 /// `accept: verified(100 bits)`: the binary places.
 fn accepted(field: &Field) -> syn::Result<u32> {
-    let shape = |input: syn::parse::ParseStream<'_>| {
+    let shape = |input: ParseStream<'_>| {
         let content;
         let word: Ident = input.parse()?;
         parenthesized!(content in input);
@@ -249,36 +265,11 @@ fn accepted(field: &Field) -> syn::Result<u32> {
 }
 
 /// Every requirement has to be proved, or verified to as many binary places as are accepted.
-fn prove(tableau: &Tableau, requirements: &[Ident], accepted: Option<u32>) -> syn::Result<()> {
+fn prove(tableau: &Tableau, requirements: &[Required], accepted: Option<u32>) -> syn::Result<()> {
     let mut errors = Errors(None);
-    if requirements.is_empty() {
-        return Ok(());
-    }
-    let properties = tableau.properties();
-    for name in requirements {
-        let Some(property) = properties.get(&name.to_string()) else {
-            continue;
-        };
-        let witness = property.witness.as_deref().unwrap_or("no witness");
-        match property.evidence {
-            Evidence::Proved => {}
-            Evidence::Refuted => {
-                let message = format!("the method is not `{name}`: {witness}");
-                errors.note::<()>(Err(syn::Error::new(name.span(), message)));
-            }
-            Evidence::Verified { bits }
-                if property.holds && accepted.is_some_and(|accepted| accepted <= bits) => {}
-            Evidence::Verified { bits } if property.holds => {
-                let message = format!(
-                    "`{name}` is not proved, only verified to 2^-{bits}; `accept: verified({bits} bits)` takes that for enough"
-                );
-                errors.note::<()>(Err(syn::Error::new(name.span(), message)));
-            }
-            Evidence::Verified { .. } => {
-                let message = format!("the method is not known to be `{name}`: {witness}");
-                errors.note::<()>(Err(syn::Error::new(name.span(), message)));
-            }
-        }
+    for (requirement, source) in requirements {
+        let decided = tableau.require(requirement, accepted);
+        errors.note(decided.map_err(|kind| source.locate(&kind.into())));
     }
     errors.0.map_or(Ok(()), Err)
 }
