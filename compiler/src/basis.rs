@@ -138,14 +138,29 @@ impl Basis {
             }
             return Ok(Self::of_polynomials(name, polynomials));
         }
-        let space = match echelon_form(&functions) {
+        // Factors do not matter, but they may lie in no field with the others.
+        let mut scaled = Vec::new();
+        for function in &functions {
+            let Some((_, leading)) = function.terms().next() else {
+                return Err(ErrorKind::DependentBasis {
+                    combination: function.to_string(),
+                });
+            };
+            scaled.push(match leading.inverse() {
+                Ok(inverse) if leading.as_rational().is_none() => function.scale(&inverse)?,
+                _ => function.clone(),
+            });
+        }
+        let space = match echelon_form(&scaled) {
             Some(Echelon::Dependent(coefficients)) => {
+                let texts: Vec<String> = scaled.iter().map(ToString::to_string).collect();
                 return Err(ErrorKind::DependentBasis {
                     combination: combination(&texts, &coefficients),
                 });
             }
             Some(Echelon::Polynomials(polynomials)) => Space::Polynomials(polynomials),
-            Some(Echelon::Independent) | None => Space::Functions(functions),
+            Some(Echelon::Independent(reduced)) => Space::Functions(reduced.unwrap_or(scaled)),
+            None => Space::Functions(scaled),
         };
         Ok(Basis { name, space })
     }
@@ -214,8 +229,8 @@ enum Echelon {
     Dependent(Vec<Constant>),
     /// The functions span a space of polynomials with rational coefficients.
     Polynomials(Vec<Polynomial>),
-    /// Anything else.
-    Independent,
+    /// Anything else: the reduced functions, unless they are beyond the bounds of functions.
+    Independent(Option<Vec<Function>>),
 }
 
 /// Reduces the coefficients of functions to echelon form, if they lie in one constant field.
@@ -276,7 +291,19 @@ fn echelon_form(functions: &[Function]) -> Option<Echelon> {
         Some(sum)
     };
     let polynomials: Option<Vec<Polynomial>> = rows.iter().map(polynomial).collect();
-    Some(polynomials.map_or(Echelon::Independent, Echelon::Polynomials))
+    if let Some(polynomials) = polynomials {
+        return Some(Echelon::Polynomials(polynomials));
+    }
+    let function = |row: &Vec<_>| {
+        let mut function = Function::zero();
+        let pairs = terms.iter().zip(row);
+        for (term, x) in pairs.filter(|(_, x)| !field.is_zero(x)) {
+            let coefficient = field.to_constant(x)?;
+            function.insert((*term).clone(), &coefficient).ok()?;
+        }
+        Some(function)
+    };
+    Some(Echelon::Independent(rows.iter().map(function).collect()))
 }
 
 /// A number that can stand before a function in a combination.

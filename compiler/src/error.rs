@@ -216,6 +216,14 @@ pub enum ErrorKind {
         /// The combination of the basis.
         combination: String,
     },
+    /// Basis functions whose products a quadrature formula does not tell apart.
+    #[error(
+        "the Gram matrix of the basis with these nodes and weights is singular: the quadrature formula gives 0 for {combination} times each basis function; change a weight, a node or a function"
+    )]
+    SingularGram {
+        /// The combination of the basis.
+        combination: String,
+    },
     /// Parts of a definition that do not go together.
     #[error("{message}")]
     Definition {
@@ -242,7 +250,7 @@ pub enum ErrorKind {
     },
     /// A coefficient beyond the largest double.
     #[error(
-        "a coefficient is too large for a double, which makes it {value}; move the nodes apart"
+        "a coefficient is too large for a double, which makes it {value}; move the nodes apart, or give smaller coefficients"
     )]
     Overflow {
         /// What it would be as a double.
@@ -250,7 +258,7 @@ pub enum ErrorKind {
     },
     /// A vanishing weight, by which `ã` would divide.
     #[error(
-        "the weight b_{index} at the node c_{index} = {node} is zero, and ã_{index}j = (b_{index} b_j − b_j a_j{index})/b_{index} divides by it; choose other nodes or another basis"
+        "the weight b_{index} at the node c_{index} = {node} is zero, and ã_{index}j = (b_{index} b_j − b_j a_j{index})/b_{index} divides by it; choose other nodes, another basis or other weights"
     )]
     ZeroWeight {
         /// The stage, counted from 1.
@@ -260,7 +268,7 @@ pub enum ErrorKind {
     },
     /// A weight that cannot be told from zero.
     #[error(
-        "the weight b_{index} cannot be told from zero, |b_{index}| ≤ 2^-{bits}, and ã_{index}j = (b_{index} b_j − b_j a_j{index})/b_{index} divides by it; choose other nodes or another basis"
+        "the weight b_{index} cannot be told from zero, |b_{index}| ≤ 2^-{bits}, and ã_{index}j = (b_{index} b_j − b_j a_j{index})/b_{index} divides by it; choose other nodes, another basis or other weights"
     )]
     UndecidedWeight {
         /// The stage, counted from 1.
@@ -314,6 +322,14 @@ fn real_roots(count: usize) -> String {
 }
 
 impl ErrorKind {
+    /// Whether an error of a derivation is about a weight.
+    pub(crate) fn is_about_weight(&self) -> bool {
+        matches!(
+            self,
+            ErrorKind::ZeroWeight { .. } | ErrorKind::UndecidedWeight { .. }
+        )
+    }
+
     /// Whether an error of [`derive_from`](crate::derive_from) is about the basis rather than the nodes.
     pub fn is_about_basis(&self) -> bool {
         matches!(

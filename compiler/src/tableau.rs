@@ -1,9 +1,13 @@
 //! The exact tableau of a symplectic partitioned Runge–Kutta method.
 
+use std::sync::OnceLock;
+
 use crate::algebra::{Constants, Dense, NodeAlgebra, Number, Reals, StageAlgebra};
 use crate::coefficients::Coefficients;
 use crate::definition::Definition;
 use crate::pair::Pair;
+use crate::properties::Properties;
+use crate::stability::Stability;
 
 /// Where a tableau comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -28,6 +32,8 @@ pub struct Tableau {
     pub(crate) name: Option<String>,
     pub(crate) provenance: Provenance,
     pub(crate) exact: Exact,
+    properties: OnceLock<Properties>,
+    stability: OnceLock<Stability>,
 }
 
 impl PartialEq for Tableau {
@@ -112,6 +118,50 @@ macro_rules! over_algebra {
 pub(crate) use over_algebra;
 
 impl Tableau {
+    pub(crate) fn new(definition: Definition, exact: Exact) -> Self {
+        Tableau {
+            name: None,
+            provenance: Provenance {
+                definition,
+                source: None,
+            },
+            exact,
+            properties: OnceLock::new(),
+            stability: OnceLock::new(),
+        }
+    }
+
+    /// All properties, decided at the first call.
+    ///
+    /// ```
+    /// let verlet = symplectic_compiler::derive("polynomial(2)", "lobatto(2)")?;
+    /// let properties = verlet.properties();
+    /// assert!(properties.symplectic.holds && properties.explicit.holds);
+    /// assert_eq!(properties.explicit.witness.as_deref(), Some("Q1, P1 = P2, Q2"));
+    /// assert!(!properties.equal_matrices.holds);
+    /// assert_eq!(properties.equal_matrices.witness.as_deref(), Some("a_11 − ã_11 = -1/2"));
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    pub fn properties(&self) -> Properties {
+        let decided = || over_algebra!(self, pair => Properties::of_pair(pair));
+        self.properties.get_or_init(decided).clone()
+    }
+
+    /// Linear stability, decided at the first call.
+    ///
+    /// ```
+    /// let lobatto = symplectic_compiler::derive("polynomial(3)", "lobatto(3)")?;
+    /// let stability = lobatto.stability();
+    /// assert_eq!(stability.trace.to_string(), "(ν⁴ − 22ν² + 48)/(ν² + 24)");
+    /// assert_eq!(stability.intervals_text(), "(0, 2*sqrt(2)) ∪ (2*sqrt(3), 2*sqrt(6))");
+    /// assert_eq!(stability.intervals[0].high.decimal(20), "2.8284271247461900976");
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    pub fn stability(&self) -> Stability {
+        let decided = || over_algebra!(self, pair => Stability::of_pair(pair));
+        self.stability.get_or_init(decided).clone()
+    }
+
     /// The same tableau with a name.
     #[must_use]
     pub fn named(mut self, name: impl Into<String>) -> Self {
@@ -202,10 +252,8 @@ impl Tableau {
     /// The adjoint method, the inverse of the step with `−h`; its stages keep their labels.
     #[must_use]
     pub fn adjoint(&self) -> Self {
-        Tableau {
-            name: self.name.as_ref().map(|name| format!("adjoint of {name}")),
-            provenance: self.provenance.clone(),
-            exact: self.exact.adjoint(),
-        }
+        let mut adjoint = Tableau::new(self.provenance.definition.clone(), self.exact.adjoint());
+        adjoint.name = self.name.as_ref().map(|name| format!("adjoint of {name}"));
+        adjoint
     }
 }

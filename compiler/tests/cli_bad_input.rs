@@ -64,7 +64,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(2)",
         "1/2, 1",
         expect![[r#"
-        error: the weight b_2 at the node c_2 = 1 is zero, and ã_2j = (b_2 b_j − b_j a_j2)/b_2 divides by it; choose other nodes or another basis
+        error: the weight b_2 at the node c_2 = 1 is zero, and ã_2j = (b_2 b_j − b_j a_j2)/b_2 divides by it; choose other nodes, another basis or other weights
          --> nodes:1:1
           |
         1 | 1/2, 1

@@ -29,6 +29,8 @@ pub struct Constants {
     known: HashMap<Constant, FieldElement>,
 }
 
+/// Longer texts help nobody to read a number, and would not be read again.
+const LONGEST_TEXT: usize = 2000;
 /// The largest product of the degree in `X` and the root of the number of constants: elimination among
 /// rational functions grows with both.
 const MAX_DEGREES: f64 = 160.0;
@@ -51,7 +53,7 @@ struct Parts {
     /// Radicals and roots; what stands inside one comes before it.
     radicals: Vec<Constant>,
     seen: HashSet<Constant>,
-    /// All exponents and arguments in radians.
+    /// All exponents and arguments in radians, and powers of π.
     arguments: Vec<BigRational>,
 }
 
@@ -93,7 +95,10 @@ impl Parts {
             }
             Tree::Ln(_) => return None,
             Tree::Product(factors) => {
-                for (x, _) in factors {
+                for (x, exponent) in factors {
+                    if matches!(x.tree(), Tree::Pi) {
+                        self.arguments.push(ratio(i64::from(exponent.abs()), 1));
+                    }
                     self.collect(x)?;
                 }
             }
@@ -140,7 +145,8 @@ impl Constants {
             parts.collect(constant)?;
         }
         let transcendental = parts.transcendental()?;
-        if parts.degree()? * (constants.len() as f64).sqrt() > MAX_DEGREES {
+        let size = (1.0 + parts.degree()?) * (constants.len() as f64).sqrt();
+        if size > MAX_DEGREES {
             return None;
         }
         let mut result = Constants {
@@ -168,6 +174,11 @@ impl Constants {
             };
             result.extend(&extension);
             result.algebraic.insert(radical.clone(), extension.number);
+        }
+        // Without rational functions elimination is as fast as the field.
+        let degree = result.field.algebraic().degree() as f64;
+        if transcendental.is_some() && size * degree > MAX_DEGREES {
+            return None;
         }
         for constant in constants {
             if constant.as_rational().is_none() && !result.known.contains_key(constant) {
@@ -352,6 +363,7 @@ impl Field for Constants {
     }
 
     fn exact(&self, x: &FieldElement) -> Option<String> {
-        Some(self.field.display(x))
+        let text = self.field.display(x);
+        (text.len() <= LONGEST_TEXT).then_some(text)
     }
 }

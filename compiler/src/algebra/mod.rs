@@ -24,6 +24,6 @@ pub use field::{ConstantField, FieldElement};
 pub use node::{ClosedForm, NodeAlgebra, Tensor};
 pub use number::{Number, Zero};
 pub use rationals::Rationals;
-pub use real::{Real, Reals, ZERO_BITS};
+pub use real::{ROUNDING_BITS, Real, Reals, ZERO_BITS};
 pub(crate) use stage_algebra::group_by;
 pub use stage_algebra::{Scalar, StageAlgebra};

@@ -6,7 +6,8 @@ use num_rational::BigRational;
 use num_traits::{Signed, Zero as _};
 
 use super::node::{NodeNumber, short_rational};
-use super::{ConstantField, FieldElement, Real};
+use super::real::ROUNDING_BITS;
+use super::{ConstantField, FieldElement, Real, ZERO_BITS};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::{self, Decimal, exact};
@@ -64,9 +65,18 @@ impl Number<'_> {
             Number::Rational(known) => known == value,
             Number::Node(number) => number.equals(value),
             Number::Field(_, element) => element.as_rational().as_ref() == Some(value),
-            Number::Real(number) => return number.difference(value),
+            Number::Real(number) => return number.difference(value, ZERO_BITS),
         };
         if equal { Zero::Yes } else { Zero::No }
+    }
+
+    /// Whether the number equals a rational for the purpose of rounding: exactly, or as far as very fine
+    /// enclosures tell.
+    fn is_surely(&self, value: &BigRational) -> bool {
+        match self {
+            Number::Real(number) => number.difference(value, ROUNDING_BITS).may_be(),
+            _ => self.difference(value) == Zero::Yes,
+        }
     }
 
     /// Whether the number equals a rational, as far as is known.
@@ -125,7 +135,7 @@ impl Number<'_> {
     pub fn low_double(&self, double: f64) -> f64 {
         let double = exact(double);
         // Here the difference is zero, which no enclosure tells.
-        if self.equals(&double) {
+        if self.is_surely(&double) {
             return 0.0;
         }
         self.round(
@@ -157,7 +167,7 @@ impl Number<'_> {
         if let Number::Rational(value) = self {
             return round(value);
         }
-        if self.is_zero() {
+        if self.is_surely(&BigRational::zero()) {
             return round(&BigRational::zero());
         }
         let mut interval = self.enclose(bits);
@@ -176,7 +186,7 @@ impl Number<'_> {
             // middle: the exact test is expensive, so it has to be worth it.
             let narrow = (high - low) * exact(2f64.powi(64)) < (b - a).abs();
             if decided && narrow && excluded.as_ref() != Some(&middle) {
-                if self.equals(&middle) {
+                if self.is_surely(&middle) {
                     return round(&middle);
                 }
                 excluded = Some(middle);

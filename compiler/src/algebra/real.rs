@@ -1,5 +1,6 @@
 //! Real numbers as expressions that are enclosed as narrowly as needed (theory.md §3.3).
 
+use std::cmp::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use num_rational::BigRational;
@@ -9,9 +10,11 @@ use super::{Field, Number, Zero};
 use crate::arithmetic::interval::Interval;
 use crate::symbolic::Constant;
 
-/// Binary places to which a number that may be zero is compared with zero. Half the smallest positive
-/// double is `2⁻¹⁰⁷⁵`, so that what is not told from zero is the double zero.
+/// Binary places to which equations are verified. Half the smallest positive double is `2⁻¹⁰⁷⁵`, so that what
+/// is not told from zero is the double zero.
 pub const ZERO_BITS: u32 = 1280;
+/// Binary places to which a number is compared with zero and with ties when it is rounded.
+pub const ROUNDING_BITS: u32 = 8192;
 
 /// A real number: constants joined by field operations.
 ///
@@ -107,20 +110,28 @@ impl Real {
         Some(value)
     }
 
-    /// What is known about whether the number equals a rational.
-    pub fn difference(&self, value: &BigRational) -> Zero {
+    /// What is known about whether the number equals a rational, from enclosures with as many binary places
+    /// as `limit`.
+    pub fn difference(&self, value: &BigRational, limit: u32) -> Zero {
         if let Some(known) = self.as_rational() {
             return if known == value { Zero::Yes } else { Zero::No };
+        }
+        // The sign of a product of tiny numbers is known from its form.
+        if let Operation::Constant(constant) = &self.0.operation
+            && value.is_zero()
+            && constant.sign().is_some_and(Ordering::is_ne)
+        {
+            return Zero::No;
         }
         let mut bits = 128;
         loop {
             if !self.enclose(bits).contains(value) {
                 return Zero::No;
             }
-            if bits >= ZERO_BITS {
-                return Zero::Within(ZERO_BITS);
+            if bits >= limit {
+                return Zero::Within(limit);
             }
-            bits = (2 * bits).min(ZERO_BITS);
+            bits = (2 * bits).min(limit);
         }
     }
 }
@@ -194,7 +205,7 @@ impl Field for Reals {
     }
 
     fn zero(&self, x: &Real) -> Zero {
-        x.difference(&BigRational::default())
+        x.difference(&BigRational::default(), ZERO_BITS)
     }
 
     /// The largest, so that enclosures stay narrow.

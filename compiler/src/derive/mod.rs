@@ -79,6 +79,8 @@ impl Definition {
     fn place(&self, kind: ErrorKind) -> Error {
         let keys: &[Key] = if kind.is_about_basis() {
             &[Key::Basis]
+        } else if kind.is_about_weight() {
+            &[Key::Nodes, Key::Weights, Key::Quadrature, Key::B]
         } else {
             &[Key::Nodes, Key::Quadrature, Key::A]
         };

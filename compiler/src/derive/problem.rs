@@ -146,6 +146,16 @@ fn misfit(message: String) -> Error {
     ErrorKind::Definition { message }.into()
 }
 
+/// An error about one part.
+fn misfit_at(definition: &Definition, key: Key, message: String) -> Error {
+    let text = definition.get(key).unwrap_or_default();
+    let input = Input {
+        name: key.name(),
+        text,
+    };
+    input.error(&(0..text.len()), ErrorKind::Definition { message })
+}
+
 fn exchange(definition: &Definition) -> Result<bool, Error> {
     match definition.get(Key::Exchange) {
         None | Some("false") => Ok(false),
@@ -173,7 +183,7 @@ fn read_derived(
     let basis = basis.map(|text| errors.note(Basis::parse(text, limits)));
     let mut nodes = |key: Key| {
         let text = definition.get(key);
-        text.map(|text| errors.note(Nodes::parse(key.name(), text, limits)))
+        text.map(|text| errors.note(Nodes::parse_ordered(key.name(), text, limits)))
     };
     let (square, rectangular) = (nodes(Key::Nodes), nodes(Key::Quadrature));
     let weights = definition.get(Key::Weights);
@@ -186,23 +196,26 @@ fn read_derived(
     match (basis, square, rectangular, weights) {
         (Some(basis), Some(nodes), None, None) => Some(Construction::Collocation {
             basis: basis?,
-            nodes: nodes?,
+            nodes: nodes?.0,
         }),
         (Some(basis), None, Some(nodes), None) => Some(Construction::Galerkin {
             basis: basis?,
-            nodes: nodes?,
+            nodes: nodes?.0,
             weights: None,
         }),
         (Some(basis), None, Some(nodes), Some(weights)) => {
-            let (basis, nodes, weights) = (basis?, nodes?, weights?);
+            let (basis, (nodes, order), weights) = (basis?, nodes?, weights?);
             if weights.len() != nodes.len() {
-                errors.0.push(misfit(format!(
+                let message = format!(
                     "{} weights for {} nodes; a quadrature formula has one for each",
                     weights.len(),
                     nodes.len()
-                )));
+                );
+                errors.0.push(misfit_at(definition, Key::Weights, message));
                 return None;
             }
+            // The nodes stand in ascending order now, and the weights go with them.
+            let weights = order.iter().map(|&i| weights[i].clone()).collect();
             Some(Construction::Galerkin {
                 basis,
                 nodes,
@@ -277,10 +290,11 @@ fn read_given(
     let stages = a.len();
     let mut check = |key: Key, found: usize| {
         if found != stages {
-            errors.0.push(misfit(format!(
+            let message = format!(
                 "`{}` has {found} entries or rows where `a` has {stages} rows",
                 key.name()
-            )));
+            );
+            errors.0.push(misfit_at(definition, key, message));
         }
     };
     check(Key::B, b.len());

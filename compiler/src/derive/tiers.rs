@@ -16,7 +16,7 @@ use crate::error::ErrorKind;
 use crate::pair::Pair;
 use crate::quadrature::{Nodes, node_text};
 use crate::symbolic::{Constant, Function};
-use crate::tableau::{Exact, Provenance, Tableau};
+use crate::tableau::{Exact, Tableau};
 
 impl Problem {
     /// Derives the tableau.
@@ -33,18 +33,12 @@ impl Problem {
             } => galerkin(basis, nodes, weights.as_deref())?,
             Construction::Given { a, b, momenta } => given(a, b, momenta)?,
         };
-        Ok(Tableau {
-            name: None,
-            provenance: Provenance {
-                definition: self.definition(),
-                source: None,
-            },
-            exact: if self.exchange {
-                exact.exchanged()
-            } else {
-                exact
-            },
-        })
+        let exact = if self.exchange {
+            exact.exchanged()
+        } else {
+            exact
+        };
+        Ok(Tableau::new(self.definition(), exact))
     }
 }
 
@@ -59,12 +53,13 @@ fn collocation(basis: &Basis, nodes: &Nodes) -> Result<Exact, ErrorKind> {
         let pair = node::collocation(polynomials, rule.algebra());
         return pair
             .map(Exact::Nodes)
-            .map_err(|failure| in_node_algebra(failure, polynomials, rule.algebra()));
+            .map_err(|failure| in_node_algebra(failure, polynomials, rule.algebra(), false));
     }
     let functions = basis.functions()?;
     let constants = nodes.constants()?;
     let samples = Samples::new(&functions, &constants)?;
     let explain = Explanation {
+        gram: false,
         functions: &functions,
         nodes: &constants,
     };
@@ -96,7 +91,13 @@ fn galerkin(
     if let (Some(polynomials), Nodes::Rule(rule), None) = (basis.polynomials(), nodes, weights) {
         return node::galerkin(polynomials, rule)
             .map(Exact::Nodes)
-            .map_err(|failure| in_node_algebra(failure, polynomials, rule.algebra()));
+            .map_err(|failure| in_node_algebra(failure, polynomials, rule.algebra(), true));
+    }
+    // All polynomials of degree less than the number of nodes: the weights of the square construction are
+    // the interpolatory ones, and so is everything else.
+    let spans = |f: &[Polynomial]| f.iter().all(|f| f.degree() < Some(nodes.len()));
+    if weights.is_none() && basis.len() == nodes.len() && basis.polynomials().is_some_and(spans) {
+        return collocation(basis, nodes);
     }
     let functions = basis.functions()?;
     let constants = nodes.constants()?;
@@ -106,6 +107,7 @@ fn galerkin(
     let needed = samples.constants().chain(moments.constants());
     let needed = needed.chain(weights.unwrap_or_default());
     let explain = Explanation {
+        gram: true,
         functions: &functions,
         nodes: &constants,
     };
@@ -153,6 +155,7 @@ fn given(a: &[Vec<Constant>], b: &[Constant], momenta: &Momenta) -> Result<Exact
     };
     let nodes: Vec<Constant> = a.iter().map(row_sum).collect::<Result<_, _>>()?;
     let explain = Explanation {
+        gram: false,
         functions: &[],
         nodes: &nodes,
     };
@@ -217,6 +220,7 @@ fn in_node_algebra(
     failure: node::Failure,
     functions: &[Polynomial],
     algebra: &NodeAlgebra,
+    gram: bool,
 ) -> ErrorKind {
     match failure {
         node::Failure::Singular(coefficients) => {
@@ -224,8 +228,11 @@ fn in_node_algebra(
                 .iter()
                 .map(|f| f.display("t").to_string())
                 .collect();
-            ErrorKind::SingularBasis {
-                combination: combination(&texts, &coefficients),
+            let combination = combination(&texts, &coefficients);
+            if gram {
+                ErrorKind::SingularGram { combination }
+            } else {
+                ErrorKind::SingularBasis { combination }
             }
         }
         node::Failure::ZeroWeight(index) => ErrorKind::ZeroWeight {
@@ -237,6 +244,8 @@ fn in_node_algebra(
 
 /// What messages about a derivation over a field name.
 struct Explanation<'a> {
+    /// Whether the matrix is that of the products of the functions.
+    gram: bool,
     functions: &'a [Function],
     nodes: &'a [Constant],
 }
@@ -253,7 +262,9 @@ impl Explanation<'_> {
                     .map(|x| Shown::new(field, x))
                     .collect();
                 let combination = combination(&texts, &coefficients);
-                if singular.proved {
+                if self.gram {
+                    ErrorKind::SingularGram { combination }
+                } else if singular.proved {
                     ErrorKind::SingularBasis { combination }
                 } else {
                     ErrorKind::UndecidedBasis { combination }

@@ -14,11 +14,10 @@ mod symplectic;
 use std::borrow::Cow;
 use std::fmt;
 
-use self::symmetric::Symmetry;
+pub(crate) use self::symmetric::Symmetry;
 use crate::algebra::{Number, StageAlgebra, Zero};
 use crate::coefficients::{Coefficients, subscript};
 use crate::pair::Pair;
-use crate::tableau::{Tableau, over_algebra};
 
 /// How it is known whether a property holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -143,22 +142,11 @@ properties! {
     positive_weights: positive_weights::decide;
 }
 
-impl Tableau {
-    /// Decides all properties.
-    ///
-    /// ```
-    /// let verlet = symplectic_compiler::derive("polynomial(2)", "lobatto(2)")?.properties();
-    /// assert!(verlet.symplectic.holds && verlet.explicit.holds);
-    /// assert_eq!(verlet.explicit.witness.as_deref(), Some("Q1, P1 = P2, Q2"));
-    /// assert!(!verlet.equal_matrices.holds);
-    /// assert_eq!(verlet.equal_matrices.witness.as_deref(), Some("a_11 − ã_11 = -1/2"));
-    /// # Ok::<(), symplectic_compiler::Error>(())
-    /// ```
-    pub fn properties(&self) -> Properties {
-        over_algebra!(self, pair => {
-            let numbers = &pair.numbers();
-            Properties::decide(&Examined { pair, numbers })
-        })
+impl Properties {
+    /// Decides all properties of a pair.
+    pub(crate) fn of_pair<A: Symmetry>(pair: &Pair<A>) -> Self {
+        let numbers = &pair.numbers();
+        Properties::decide(&Examined { pair, numbers })
     }
 }
 

@@ -39,6 +39,18 @@ impl Nodes {
     /// Wrong expressions, unknown rules, too many or too few nodes, rules whose nodes are not all
     /// real, equal nodes and nodes outside `[0, 1]`, each at its place in the text.
     pub fn parse(part: &'static str, text: &str, limits: &Limits) -> Result<Self, Error> {
+        Self::parse_ordered(part, text, limits).map(|(nodes, _)| nodes)
+    }
+
+    /// As [`Nodes::parse`], with the places that the nodes have in the text, in ascending order of the nodes.
+    ///
+    /// # Errors
+    /// As [`Nodes::parse`].
+    pub(crate) fn parse_ordered(
+        part: &'static str,
+        text: &str,
+        limits: &Limits,
+    ) -> Result<(Self, Vec<usize>), Error> {
         let input = Input { name: part, text };
         let items = parse_list(input)?;
         if let [item] = items.as_slice()
@@ -52,7 +64,8 @@ impl Nodes {
                 let stages = count(input, item, family.name, arguments)?;
                 let rule = QuadratureRule::member(family, &stages, limits);
                 return rule
-                    .map(Nodes::Rule)
+                    .map(|rule| ((0..rule.len()).collect(), rule))
+                    .map(|(order, rule)| (Nodes::Rule(rule), order))
                     .map_err(|kind| input.error(&item.span, kind));
             }
             if !crate::symbolic::FUNCTIONS.contains(&function.as_str()) {
@@ -68,11 +81,16 @@ impl Nodes {
         Self::list(input, &items, limits)
     }
 
-    fn list(input: Input<'_>, items: &[Expression], limits: &Limits) -> Result<Self, Error> {
+    fn list(
+        input: Input<'_>,
+        items: &[Expression],
+        limits: &Limits,
+    ) -> Result<(Self, Vec<usize>), Error> {
         let whole = 0..input.text.len();
         check_stages(&items.len().into(), limits).map_err(|kind| input.error(&whole, kind))?;
         let mut nodes: Vec<Constant> = Vec::new();
-        for item in items {
+        let mut order: Vec<usize> = Vec::new();
+        for (index, item) in items.iter().enumerate() {
             let at = |kind| input.error(&item.span, kind);
             let node = item.constant(input)?;
             let outside = compare(&node, &Constant::zero()).map_err(at)? == Ordering::Less
@@ -94,15 +112,14 @@ impl Nodes {
                 }
             }
             nodes.insert(place, node);
+            order.insert(place, index);
         }
         let texts: Vec<String> = nodes.iter().map(ToString::to_string).collect();
         let name = texts.join(", ");
         let rational: Option<Vec<&BigRational>> = nodes.iter().map(Constant::as_rational).collect();
         let Some(rational) = rational else {
-            return Ok(Nodes::Listed {
-                name,
-                values: nodes,
-            });
+            let values = nodes;
+            return Ok((Nodes::Listed { name, values }, order));
         };
         let bits = rational.iter().map(|node| node.denom().bits() as usize);
         let size = bits.sum();
@@ -120,7 +137,7 @@ impl Nodes {
             &product * &Polynomial::from_rationals(&[-node, one.clone()]).primitive()
         });
         QuadratureRule::with_nodes(name, &polynomial)
-            .map(Nodes::Rule)
+            .map(|rule| (Nodes::Rule(rule), order))
             .map_err(|kind| input.error(&whole, kind))
     }
 

@@ -33,7 +33,6 @@ use crate::algebra::{Field, Number, Scalar, StageAlgebra};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::pair::Pair;
 use crate::properties::Evidence;
-use crate::tableau::{Tableau, over_algebra};
 
 pub use dispersion::Dispersion;
 pub use end_point::EndPoint;
@@ -63,21 +62,6 @@ pub struct Stability {
     pub runge_kutta: Option<RungeKuttaStability>,
     /// How all this is known: proved, or verified where numbers are only known by enclosures.
     pub evidence: Evidence,
-}
-
-impl Tableau {
-    /// Decides linear stability.
-    ///
-    /// ```
-    /// let lobatto = symplectic_compiler::derive("polynomial(3)", "lobatto(3)")?.stability();
-    /// assert_eq!(lobatto.trace.to_string(), "(ν⁴ − 22ν² + 48)/(ν² + 24)");
-    /// assert_eq!(lobatto.intervals_text(), "(0, 2*sqrt(2)) ∪ (2*sqrt(3), 2*sqrt(6))");
-    /// assert_eq!(lobatto.intervals[0].high.decimal(20), "2.8284271247461900976");
-    /// # Ok::<(), symplectic_compiler::Error>(())
-    /// ```
-    pub fn stability(&self) -> Stability {
-        over_algebra!(self, pair => Stability::of_pair(pair))
-    }
 }
 
 impl Stability {

@@ -158,7 +158,7 @@ impl Function {
     }
 
     /// Adds a multiple of a term.
-    pub(super) fn insert(&mut self, term: Term, coefficient: &Constant) -> Result<(), ErrorKind> {
+    pub(crate) fn insert(&mut self, term: Term, coefficient: &Constant) -> Result<(), ErrorKind> {
         if coefficient.is_trivially_zero() {
             return Ok(());
         }

@@ -49,6 +49,6 @@ pub const MAX_PRODUCT_SIZE: usize = 400_000;
 /// [`MAX_BITS`](crate::expression::MAX_BITS), for they are added without common divisors.
 pub const MAX_FRACTION_BITS: usize = 16_384;
 /// The largest product of degree and coefficient bits of the polynomial of a root.
-pub const MAX_ROOT_SIZE: usize = 1024;
+pub const MAX_ROOT_SIZE: usize = 4096;
 /// The largest degree of the polynomial of a root.
 pub const MAX_ROOT_DEGREE: usize = 32;

@@ -133,18 +133,33 @@ impl StageAlgebra for NodeAlgebra {
                 .map(|form| form.map(|form| form.to_string()))
                 .collect()
         };
-        closed_form::of_tensor(self, m)
+        let mut rows: Vec<Vec<Option<String>>> = closed_form::of_tensor(self, m)
             .into_iter()
             .map(text)
-            .collect()
+            .collect();
+        if rows.iter().flatten().any(Option::is_none) {
+            // Rationals among the entries at two nodes of higher degree, zeros above all.
+            let numbers = self.entries(m).into_iter().flatten();
+            let missing = rows.iter_mut().flatten().zip(numbers);
+            for (text, number) in missing.filter(|(text, _)| text.is_none()) {
+                *text = number.short_rational().map(|value| value.to_string());
+            }
+        }
+        rows
     }
 
     fn verified_bits(&self) -> Option<u32> {
         None
     }
 
-    /// Stages at irrational nodes stay alone.
+    /// Stages at irrational nodes stay alone, unless all rows are the same.
     fn equal_rows(&self, m: &Tensor, columns: &[Vec<usize>]) -> Vec<Vec<usize>> {
+        if m.columns()
+            .iter()
+            .all(|column| column.as_constant().is_some())
+        {
+            return vec![(0..self.dimension()).collect()];
+        }
         // The factor of the node polynomial whose roots are the irrational nodes.
         let linear = |node: &BigRational| {
             Polynomial::from_rationals(&[-node, BigRational::from_integer(1.into())])
@@ -156,6 +171,9 @@ impl StageAlgebra for NodeAlgebra {
         });
         let key = |stage| {
             let row = m.row_at(self.rational_node(stage)?);
+            if let [_] = columns {
+                return Some((Polynomial::zero(), vec![self.trace(&row)]));
+            }
             let value = |j: &usize| self.rational_node(*j).map(|node| row.evaluate(node));
             let sums: Vec<BigRational> = columns
                 .iter()
@@ -171,12 +189,18 @@ impl StageAlgebra for NodeAlgebra {
     }
 
     fn merged_entry(&self, m: &Tensor, row: usize, group: &[usize]) -> Number<'_> {
+        if group.len() == self.dimension() {
+            return Number::Node(NodeNumber::at(self, m.apply(self, &Polynomial::one()), row));
+        }
         let columns = group.iter().filter_map(|&j| self.rational_node(j));
         let sum = columns.fold(Polynomial::zero(), |sum, node| &sum + &m.column_at(node));
         Number::Node(NodeNumber::at(self, sum, row))
     }
 
     fn merged_value(&self, f: &Polynomial, group: &[usize]) -> Number<'_> {
+        if group.len() == self.dimension() {
+            return Number::Rational(self.trace(f));
+        }
         let nodes = group.iter().filter_map(|&j| self.rational_node(j));
         Number::Rational(nodes.map(|node| f.evaluate(node)).sum())
     }

@@ -15,7 +15,7 @@ use crate::expression::{Input, MAX_BITS};
 use crate::limits::Limits;
 use crate::pair::Pair;
 use crate::quadrature::{first_outside, node_text};
-use crate::tableau::{Exact, Provenance, Tableau};
+use crate::tableau::{Exact, Tableau};
 
 /// Reads a tableau from the exact data of a TOML file.
 ///
@@ -58,20 +58,17 @@ pub fn read(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Err
         file.error(&super::super::entries::first_line(text, span), kind)
     })?;
     let origin = document.origin();
-    Ok(Tableau {
-        name: origin.name.clone(),
-        provenance: Provenance {
-            definition: origin.definition(),
-            source: origin.source.clone(),
-        },
-        exact: Exact::Nodes(Pair {
-            algebra: Arc::new(algebra),
-            a: tensor(file, &exact.a)?,
-            a_tilde: tensor(file, &exact.a_tilde)?,
-            b: polynomial(file, &exact.b)?,
-            b_tilde: polynomial(file, &exact.b_tilde)?,
-        }),
-    })
+    let pair = Pair {
+        algebra: Arc::new(algebra),
+        a: tensor(file, &exact.a)?,
+        a_tilde: tensor(file, &exact.a_tilde)?,
+        b: polynomial(file, &exact.b)?,
+        b_tilde: polynomial(file, &exact.b_tilde)?,
+    };
+    let mut tableau = Tableau::new(origin.definition(), Exact::Nodes(pair));
+    tableau.name = origin.name;
+    tableau.provenance.source = origin.source;
+    Ok(tableau)
 }
 
 fn algebra(modulus: &Polynomial, stages: usize) -> Result<NodeAlgebra, ErrorKind> {

@@ -16,7 +16,7 @@ pub(super) fn decide<A: Symmetry>(examined: &Examined<'_, A>) -> Property {
 }
 
 /// An algebra over which symmetry can be decided.
-pub(super) trait Symmetry: StageAlgebra {
+pub(crate) trait Symmetry: StageAlgebra {
     /// Decides whether a pair is its own adjoint for some order of the stages.
     fn symmetric(pair: &Pair<Self>, numbers: &Coefficients<Number<'_>>) -> Property;
 }
