@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 use crate::algebra::{Constants, Dense, NodeAlgebra, Number, Reals, StageAlgebra};
 use crate::coefficients::Coefficients;
 use crate::definition::Definition;
+use crate::order::{OrderOptions, OrderReport};
 use crate::pair::Pair;
 use crate::properties::Properties;
 use crate::stability::Stability;
@@ -33,6 +34,7 @@ pub struct Tableau {
     pub(crate) provenance: Provenance,
     pub(crate) exact: Exact,
     properties: OnceLock<Properties>,
+    orders: OnceLock<OrderReport>,
     stability: OnceLock<Stability>,
 }
 
@@ -127,6 +129,7 @@ impl Tableau {
             },
             exact,
             properties: OnceLock::new(),
+            orders: OnceLock::new(),
             stability: OnceLock::new(),
         }
     }
@@ -145,6 +148,18 @@ impl Tableau {
     pub fn properties(&self) -> Properties {
         let decided = || over_algebra!(self, pair => Properties::of_pair(pair));
         self.properties.get_or_init(decided).clone()
+    }
+
+    /// The order for each class of Hamiltonians with the default options, decided at the first call.
+    ///
+    /// ```
+    /// let lobatto = symplectic_compiler::derive("polynomial(3)", "lobatto(3)")?;
+    /// assert_eq!(lobatto.orders().general.order, 4);
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    pub fn orders(&self) -> OrderReport {
+        let decided = || self.order(&OrderOptions::default());
+        self.orders.get_or_init(decided).clone()
     }
 
     /// Linear stability, decided at the first call.

@@ -31,6 +31,16 @@ fn derive_prints_the_tableau_of_the_readme() {
           stiffly_accurate    yes  proved
           first_same_as_last  yes  proved   Q_s = q1 is Q_1 of the next step
           positive_weights    yes  proved
+
+        order
+          general    4, proved; not 5: q[q^4] has the weight 5/24 instead of 1/5, a difference of 1/120; error constant 0.034929…
+          separable  4, proved; not 5: q[p^4] has the weight 5/24 instead of 1/5, a difference of 1/120; error constant 0.007879…
+          nystrom    4, proved; not 5: p[q^4] has the weight 5/24 instead of 1/5, a difference of 1/120; error constant 0.006113…
+
+        stability on the oscillator, ν = hω
+          trace: (ν⁴ − 22ν² + 48)/(ν² + 24)
+          stable for ν in (0, 2*sqrt(2)) ∪ (2*sqrt(3), 2*sqrt(6)), proved
+          phase: order 4, error 1/2880 ν^5
     "#]]
     .assert_eq(&stdout(&[
         "derive",
@@ -70,6 +80,18 @@ fn irrational_and_long_entries_are_readable() {
           stiffly_accurate    no   refuted  b_1 − a_31 = 0.00978944401531…
           first_same_as_last  no   refuted  a_11 = 5/36
           positive_weights    yes  proved
+
+        order
+          general    6, proved; not 7: q[q^6] has the weight 57/400 instead of 1/7, a difference of -1/2800; error constant 0.002278…
+          separable  6, proved; not 7: q[p^6] has the weight 57/400 instead of 1/7, a difference of -1/2800; error constant 0.000233…
+          nystrom    6, proved; not 7: p[q^6] has the weight 57/400 instead of 1/7, a difference of -1/2800; error constant 0.000115…
+
+        stability on the oscillator, ν = hω
+          trace: (28800 − 12960ν² + 528ν⁴ − 2ν⁶)/(ν⁶ + 24ν⁴ + 720ν² + 14400)
+          stable for ν in (0, ∞) (P-stable), proved
+          phase: order 6, error -1/100800 ν^7
+          R(z) = (z³ + 12z² + 60z + 120)/(120 − 60z + 12z² − z³)
+          A-stable: yes, L-stable: no, on the imaginary axis up to ∞
     "#]]
     .assert_eq(&stdout(&["show", "gauss-3"]));
     expect![[r#"
@@ -104,6 +126,16 @@ fn irrational_and_long_entries_are_readable() {
           stiffly_accurate    yes  proved
           first_same_as_last  no   refuted  a_11 = 0.196815477224…
           positive_weights    yes  proved
+
+        order
+          general    5, proved; not 6: q[q^5] has the weight 101/600 instead of 1/6, a difference of 1/600; error constant 0.009249…
+          separable  5, proved; not 6: q[p^5] has the weight 101/600 instead of 1/6, a difference of 1/600; error constant 0.001399…
+          nystrom    5, proved; not 6: p[q^5] has the weight 101/600 instead of 1/6, a difference of 1/600; error constant 0.000830…
+
+        stability on the oscillator, ν = hω
+          trace: (7200 − 3312ν² + 162ν⁴ − ν⁶)/(3ν⁴ + 144ν² + 3600)
+          stable for ν in (0, 3.05248911040…) ∪ (3.22862518301…, -3 + sqrt(69)) ∪ (3 + sqrt(69), 12.1761360726…), proved
+          phase: order 6, error 1/252000 ν^7
     "#]]
     .assert_eq(&stdout(&["show", "radau-right-3", "--digits", "8"]));
     // Entries without a short form are decimals.
@@ -137,6 +169,18 @@ fn irrational_and_long_entries_are_readable() {
           stiffly_accurate    no   refuted  b_1 − a_41 = -0.00355514968580…
           first_same_as_last  no   refuted  a_11 = 0.0869637112844…
           positive_weights    yes  proved
+
+        order
+          general    8, proved; not 9: q[q^8] has the weight 1633/14700 instead of 1/9, a difference of -1/44100; error constant 0.000172…
+          separable  8, proved; not 9: q[p^8] has the weight 1633/14700 instead of 1/9, a difference of -1/44100; error constant 0.000008…
+          nystrom    8, proved; not 9: p[q^8] has the weight 1633/14700 instead of 1/9, a difference of -1/44100; error constant 0.000002…
+
+        stability on the oscillator, ν = hω
+          trace: (2ν⁸ − 1520ν⁶ + 138720ν⁴ − 2620800ν² + 5644800)/(ν⁸ + 40ν⁶ + 2160ν⁴ + 100800ν² + 2822400)
+          stable for ν in (0, ∞) (P-stable), proved
+          phase: order 8, error -1/25401600 ν^9
+          R(z) = (z⁴ + 20z³ + 180z² + 840z + 1680)/(z⁴ − 20z³ + 180z² − 840z + 1680)
+          A-stable: yes, L-stable: no, on the imaginary axis up to ∞
     "#]].assert_eq(&stdout(&["show", "gauss-4", "--digits", "8"]));
 }
 
@@ -197,6 +241,22 @@ fn toml_is_readable() {
         stiffly_accurate   = { holds = true, evidence = "proved" }
         first_same_as_last = { holds = true, evidence = "proved", witness = "Q_s = q1 is Q_1 of the next step" }
         positive_weights   = { holds = true, evidence = "proved" }
+
+        [order]
+        general = { order = 2, evidence = "proved", refuted_by = "q[q,q]", value = "1/2", wanted = "1/3", residual = "1/6", error_constant = "0.358430219460" }
+        separable = { order = 2, evidence = "proved", refuted_by = "q[p,p]", value = "1/4", wanted = "1/3", residual = "-1/12", error_constant = "0.208333333333" }
+        nystrom = { order = 2, evidence = "proved", refuted_by = "p[q,q]", value = "1/2", wanted = "1/3", residual = "1/6", error_constant = "0.204124145232" }
+
+        [stability]
+        trace = "2 − ν²"
+        determinant = "1"
+        intervals = [["0", "2"]]
+        decimal = [["0", "2.0000"]]
+        closed = [[false, false]]
+        p_stable = false
+        evidence = "proved"
+        dispersion_order = 2
+        dispersion = "1/24"
     "##]].assert_eq(&stdout(&[
         "show",
         "stormer-verlet",

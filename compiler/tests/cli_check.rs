@@ -37,7 +37,9 @@ fn what_is_written_is_checked() {
             checked(&path),
             (
                 Some(0),
-                format!("{path}: ok, lobatto-3 with 3 stages\n"),
+                format!(
+                    "{path}: ok, lobatto-3 with 3 stages, order general 4, separable 4, nystrom 4, stable for hω in (0, 2*sqrt(2)) ∪ (2*sqrt(3), 2*sqrt(6))\n"
+                ),
                 String::new()
             )
         );

@@ -171,10 +171,11 @@ fn files_that_are_no_tables_are_refused_at_the_place() {
         );
         assert_eq!(covered(&error), place, "{from} → {to}: {error}");
     }
-    let (before, _) = text
+    let (before, after) = text
         .split_once("positive_weights")
         .expect("the last property");
-    let error = refused_reading(before);
+    let (_, after) = after.split_once('\n').expect("a line");
+    let error = refused_reading(&format!("{before}{after}"));
     assert_eq!(
         error.kind.to_string(),
         "the property `positive_weights` is missing"

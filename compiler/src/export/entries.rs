@@ -1,6 +1,11 @@
 //! The entries of a file in the order in which they stand, each with its name and its place.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
+
+use serde_json::value::RawValue;
+use toml::Spanned;
+use toml::de::DeValue;
 
 use crate::error::{Error, ErrorKind};
 use crate::expression::Input;
@@ -39,7 +44,17 @@ pub(crate) fn compare(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> R
         .zip(expected)
         .find(|(f, e)| f.name != e.name || f.value != e.value)
     else {
-        return Ok(());
+        // What is left out at the end.
+        let Some(missing) = expected.get(found.len()) else {
+            return Ok(());
+        };
+        let end = file.text.trim_end().len();
+        let kind = ErrorKind::Mismatch {
+            entry: missing.name.clone(),
+            found: "nothing".to_owned(),
+            expected: difference(&missing.value, "").0,
+        };
+        return Err(file.error(&(end..end), kind));
     };
     if found.name != expected.name {
         // One of the two has an entry that the other has not.
@@ -83,6 +98,45 @@ fn difference(found: &str, expected: &str) -> (String, String) {
         format!("{before}{middle}{after}")
     };
     (shown(&found), shown(&expected))
+}
+
+/// The entries of a value of JSON, with the name of the value before them.
+pub(super) fn of_json(file: Input<'_>, name: &str, value: &RawValue, entries: &mut Vec<Entry>) {
+    let text = value.get();
+    // The value is borrowed from the text.
+    let start = (text.as_ptr() as usize).saturating_sub(file.text.as_ptr() as usize);
+    if let Ok(table) = serde_json::from_str::<BTreeMap<String, &RawValue>>(text) {
+        for (key, value) in table {
+            of_json(file, &format!("{name}.{key}"), value, entries);
+        }
+    } else if let Ok(list) = serde_json::from_str::<Vec<&RawValue>>(text) {
+        for (index, value) in list.into_iter().enumerate() {
+            of_json(file, &format!("{name}[{index}]"), value, entries);
+        }
+    } else {
+        entries.push(Entry::new(name, text, start..start + text.len()));
+    }
+}
+
+/// The entries of a value of TOML, with the name of the value before them.
+pub(super) fn of_toml(name: &str, value: &Spanned<DeValue<'_>>, entries: &mut Vec<Entry>) {
+    match value.get_ref() {
+        DeValue::Table(table) => {
+            for (key, value) in table {
+                of_toml(&format!("{name}.{}", key.get_ref()), value, entries);
+            }
+        }
+        DeValue::Array(list) => {
+            for (index, value) in list.iter().enumerate() {
+                of_toml(&format!("{name}[{index}]"), value, entries);
+            }
+        }
+        DeValue::String(text) => entries.push(Entry::new(name, text, value.span())),
+        DeValue::Integer(number) => entries.push(Entry::new(name, number, value.span())),
+        DeValue::Boolean(holds) => entries.push(Entry::new(name, holds, value.span())),
+        // No tableau has numbers or dates of other kinds.
+        other => entries.push(Entry::new(name, format!("{other:?}"), value.span())),
+    }
 }
 
 /// The place in a text of a line and a column, both counted from 1, the column in bytes.

@@ -12,6 +12,7 @@ use std::path::Path;
 use crate::error::{Error, ErrorKind};
 
 mod entries;
+mod facts;
 pub mod json;
 mod layout;
 mod origin;

@@ -79,6 +79,23 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
     text
 }
 
+/// Writes order and stability, for below the table.
+///
+/// ```
+/// use symplectic_compiler::{derive, export::text};
+///
+/// let facts = text::write_facts(&derive("polynomial(2)", "lobatto(2)")?);
+/// let lines: Vec<&str> = facts.lines().collect();
+/// assert!(lines[1].starts_with("  general    2, proved; not 3: "));
+/// assert_eq!(lines[6], "  trace: 2 − ν²");
+/// # Ok::<(), symplectic_compiler::Error>(())
+/// ```
+pub fn write_facts(tableau: &Tableau) -> String {
+    let mut text = String::new();
+    push_lines(&mut text, &super::facts::lines(tableau));
+    text
+}
+
 fn push_lines(text: &mut String, lines: &[String]) {
     for line in lines {
         text.push_str(line.trim_end());

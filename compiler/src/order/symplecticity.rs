@@ -1,5 +1,7 @@
 //! Up to which order a method is symplectic.
 
+use std::fmt;
+
 use super::class::HamiltonianClass;
 use super::enumeration::TreeRule;
 use super::tree::{BicolouredTree, Colour};
@@ -39,6 +41,23 @@ pub struct SymplecticityViolation {
     pub right: Option<BicolouredTree>,
     /// `φ(u∘v) + φ(v∘u) − φ(u) φ(v)`, or the weight of `u` less the one with the other colour of the root.
     pub defect: String,
+}
+
+impl fmt::Display for SymplecticityViolation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.right {
+            Some(right) => write!(
+                f,
+                "the trees {} and {right} leave {}",
+                self.left, self.defect
+            ),
+            None => write!(
+                f,
+                "the colour of the root of {} makes a difference of {}",
+                self.left, self.defect
+            ),
+        }
+    }
 }
 
 /// What is known of the coefficients' conditions for symplecticity; `None` where one does not hold.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::{Error, Limits, check, export};
 
 use crate::output;
@@ -44,8 +45,23 @@ fn check_file(path: &Path, limits: &Limits) -> Result<String, Error> {
     let text = export::read_text(path)?;
     let tableau = check(&name, &text, limits)?;
     let called = tableau.name().unwrap_or("a tableau without a name");
-    Ok(match tableau.stages() {
-        1 => format!("{called} with 1 stage"),
-        stages => format!("{called} with {stages} stages"),
-    })
+    let stages = match tableau.stages() {
+        1 => "1 stage".to_owned(),
+        stages => format!("{stages} stages"),
+    };
+    let report = tableau.orders();
+    let orders = HamiltonianClass::ALL.map(|class| {
+        let found = report.class(class);
+        let at_least = if found.refuted_by.is_none() {
+            "≥ "
+        } else {
+            ""
+        };
+        format!("{class} {at_least}{}", found.order)
+    });
+    let stable = tableau.stability().intervals_text();
+    Ok(format!(
+        "{called} with {stages}, order {}, stable for hω in {stable}",
+        orders.join(", ")
+    ))
 }

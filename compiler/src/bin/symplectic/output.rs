@@ -42,7 +42,10 @@ impl OutputOptions {
     pub(crate) fn write(&self, tableau: &Tableau) -> String {
         let digits = |default| self.digits.unwrap_or(default);
         match self.format {
-            Format::Text => export::text::write(tableau, digits(TEXT_DIGITS)),
+            Format::Text => {
+                let table = export::text::write(tableau, digits(TEXT_DIGITS));
+                format!("{table}\n{}", export::text::write_facts(tableau))
+            }
             Format::Toml => export::toml::write(tableau, digits(DEFAULT_DIGITS)),
             Format::Json => export::json::write(tableau, digits(DEFAULT_DIGITS)),
         }

@@ -14,7 +14,7 @@ use crate::coefficients::subscript;
 use crate::definition::{Definition, Key};
 use crate::error::{Error, ErrorKind};
 use crate::export::MAX_DIGITS;
-use crate::export::entries::{Entry, compare, offset};
+use crate::export::entries::{Entry, compare, of_json, offset};
 use crate::export::origin::{Origin, Part};
 use crate::expression::Input;
 use crate::limits::Limits;
@@ -90,6 +90,9 @@ struct Document<'a> {
     a: Vec<Vec<Number<'a>>>,
     a_tilde: Vec<Vec<Number<'a>>>,
     properties: PropertyList<'a>,
+    order: Leaf<'a>,
+    stability: Leaf<'a>,
+    symplecticity_order: Leaf<'a>,
 }
 
 #[derive(Deserialize)]
@@ -370,6 +373,13 @@ impl<'a> Document<'a> {
                 entries.push(leaf.entry(file, format!("{name} ({field})"), types)?);
             }
         }
+        of_json(file, "order", self.order.0, &mut entries);
+        of_json(file, "stability", self.stability.0, &mut entries);
+        let types = Types::NumberOrNull;
+        entries.push(
+            self.symplecticity_order
+                .entry(file, "symplecticity_order", types)?,
+        );
         Ok(entries)
     }
 

@@ -2,6 +2,7 @@
 
 use crate::arithmetic::rounding::{shortest, shortest_single};
 use crate::definition::Key;
+use crate::export::facts;
 use crate::properties::{Evidence, Property};
 use crate::tableau::Tableau;
 
@@ -58,6 +59,16 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
             format!("{{\n{}\n  }}", properties.join(",\n")),
         ),
     ]);
+    for (section, facts) in facts::sections(tableau, digits) {
+        let facts: Vec<String> = facts
+            .iter()
+            .map(|(key, fact)| format!("    {}: {}", string(key), fact.json()))
+            .collect();
+        members.push((section, format!("{{\n{}\n  }}", facts.join(",\n"))));
+    }
+    let symplecticity = tableau.symplecticity_order(facts::SYMPLECTICITY_LIMIT);
+    let order = symplecticity.map_or("null".to_owned(), |found| found.order.to_string());
+    members.push(("symplecticity_order", order));
     let members: Vec<String> = members
         .iter()
         .map(|(key, value)| format!("  {}: {value}", string(key)))

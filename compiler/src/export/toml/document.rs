@@ -10,7 +10,7 @@ use crate::coefficients::subscript;
 use crate::definition::Key;
 use crate::error::{Error, ErrorKind};
 use crate::export::MAX_DIGITS;
-use crate::export::entries::{Entry, first_line};
+use crate::export::entries::{Entry, first_line, of_toml};
 use crate::export::origin::{Origin, Part};
 use crate::expression::Input;
 use crate::limits::Limits;
@@ -38,6 +38,8 @@ struct Keys {
     exact: Option<Exact>,
     decimals: Option<Decimals>,
     properties: Option<Spanned<BTreeMap<Spanned<String>, PropertyEntry>>>,
+    order: Option<toml::Table>,
+    stability: Option<toml::Table>,
 }
 
 /// The part of a file that can be derived anew.
@@ -46,6 +48,8 @@ pub(super) struct Derived {
     pub(super) exact: Option<Exact>,
     decimals: Decimals,
     properties: Spanned<BTreeMap<Spanned<String>, PropertyEntry>>,
+    /// Order and stability.
+    facts: Vec<Entry>,
 }
 
 #[derive(Deserialize)]
@@ -139,19 +143,31 @@ impl Document {
             let message = format!("not a TOML file of a tableau: {}", error.message());
             document_error(file, span, message)
         })?;
-        let derived = match (keys.stages, keys.exact, keys.decimals, keys.properties) {
-            (None, None, None, None) => None,
-            (Some(stages), exact, Some(decimals), Some(properties)) => Some(Derived {
-                stages,
-                exact,
-                decimals,
-                properties,
-            }),
-            (stages, _, decimals, _) => {
-                let missing = match (stages, decimals) {
-                    (None, _) => "stages",
-                    (_, None) => "decimals",
-                    _ => "properties",
+        let sections = (keys.order, keys.stability);
+        let derived = match (
+            keys.stages,
+            keys.exact,
+            keys.decimals,
+            keys.properties,
+            sections,
+        ) {
+            (None, None, None, None, (None, None)) => None,
+            (Some(stages), exact, Some(decimals), Some(properties), (Some(_), Some(_))) => {
+                Some(Derived {
+                    stages,
+                    exact,
+                    decimals,
+                    properties,
+                    facts: facts(file.text),
+                })
+            }
+            (stages, _, decimals, properties, (order, _)) => {
+                let missing = match (stages, decimals, properties, order) {
+                    (None, ..) => "stages",
+                    (_, None, ..) => "decimals",
+                    (_, _, None, _) => "properties",
+                    (.., None) => "order",
+                    _ => "stability",
                 };
                 let message = format!(
                     "not a TOML file of a tableau: missing field `{missing}`; a file that only defines a tableau has `[provenance]` alone"
@@ -206,8 +222,23 @@ impl Document {
             entries.push(one("tier".to_owned(), tier));
         }
         entries.extend(derived.entries());
+        entries.extend(derived.facts.iter().cloned());
         entries
     }
+}
+
+/// The entries of the sections that are read as they are.
+fn facts(text: &str) -> Vec<Entry> {
+    let mut entries = Vec::new();
+    // The text was read before.
+    if let Ok(table) = toml::de::DeTable::parse(text) {
+        for section in ["order", "stability"] {
+            if let Some(value) = table.get_ref().get(section) {
+                of_toml(section, value, &mut entries);
+            }
+        }
+    }
+    entries
 }
 
 fn one<T: ToString>(name: String, value: &Spanned<T>) -> Entry {

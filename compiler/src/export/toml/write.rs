@@ -3,6 +3,7 @@
 use crate::algebra::{NodeAlgebra, Tensor};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::definition::Key;
+use crate::export::facts::{self, Fact};
 use crate::export::json::evidence;
 use crate::export::layout::{right, widths};
 use crate::pair::Pair;
@@ -76,6 +77,15 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
     let width = all.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
     for (name, property) in all {
         text.push_str(&format!("{name:width$} = {}\n", property_text(property)));
+    }
+    for (section, facts) in facts::sections(tableau, digits) {
+        text.push_str(&format!("\n[{section}]\n"));
+        for (key, fact) in facts
+            .iter()
+            .filter(|(_, fact)| !matches!(fact, Fact::Absent))
+        {
+            text.push_str(&format!("{key} = {}\n", fact.toml()));
+        }
     }
     text
 }

@@ -1,0 +1,245 @@
+//! Order and stability of a tableau as data, in one shape for all formats.
+
+use super::json::evidence;
+use crate::order::{ClassOrder, HamiltonianClass, SymplecticityOrder};
+use crate::properties::Evidence;
+use crate::stability::{EndPoint, RungeKuttaStability, Stability};
+use crate::tableau::Tableau;
+
+/// A value in a file.
+pub(super) enum Fact {
+    /// A text.
+    Text(String),
+    /// A number or a truth value, as all formats write it.
+    Literal(String),
+    /// Nothing: null in JSON, left out of a table and an empty text in a list of TOML.
+    Absent,
+    /// A list.
+    List(Vec<Fact>),
+    /// Values with names.
+    Table(Vec<(&'static str, Fact)>),
+}
+
+use Fact::{Absent, List, Literal, Table, Text};
+
+impl Fact {
+    fn optional(text: Option<impl ToString>) -> Self {
+        text.map_or(Absent, |text| Text(text.to_string()))
+    }
+
+    /// The value as JSON in one line.
+    pub fn json(&self) -> String {
+        match self {
+            Text(text) => serde_json::Value::from(text.as_str()).to_string(),
+            Literal(text) => text.clone(),
+            Absent => "null".to_owned(),
+            List(items) => {
+                let items: Vec<String> = items.iter().map(Fact::json).collect();
+                format!("[{}]", items.join(", "))
+            }
+            Table(entries) => {
+                let entry = |(key, value): &(&str, Fact)| format!("\"{key}\": {}", value.json());
+                let entries: Vec<String> = entries.iter().map(entry).collect();
+                format!("{{{}}}", entries.join(", "))
+            }
+        }
+    }
+
+    /// The value as TOML in one line.
+    pub fn toml(&self) -> String {
+        match self {
+            Text(_) => self.json().replace('\u{7f}', "\\u007f"),
+            Literal(text) => text.clone(),
+            Absent => "\"\"".to_owned(),
+            List(items) => {
+                let items: Vec<String> = items.iter().map(Fact::toml).collect();
+                format!("[{}]", items.join(", "))
+            }
+            Table(entries) => {
+                let present = entries.iter().filter(|(_, value)| !matches!(value, Absent));
+                let entries: Vec<String> = present
+                    .map(|(key, value)| format!("{key} = {}", value.toml()))
+                    .collect();
+                format!("{{ {} }}", entries.join(", "))
+            }
+        }
+    }
+}
+
+/// The sections of a file: `order` and `stability`, each a list of named values.
+pub(super) fn sections(
+    tableau: &Tableau,
+    digits: usize,
+) -> [(&'static str, Vec<(&'static str, Fact)>); 2] {
+    let report = tableau.orders();
+    let mut order: Vec<(&'static str, Fact)> = HamiltonianClass::ALL
+        .map(|class| (class.name(), class_order(report.class(class))))
+        .into();
+    order.push(("symplecticity", symplecticity(tableau)));
+    [
+        ("order", order),
+        ("stability", stability(&tableau.stability(), digits)),
+    ]
+}
+
+fn class_order(found: &ClassOrder) -> Fact {
+    let (name, bits) = evidence(found.evidence);
+    let violated = found.refuted_by.as_ref();
+    Table(vec![
+        ("order", Literal(found.order.to_string())),
+        ("evidence", Text(name.to_owned())),
+        (
+            "bits",
+            bits.map_or(Absent, |bits| Literal(bits.to_string())),
+        ),
+        ("refuted_by", Fact::optional(violated.map(|v| &v.tree))),
+        ("value", Fact::optional(violated.map(|v| &v.value))),
+        ("wanted", Fact::optional(violated.map(|v| &v.wanted))),
+        ("residual", Fact::optional(violated.map(|v| &v.residual))),
+        (
+            "error_constant",
+            Fact::optional(found.error_constant.as_ref()),
+        ),
+    ])
+}
+
+/// Up to this order the order of symplecticity is looked for.
+pub(super) const SYMPLECTICITY_LIMIT: usize = 8;
+
+/// The order of symplecticity of a method that is not symplectic.
+fn symplecticity(tableau: &Tableau) -> Fact {
+    let Some(SymplecticityOrder {
+        order,
+        evidence: found,
+        violated,
+    }) = tableau.symplecticity_order(SYMPLECTICITY_LIMIT)
+    else {
+        return Absent;
+    };
+    let (name, bits) = evidence(found);
+    Table(vec![
+        ("order", Literal(order.to_string())),
+        ("evidence", Text(name.to_owned())),
+        (
+            "bits",
+            bits.map_or(Absent, |bits| Literal(bits.to_string())),
+        ),
+        (
+            "refuted_by",
+            Fact::optional(violated.as_ref().map(ToString::to_string)),
+        ),
+    ])
+}
+
+fn stability(found: &Stability, digits: usize) -> Vec<(&'static str, Fact)> {
+    let exact = |end: &EndPoint| Fact::optional(end.exact());
+    let decimal = |end: &EndPoint| Text(end.decimal(digits));
+    let closed = |closed: bool| Literal(closed.to_string());
+    let pairs = |each: &dyn Fn(&crate::stability::StabilityInterval) -> [Fact; 2]| {
+        let intervals = found.intervals.iter();
+        List(intervals.map(|i| List(each(i).into())).collect())
+    };
+    let (name, bits) = evidence(found.evidence);
+    let dispersion = found.dispersion.as_ref();
+    let mut facts = vec![
+        ("trace", Text(found.trace.to_string())),
+        ("determinant", Text(found.determinant.to_string())),
+        ("intervals", pairs(&|i| [exact(&i.low), exact(&i.high)])),
+        ("decimal", pairs(&|i| [decimal(&i.low), decimal(&i.high)])),
+        (
+            "closed",
+            pairs(&|i| [closed(i.low_closed), closed(i.high_closed)]),
+        ),
+        ("p_stable", Literal(found.p_stable.to_string())),
+        ("evidence", Text(name.to_owned())),
+        (
+            "bits",
+            bits.map_or(Absent, |bits| Literal(bits.to_string())),
+        ),
+        (
+            "dispersion_order",
+            dispersion.map_or(Absent, |d| Literal(d.order.to_string())),
+        ),
+        (
+            "dispersion",
+            Fact::optional(dispersion.map(|d| &d.coefficient)),
+        ),
+    ];
+    if let Some(RungeKuttaStability {
+        function,
+        at_infinity,
+        a_stable,
+        l_stable,
+        imaginary,
+    }) = &found.runge_kutta
+    {
+        facts.push((
+            "runge_kutta",
+            Table(vec![
+                ("function", Text(function.to_string())),
+                ("at_infinity", Fact::optional(at_infinity.as_ref())),
+                ("a_stable", closed(*a_stable)),
+                ("l_stable", closed(*l_stable)),
+                ("imaginary", exact(imaginary)),
+                ("imaginary_decimal", decimal(imaginary)),
+            ]),
+        ));
+    }
+    facts
+}
+
+/// Lines about order and stability for people.
+pub(super) fn lines(tableau: &Tableau) -> Vec<String> {
+    let report = tableau.orders();
+    let mut lines = vec!["order".to_owned()];
+    for class in HamiltonianClass::ALL {
+        let found = report.class(class);
+        let mut line = format!("  {:10} {found}", class.name());
+        if let Some(constant) = &found.error_constant {
+            line.push_str(&format!(
+                "; error constant {}",
+                short(&constant.to_string())
+            ));
+        }
+        lines.push(line);
+    }
+    if let Some(found) = tableau.symplecticity_order(SYMPLECTICITY_LIMIT) {
+        let evidence = match found.evidence {
+            Evidence::Verified { bits } => format!("verified to 2^-{bits}"),
+            _ => "proved".to_owned(),
+        };
+        let violated = found.violated.as_ref();
+        let not = violated.map_or(String::new(), |v| format!("; not {}: {v}", found.order + 1));
+        let at_least = if violated.is_none() { "at least " } else { "" };
+        lines.push(format!(
+            "  of symplecticity: {at_least}{}, {evidence}{not}",
+            found.order
+        ));
+    }
+    lines.push(String::new());
+    lines.push("stability on the oscillator, ν = hω".to_owned());
+    lines.extend(
+        tableau
+            .stability()
+            .to_string()
+            .lines()
+            .map(|line| format!("  {line}")),
+    );
+    lines
+}
+
+/// The first digits of a decimal.
+fn short(decimal: &str) -> String {
+    const DIGITS: usize = 8;
+    match decimal.split_once('e') {
+        Some((mantissa, exponent)) => {
+            let mantissa: String = mantissa.chars().take(DIGITS).collect();
+            format!("{mantissa}…e{exponent}")
+        }
+        None if decimal.len() > DIGITS => {
+            let mantissa: String = decimal.chars().take(DIGITS).collect();
+            format!("{mantissa}…")
+        }
+        None => decimal.to_owned(),
+    }
+}
