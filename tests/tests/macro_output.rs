@@ -331,3 +331,21 @@ fn methods_of_all_tiers_step() -> Result<(), Error> {
     assert!((area(Heun)? - 1.0).abs() > 1e-4);
     Ok(())
 }
+
+#[test]
+fn orders_are_asserted() {
+    use symplectic_compiler::assert_order;
+    use symplectic_tests::methods::{Gauss8, Lobatto3};
+
+    assert_order!(Lobatto3, general == 4);
+    assert_order!(Lobatto3, nystrom >= 3);
+    assert_order!(Gauss8, separable == 16);
+    assert_order!(Waves, general == 2);
+    let wrong = std::panic::catch_unwind(|| assert_order!(Lobatto3, general == 5));
+    let message = wrong.expect_err("the order is 4");
+    let message = message.downcast_ref::<String>().expect("a text");
+    assert!(
+        message.starts_with("Lobatto3: the order for general H is 4, not 5: q[q^4] has the weight 5/24 instead of 1/5"),
+        "{message}"
+    );
+}
