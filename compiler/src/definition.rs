@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::ops::Range;
 
 use crate::error::{Error, ErrorKind};
-use crate::expression::Input;
+use crate::expression::{Input, shown};
+use crate::symbolic::Constant;
 
 /// The parts of a definition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -26,13 +28,19 @@ pub enum Key {
     ATilde,
     /// Given weights `b̃_i`; `b` where they are not given.
     BTilde,
+    /// Steps of other methods one after another, each with its fraction of the step and its own
+    /// definition: `[[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]]`.
+    Compose,
     /// `true` where the coefficients for positions and momenta are exchanged in the end.
     Exchange,
+    /// `true` for the adjoint of the method that the other parts give. It does not matter whether it is
+    /// taken before or after [`Key::Exchange`].
+    Adjoint,
 }
 
 impl Key {
     /// All keys, in the order in which they are written.
-    pub const ALL: [Key; 9] = [
+    pub const ALL: [Key; 11] = [
         Key::Basis,
         Key::Nodes,
         Key::Quadrature,
@@ -41,7 +49,9 @@ impl Key {
         Key::B,
         Key::ATilde,
         Key::BTilde,
+        Key::Compose,
         Key::Exchange,
+        Key::Adjoint,
     ];
 
     /// The key as it is written in the macro and in files.
@@ -55,8 +65,15 @@ impl Key {
             Key::B => "b",
             Key::ATilde => "a_tilde",
             Key::BTilde => "b_tilde",
+            Key::Compose => "compose",
             Key::Exchange => "exchange",
+            Key::Adjoint => "adjoint",
         }
+    }
+
+    /// Whether the value is `true` or `false`.
+    pub fn is_switch(self) -> bool {
+        matches!(self, Key::Exchange | Key::Adjoint)
     }
 
     /// The key of this name.
@@ -72,8 +89,10 @@ impl Key {
 /// | `basis`, `nodes` | square: as many functions as nodes (LZ §4.4) |
 /// | `basis`, `quadrature`, perhaps `weights` | rectangular Galerkin: at least as many nodes (T §2.2) |
 /// | `a`, `b`, perhaps `a_tilde`, `b_tilde` | given coefficients |
+/// | `compose` | `Φ_{γ_m h} ∘ … ∘ Φ_{γ_1 h}` (MW 2.5): a list of `[γ_k, definition of Φ_k]`, the first step first |
 ///
-/// Each may have `exchange: true`. Every value is text in the grammar of [`expression`](crate::expression).
+/// Each may have `exchange: true` and `adjoint: true`. Every value is text in the grammar of
+/// [`expression`](crate::expression); in `compose`, what follows `γ_k` is again a definition as it is printed.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Definition {
     parts: BTreeMap<Key, String>,
@@ -108,35 +127,9 @@ impl Definition {
             name: "definition",
             text,
         };
-        let error = |start: usize, end: usize, found: String| {
-            let expected = Key::ALL.map(|key| format!("`{}:`", key.name())).join(", ");
-            let kind = ErrorKind::Syntax {
-                found,
-                expected: format!("one of {expected}, each once"),
-            };
-            input.error(&(start..end), kind)
-        };
-        // Commas outside brackets end a part.
         let mut definition = Definition::default();
-        let (mut depth, mut start) = (0_i32, 0);
-        let bytes = text.as_bytes();
-        for end in 0..=bytes.len() {
-            match bytes.get(end) {
-                Some(b'(' | b'[') => depth += 1,
-                Some(b')' | b']') => depth -= 1,
-                None | Some(b',') if depth <= 0 || end == bytes.len() => {
-                    let part = &text[start..end];
-                    let missing = || error(start, end, format!("`{}`", part.trim()));
-                    let (name, value) = part.split_once(':').ok_or_else(missing)?;
-                    let key = Key::find(name.trim()).ok_or_else(missing)?;
-                    if definition.parts.contains_key(&key) {
-                        return Err(error(start, end, format!("a second `{}`", key.name())));
-                    }
-                    definition.parts.insert(key, value.trim().to_owned());
-                    start = end + 1;
-                }
-                _ => {}
-            }
+        for (key, range) in read_parts(input, pieces(text, 0..text.len()))? {
+            definition.parts.insert(key, text[range].to_owned());
         }
         Ok(definition)
     }
@@ -150,6 +143,85 @@ impl Definition {
     pub fn parts(&self) -> impl Iterator<Item = (Key, &str)> {
         self.parts.iter().map(|(&key, text)| (key, text.as_str()))
     }
+
+    /// The definition of the adjoint, which is this one again where this one is of an adjoint.
+    pub(crate) fn adjoint(&self) -> Definition {
+        let mut definition = self.clone();
+        if self.get(Key::Adjoint) == Some("true") {
+            definition.parts.remove(&Key::Adjoint);
+        } else {
+            definition.parts.insert(Key::Adjoint, "true".to_owned());
+        }
+        definition
+    }
+
+    /// The definition of steps of methods one after another.
+    pub(crate) fn composition<'a>(
+        steps: impl IntoIterator<Item = (&'a Constant, &'a Definition)>,
+    ) -> Definition {
+        let steps = steps
+            .into_iter()
+            .map(|(fraction, definition)| format!("[{fraction}, {definition}]"));
+        let steps: Vec<String> = steps.collect();
+        Definition::new([(Key::Compose, format!("[{}]", steps.join(", ")))])
+    }
+}
+
+/// The parts of a range of a text that the commas outside brackets separate.
+pub(crate) fn pieces(text: &str, range: Range<usize>) -> Vec<Range<usize>> {
+    let mut pieces = Vec::new();
+    let (mut depth, mut start) = (0_i32, range.start);
+    for (offset, byte) in text[range.clone()].bytes().enumerate() {
+        match byte {
+            b'(' | b'[' => depth += 1,
+            b')' | b']' => depth -= 1,
+            b',' if depth <= 0 => {
+                pieces.push(start..range.start + offset);
+                start = range.start + offset + 1;
+            }
+            _ => {}
+        }
+    }
+    pieces.push(start..range.end);
+    pieces
+}
+
+/// A range of a text without the white space at its ends.
+pub(crate) fn trimmed(text: &str, range: Range<usize>) -> Range<usize> {
+    let part = &text[range.clone()];
+    let start = range.start + part.len() - part.trim_start().len();
+    start..start + part.trim().len()
+}
+
+/// Reads `key: value` in each of some ranges of a text; the values as ranges.
+///
+/// # Errors
+/// [`ErrorKind::Syntax`] where a key is unknown or given twice.
+pub(crate) fn read_parts(
+    input: Input<'_>,
+    ranges: impl IntoIterator<Item = Range<usize>>,
+) -> Result<Vec<(Key, Range<usize>)>, Error> {
+    let error = |range: &Range<usize>, found: String| {
+        let expected = Key::ALL.map(|key| format!("`{}:`", key.name())).join(", ");
+        let kind = ErrorKind::Syntax {
+            found,
+            expected: format!("one of {expected}, each once"),
+        };
+        input.error(range, kind)
+    };
+    let mut parts: Vec<(Key, Range<usize>)> = Vec::new();
+    for range in ranges {
+        let part = &input.text[range.clone()];
+        let missing = || error(&range, format!("`{}`", shown(part.trim())));
+        let (name, _) = part.split_once(':').ok_or_else(missing)?;
+        let key = Key::find(name.trim()).ok_or_else(missing)?;
+        if parts.iter().any(|(known, _)| *known == key) {
+            return Err(error(&range, format!("a second `{}`", key.name())));
+        }
+        let value = range.start + name.len() + 1..range.end;
+        parts.push((key, trimmed(input.text, value)));
+    }
+    Ok(parts)
 }
 
 impl fmt::Display for Definition {

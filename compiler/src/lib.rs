@@ -17,6 +17,7 @@
 //! | bases, nodes and weights | [`Basis`], [`Nodes`], [`QuadratureRule`], [`FAMILIES`] |
 //! | the derivation | [`derive()`], [`Definition::derive`], [`derive_from`] |
 //! | the exact coefficients | [`Tableau`], in an [`algebra`] of one of three [`Tier`]s |
+//! | adjoint methods and compositions | [`Tableau::adjoint`], [`Tableau::scale`], [`Tableau::compose`], [`Tableau::concatenate`] |
 //! | what is proved about them | [`Properties`], each a [`Property`] with its [`Evidence`] |
 //! | the order for each class of Hamiltonians, trees, the modified equation | [`order`] |
 //! | text, JSON, TOML; reading and checking files | [`export`], [`check`] |
@@ -40,6 +41,7 @@ mod error;
 pub mod export;
 pub mod expression;
 mod limits;
+mod operations;
 pub mod order;
 mod pair;
 mod properties;

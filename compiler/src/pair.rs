@@ -103,6 +103,32 @@ impl<A: StageAlgebra> Pair<A> {
         }
     }
 
+    /// The method with the step `γh`: `γa_ij`, `γb_i`, `γã_ij`, `γb̃_i`, for the same `γ` at every stage.
+    #[must_use]
+    pub fn scaled(&self, fraction: &A::Vector) -> Self {
+        let algebra = &self.algebra;
+        let (same_a, same_b) = self.equal_halves();
+        let matrix = |a: &A::Matrix| algebra.scale_rows(a, fraction);
+        let vector = |b: &A::Vector| algebra.multiply(b, fraction);
+        let (a, b) = (matrix(&self.a), vector(&self.b));
+        // What is the same expression for both halves stays the same.
+        Pair {
+            a_tilde: if same_a {
+                a.clone()
+            } else {
+                matrix(&self.a_tilde)
+            },
+            b_tilde: if same_b {
+                b.clone()
+            } else {
+                vector(&self.b_tilde)
+            },
+            algebra: Arc::clone(algebra),
+            a,
+            b,
+        }
+    }
+
     /// `c_i = Σ_j a_ij`. These are the nodes iff the basis spans the constants.
     pub fn c(&self) -> A::Vector {
         self.row_sums(&self.a)

@@ -27,7 +27,7 @@ pub struct Provenance {
 /// ```
 ///
 /// with `c_i = Σ_j a_ij` and `c̃_i = Σ_j ã_ij`. Stages of a derived method are ordered by ascending
-/// nodes. Nothing in it is a floating-point number.
+/// nodes; those of its adjoint keep their labels, and those of a composition follow one another as the steps do. Nothing in it is a floating-point number.
 #[derive(Debug, Clone)]
 pub struct Tableau {
     pub(crate) name: Option<String>,
@@ -98,7 +98,8 @@ impl Exact {
         }
     }
 
-    fn adjoint(&self) -> Self {
+    /// The adjoint method.
+    pub fn adjoint(&self) -> Self {
         match self {
             Exact::Nodes(pair) => Exact::Nodes(pair.adjoint()),
             Exact::Field(pair) => Exact::Field(pair.adjoint()),
@@ -262,13 +263,5 @@ impl Tableau {
     /// ```
     pub fn to_f64(&self) -> Coefficients<f64> {
         self.numbers().map(Number::to_f64)
-    }
-
-    /// The adjoint method, the inverse of the step with `−h`; its stages keep their labels.
-    #[must_use]
-    pub fn adjoint(&self) -> Self {
-        let mut adjoint = Tableau::new(self.provenance.definition.clone(), self.exact.adjoint());
-        adjoint.name = self.name.as_ref().map(|name| format!("adjoint of {name}"));
-        adjoint
     }
 }

@@ -6,7 +6,7 @@ use expect_test::expect_file;
 use proc_macro2::{Ident, Span};
 use quote::quote;
 use symplectic_compiler::emit::{Header, method};
-use symplectic_compiler::{Tableau, catalogue, derive};
+use symplectic_compiler::{Definition, Limits, Tableau, catalogue, derive};
 
 fn emitted(tableau: &Tableau, name: &str) -> String {
     let header = Header {
@@ -81,4 +81,29 @@ fn nothing_is_multiplied_by_zero_or_computed_twice() {
             entry.name
         );
     }
+}
+
+/// Three steps of Störmer–Verlet: where one ends and the next begins, a force is evaluated once.
+#[test]
+fn a_composition_of_explicit_methods_is_explicit() {
+    let verlet = "basis: polynomial(2), nodes: lobatto(2)";
+    let (outer, inner) = ("1/(2 - cbrt(2))", "-cbrt(2)/(2 - cbrt(2))");
+    let text = format!("compose: [[{outer}, {verlet}], [{inner}, {verlet}], [{outer}, {verlet}]]");
+    let definition = Definition::parse(&text).expect("a definition");
+    let jump = definition.derive(&Limits::default()).expect("derived");
+    assert_eq!(jump.stages(), 6);
+    let code = emitted(&jump, "TripleJump");
+    let separable = code.split("struct TripleJumpSeparable").nth(1);
+    let separable = separable.expect("the plan");
+    // Four positions with a force, the last of which is the first of the next step, and three momenta.
+    assert!(separable.contains("Coupling = ::symplectic::Explicit"));
+    assert!(separable.contains("Stages<V, 4, 3>"), "{separable}");
+    assert!(
+        separable.contains("stages.force.swap(0, 3);"),
+        "{separable}"
+    );
+    assert!(!separable.contains("relax"));
+    assert_eq!(separable.matches(".force(").count(), 4);
+    assert_eq!(separable.matches(".velocity(").count(), 3);
+    assert!(coefficients(&code).iter().flatten().all(|&c| c != 0.0));
 }

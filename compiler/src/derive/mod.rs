@@ -2,19 +2,20 @@
 //!
 //! The tier follows from the definition: polynomial bases at all roots of one polynomial are derived in
 //! the node algebra; anything else in a constant field, if one holds all values and integrals of the
-//! basis, and as certified enclosures otherwise.
+//! basis, and as certified enclosures otherwise. What [operations](crate::Tableau::concatenate) on tableaux give
+//! is derived from the definitions of the operands by the same operations.
 
+mod composition;
 mod dense;
 mod linear;
 mod node;
 mod problem;
 mod tiers;
 
-use std::ops::Range;
-
+pub(crate) use self::composition::check_depth;
 use self::problem::{Construction, Problem};
 use crate::basis::Basis;
-use crate::definition::{Definition, Key};
+use crate::definition::{Definition, Key, trimmed};
 use crate::error::{Error, ErrorKind, Place};
 use crate::limits::Limits;
 use crate::quadrature::{Nodes, QuadratureRule};
@@ -78,11 +79,11 @@ impl Definition {
     /// An error of the derivation at the part that it is about.
     fn place(&self, kind: ErrorKind) -> Error {
         let keys: &[Key] = if kind.is_about_basis() {
-            &[Key::Basis]
+            &[Key::Basis, Key::Compose]
         } else if kind.is_about_weight() {
             &[Key::Nodes, Key::Weights, Key::Quadrature, Key::B]
         } else {
-            &[Key::Nodes, Key::Quadrature, Key::A]
+            &[Key::Nodes, Key::Quadrature, Key::A, Key::Compose]
         };
         let part = keys.iter().find_map(|&key| Some((key, self.get(key)?)));
         match part {
@@ -92,17 +93,11 @@ impl Definition {
                 Place {
                     input: key.name().to_owned(),
                     text: text.to_owned(),
-                    span: trimmed(text),
+                    span: trimmed(text, 0..text.len()),
                 },
             ),
         }
     }
-}
-
-/// The part of a text that is not white space around it.
-fn trimmed(text: &str) -> Range<usize> {
-    let start = text.len() - text.trim_start().len();
-    start..start + text.trim().len()
 }
 
 /// Derives the tableau of a basis `ψ_1, …, ψ_s` at the nodes `c_1, …, c_s` of a rule.
@@ -116,6 +111,7 @@ pub fn derive_from(basis: &Basis, rule: &QuadratureRule) -> Result<Tableau, Erro
             nodes: Nodes::Rule(rule.clone()),
         },
         exchange: false,
+        adjoint: false,
     };
     problem.derive()
 }

@@ -1,5 +1,6 @@
 //! The parts of a definition, read: what is to be derived.
 
+use super::composition::{self, Step};
 use crate::basis::Basis;
 use crate::definition::{Definition, Key};
 use crate::error::{Error, ErrorKind};
@@ -13,6 +14,8 @@ pub struct Problem {
     pub construction: Construction,
     /// Whether positions and momenta are exchanged in the end.
     pub exchange: bool,
+    /// Whether the method is the adjoint of what is constructed.
+    pub adjoint: bool,
 }
 
 /// The constructions of theory.md §2, and coefficients that are given.
@@ -32,6 +35,8 @@ pub enum Construction {
         b: Vec<Constant>,
         momenta: Momenta,
     },
+    /// Steps of other methods one after another.
+    Composition { steps: Vec<Step> },
 }
 
 /// The coefficients for momenta beside given ones for positions.
@@ -60,8 +65,22 @@ impl Problem {
         let has = |key| definition.get(key).is_some();
         let derived = [Key::Basis, Key::Nodes, Key::Quadrature, Key::Weights];
         let given = [Key::A, Key::B, Key::ATilde, Key::BTilde];
-        let exchange = errors.note(exchange(definition)).unwrap_or_default();
-        let construction = if given.into_iter().any(has) {
+        let exchange = errors
+            .note(switch(definition, Key::Exchange))
+            .unwrap_or_default();
+        let adjoint = errors
+            .note(switch(definition, Key::Adjoint))
+            .unwrap_or_default();
+        let construction = if let Some(text) = definition.get(Key::Compose) {
+            if let Some(other) = derived.into_iter().chain(given).find(|&key| has(key)) {
+                errors.0.push(misfit(format!(
+                    "`compose` has the definitions of its methods in it: leave out `{}`, or `compose`",
+                    other.name()
+                )));
+            }
+            let steps = composition::read(text, limits).map_err(|all| errors.0.extend(all));
+            steps.ok().map(|steps| Construction::Composition { steps })
+        } else if given.into_iter().any(has) {
             if let Some(other) = derived.into_iter().find(|&key| has(key)) {
                 errors.0.push(misfit(format!(
                     "coefficients are given by `a` and `b`: leave out `{}`, or them",
@@ -76,6 +95,7 @@ impl Problem {
             Some(construction) if errors.0.is_empty() => Ok(Problem {
                 construction,
                 exchange,
+                adjoint,
             }),
             _ => Err(errors.0),
         }
@@ -124,11 +144,34 @@ impl Problem {
                 }
                 parts
             }
+            Construction::Composition { steps } => {
+                let definitions: Vec<Definition> =
+                    steps.iter().map(|step| step.method.definition()).collect();
+                let fractions = steps.iter().map(|step| &step.fraction);
+                let composition = Definition::composition(fractions.zip(&definitions));
+                let parts = composition.parts();
+                parts.map(|(key, text)| (key, text.to_owned())).collect()
+            }
         };
-        if self.exchange {
-            parts.push((Key::Exchange, "true".to_owned()));
+        for (key, on) in [(Key::Exchange, self.exchange), (Key::Adjoint, self.adjoint)] {
+            if on {
+                parts.push((key, "true".to_owned()));
+            }
         }
         Definition::new(parts)
+    }
+
+    /// The number of stages of the method.
+    pub fn stages(&self) -> usize {
+        match &self.construction {
+            Construction::Collocation { nodes, .. } | Construction::Galerkin { nodes, .. } => {
+                nodes.len()
+            }
+            Construction::Given { b, .. } => b.len(),
+            Construction::Composition { steps } => {
+                steps.iter().map(|step| step.method.stages()).sum()
+            }
+        }
     }
 }
 
@@ -156,13 +199,13 @@ fn misfit_at(definition: &Definition, key: Key, message: String) -> Error {
     input.error(&(0..text.len()), ErrorKind::Definition { message })
 }
 
-fn exchange(definition: &Definition) -> Result<bool, Error> {
-    match definition.get(Key::Exchange) {
+fn switch(definition: &Definition, key: Key) -> Result<bool, Error> {
+    match definition.get(key) {
         None | Some("false") => Ok(false),
         Some("true") => Ok(true),
         Some(text) => {
             let input = Input {
-                name: Key::Exchange.name(),
+                name: key.name(),
                 text,
             };
             let kind = ErrorKind::Type {
@@ -190,7 +233,7 @@ fn read_derived(
     let weights = weights.map(|text| errors.note(read_vector(Key::Weights, text)));
     let missing = |what: &str| {
         misfit(format!(
-            "{what}a method needs `basis` with `nodes` or `quadrature`, or `a` and `b`, or a file"
+            "{what}a method needs `basis` with `nodes` or `quadrature`, or `a` and `b`, or `compose`, or a file"
         ))
     };
     match (basis, square, rectangular, weights) {

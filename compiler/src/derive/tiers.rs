@@ -13,6 +13,7 @@ use crate::algebra::{self, Constants, Dense, Field, NodeAlgebra, Reals};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::basis::{Basis, Coefficient, combination};
 use crate::error::ErrorKind;
+use crate::operations::concatenate;
 use crate::pair::Pair;
 use crate::quadrature::{Nodes, node_text};
 use crate::symbolic::{Constant, Function};
@@ -24,7 +25,12 @@ impl Problem {
     /// # Errors
     /// Everything but what is wrong with the texts.
     pub fn derive(&self) -> Result<Tableau, ErrorKind> {
-        let exact = match &self.construction {
+        Ok(Tableau::new(self.definition(), self.exact()?))
+    }
+
+    /// Derives the coefficients.
+    fn exact(&self) -> Result<Exact, ErrorKind> {
+        let mut exact = match &self.construction {
             Construction::Collocation { basis, nodes } => collocation(basis, nodes)?,
             Construction::Galerkin {
                 basis,
@@ -32,13 +38,17 @@ impl Problem {
                 weights,
             } => galerkin(basis, nodes, weights.as_deref())?,
             Construction::Given { a, b, momenta } => given(a, b, momenta)?,
+            Construction::Composition { steps } => {
+                let methods = steps.iter().map(|step| step.method.exact());
+                let methods: Vec<Exact> = methods.collect::<Result<_, _>>()?;
+                let fractions = steps.iter().map(|step| &step.fraction);
+                concatenate(&fractions.zip(&methods).collect::<Vec<_>>())?
+            }
         };
-        let exact = if self.exchange {
-            exact.exchanged()
-        } else {
-            exact
-        };
-        Ok(Tableau::new(self.definition(), exact))
+        if self.exchange {
+            exact = exact.exchanged();
+        }
+        Ok(if self.adjoint { exact.adjoint() } else { exact })
     }
 }
 

@@ -6,7 +6,6 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 
 use super::{FAMILIES, QuadratureRule, check_stages, count};
-use crate::algebra::StageAlgebra;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Expression, ExpressionKind, Input, parse_list, shown};
@@ -167,25 +166,10 @@ impl Nodes {
     /// # Errors
     /// [`ErrorKind::ExpressionSize`] where the node polynomial is beyond the bounds of constants.
     pub fn constants(&self) -> Result<Vec<Constant>, ErrorKind> {
-        let rule = match self {
-            Nodes::Listed { values, .. } => return Ok(values.clone()),
-            Nodes::Rule(rule) => rule,
-        };
-        let algebra = rule.algebra();
-        let exact = algebra.exact_values(&algebra.variable());
-        let node = |(index, text): (usize, &Option<String>)| match text {
-            // What is printed is read again.
-            Some(text) => {
-                let input = Input {
-                    name: "nodes",
-                    text,
-                };
-                let items = parse_list(input).map_err(|error| *error.kind)?;
-                items[0].constant(input).map_err(|error| *error.kind)
-            }
-            None => Constant::root(algebra.modulus(), &BigInt::from(index + 1)),
-        };
-        exact.iter().enumerate().map(node).collect()
+        match self {
+            Nodes::Listed { values, .. } => Ok(values.clone()),
+            Nodes::Rule(rule) => rule.algebra().node_constants(),
+        }
     }
 }
 

@@ -17,11 +17,14 @@ use std::sync::{Arc, Mutex};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
+use super::StageAlgebra;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::power_sums::power_sums;
 use crate::arithmetic::roots::{Root, enclose, real_roots};
 use crate::error::ErrorKind;
+use crate::expression::{Input, parse_list};
+use crate::symbolic::Constant;
 
 pub use closed_form::ClosedForm;
 pub(super) use closed_form::short_rational;
@@ -157,6 +160,27 @@ impl NodeAlgebra {
         (0..self.dimension())
             .map(|k| self.multiply(&Polynomial::from_rationals(&m[k + 1..]), &unit))
             .collect()
+    }
+
+    /// The nodes as constants, in ascending order.
+    ///
+    /// # Errors
+    /// [`ErrorKind::ExpressionSize`] where the node polynomial is beyond the bounds of constants.
+    pub fn node_constants(&self) -> Result<Vec<Constant>, ErrorKind> {
+        let exact = self.exact_values(&self.variable());
+        let node = |(index, text): (usize, &Option<String>)| match text {
+            // What is printed is read again.
+            Some(text) => {
+                let input = Input {
+                    name: "nodes",
+                    text,
+                };
+                let items = parse_list(input).map_err(|error| *error.kind)?;
+                items[0].constant(input).map_err(|error| *error.kind)
+            }
+            None => Constant::root(&self.modulus, &BigInt::from(index + 1)),
+        };
+        exact.iter().enumerate().map(node).collect()
     }
 
     /// Enclosures of all nodes with this number of binary places.

@@ -8,15 +8,15 @@ use symplectic_compiler::{Definition, Error, Key, check, export};
 
 use crate::output::{self, OutputOptions};
 
-/// Derive a tableau, with proofs: from a basis at nodes, from a basis and a quadrature formula, or from given
-/// coefficients.
+/// Derive a tableau, with proofs: from a basis at nodes, from a basis and a quadrature formula, from given
+/// coefficients, or as a composition of methods.
 ///
 /// Expressions have numbers, t, pi, e, + - * / ^, sqrt, cbrt, sin, cos, tan, exp, cosh, sinh and root(p, k), the
 /// k-th real root of a polynomial p in t.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// A TOML file with the definition instead of the options below.
-    #[arg(value_name = "FILE", conflicts_with_all = ["basis", "nodes", "quadrature", "weights", "a", "b", "a_tilde", "b_tilde", "exchange"])]
+    #[arg(value_name = "FILE", conflicts_with_all = ["basis", "nodes", "quadrature", "weights", "a", "b", "a_tilde", "b_tilde", "compose", "exchange", "adjoint"])]
     file: Option<PathBuf>,
     /// `polynomial(s)`, `legendre(s)`, or a list of functions of t: "1, cos(pi*t), sin(pi*t)".
     #[arg(long, allow_hyphen_values = true)]
@@ -42,9 +42,16 @@ pub(crate) struct Arguments {
     /// Given weights of the forces [default: b].
     #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
     b_tilde: Option<String>,
+    /// Steps of other methods one after another, each with its fraction of the step:
+    /// "[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]".
+    #[arg(long, allow_hyphen_values = true, value_name = "STEPS")]
+    compose: Option<String>,
     /// Exchange the coefficients of positions and momenta.
     #[arg(long)]
     exchange: bool,
+    /// Take the adjoint method.
+    #[arg(long)]
+    adjoint: bool,
     /// A name to put into the output.
     #[arg(long)]
     name: Option<String>,
@@ -71,7 +78,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
 
 impl Arguments {
     fn definition(&self) -> Definition {
-        let exchange = self.exchange.then(|| "true".to_owned());
+        let switch = |on: bool| on.then(|| "true".to_owned());
+        let (exchange, adjoint) = (switch(self.exchange), switch(self.adjoint));
         let parts = [
             (Key::Basis, &self.basis),
             (Key::Nodes, &self.nodes),
@@ -81,7 +89,9 @@ impl Arguments {
             (Key::B, &self.b),
             (Key::ATilde, &self.a_tilde),
             (Key::BTilde, &self.b_tilde),
+            (Key::Compose, &self.compose),
             (Key::Exchange, &exchange),
+            (Key::Adjoint, &adjoint),
         ];
         let given = parts
             .into_iter()

@@ -63,17 +63,20 @@ struct ProvenanceTable {
     b: Option<Spanned<String>>,
     a_tilde: Option<Spanned<String>>,
     b_tilde: Option<Spanned<String>>,
+    compose: Option<Spanned<String>>,
     exchange: Option<Spanned<bool>>,
+    adjoint: Option<Spanned<bool>>,
     tier: Option<Spanned<String>>,
     source: Option<String>,
 }
 
 impl ProvenanceTable {
     fn parts(&self) -> Vec<Part> {
-        let exchange = self
-            .exchange
-            .as_ref()
-            .map(|value| Spanned::new(value.span(), value.get_ref().to_string()));
+        let switch = |value: &Option<Spanned<bool>>| {
+            let value = value.as_ref()?;
+            Some(Spanned::new(value.span(), value.get_ref().to_string()))
+        };
+        let (exchange, adjoint) = (switch(&self.exchange), switch(&self.adjoint));
         let texts = [
             (Key::Basis, &self.basis),
             (Key::Nodes, &self.nodes),
@@ -83,7 +86,9 @@ impl ProvenanceTable {
             (Key::B, &self.b),
             (Key::ATilde, &self.a_tilde),
             (Key::BTilde, &self.b_tilde),
+            (Key::Compose, &self.compose),
             (Key::Exchange, &exchange),
+            (Key::Adjoint, &adjoint),
         ];
         let part = |(key, text): (Key, &Option<Spanned<String>>)| {
             let text = text.as_ref()?;

@@ -2,7 +2,6 @@
 
 use crate::algebra::{NodeAlgebra, Tensor};
 use crate::arithmetic::polynomial::Polynomial;
-use crate::definition::Key;
 use crate::export::facts::{self, Fact};
 use crate::export::json::evidence;
 use crate::export::layout::{right, widths};
@@ -54,7 +53,7 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
     text.push_str("\n[provenance]\n");
     for (key, part) in provenance.definition.parts() {
         let value = match key {
-            Key::Exchange => part.to_owned(),
+            key if key.is_switch() => part.to_owned(),
             _ => string(part),
         };
         text.push_str(&format!("{} = {value}\n", key.name()));
