@@ -3,15 +3,23 @@
 use std::process::ExitCode;
 
 use clap::Args;
-use symplectic_compiler::{Error, FAMILIES, catalogue};
+use symplectic_compiler::order::HamiltonianClass;
+use symplectic_compiler::{Error, FAMILIES, Tier, catalogue};
 
 use crate::output;
 
 /// List the methods of the catalogue and the quadrature rules.
 #[derive(Args)]
-pub(crate) struct Arguments {}
+pub(crate) struct Arguments {
+    /// What is proved of every method: order per class, properties, stability, as a table in Markdown.
+    #[arg(long)]
+    facts: bool,
+}
 
-pub(crate) fn run(_: &Arguments) -> Result<ExitCode, Error> {
+pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
+    if arguments.facts {
+        return output::print(&facts()?);
+    }
     let mut methods = vec![["name", "stages", "definition", "title"].map(str::to_owned)];
     methods.extend(catalogue::entries().map(|entry| {
         let others = entry.same_as();
@@ -42,6 +50,48 @@ pub(crate) fn run(_: &Arguments) -> Result<ExitCode, Error> {
     );
     text.push_str(&aligned(&rules));
     output::print(&text)
+}
+
+/// The facts about every method.
+fn facts() -> Result<String, Error> {
+    let mut text = String::from(
+        "| method | order: general, separable, Nyström | | stable for hω in |\n|---|---|---|---|\n",
+    );
+    for entry in catalogue::entries() {
+        let tableau = entry.derive()?;
+        let report = tableau.orders();
+        let orders = HamiltonianClass::ALL.map(|class| {
+            let found = report.class(class);
+            let at_least = if found.refuted_by.is_none() {
+                "≥ "
+            } else {
+                ""
+            };
+            format!("{at_least}{}", found.order)
+        });
+        let properties = tableau.properties();
+        let held: Vec<&str> = [
+            ("symmetric", &properties.symmetric),
+            ("explicit", &properties.explicit),
+            ("ã = a", &properties.equal_matrices),
+        ]
+        .into_iter()
+        .filter_map(|(word, property)| property.holds.then_some(word))
+        .chain((tableau.tier() == Tier::Enclosure).then_some("verified"))
+        .collect();
+        let intervals = tableau.stability().intervals;
+        let first = intervals
+            .first()
+            .map_or("∅".to_owned(), ToString::to_string);
+        let more = if intervals.len() > 1 { " ∪ …" } else { "" };
+        text.push_str(&format!(
+            "| {} | {} | {} | {first}{more} |\n",
+            entry.name,
+            orders.join(", "),
+            held.join(", "),
+        ));
+    }
+    Ok(text)
 }
 
 /// A table with its columns aligned.
