@@ -201,13 +201,18 @@ impl Tableau {
         order: usize,
         accepted: Option<u32>,
     ) -> Result<(), ErrorKind> {
-        // An order is refuted by a tree with one vertex more.
-        let options = OrderOptions {
-            limit: (order + 1).min(OrderOptions::default().limit),
-            ..OrderOptions::default()
+        let to = |limit: usize| {
+            let options = OrderOptions {
+                limit: limit.min(OrderOptions::default().limit),
+                ..OrderOptions::default()
+            };
+            self.order(&options).class(class).clone()
         };
-        let report = self.order(&options);
-        let found = report.class(class);
+        let mut found = to(order);
+        if exactly && found.order >= order && found.refuted_by.is_none() {
+            // The quadrature does not refute a higher order; some tree with one vertex more may.
+            found = to(order + 1);
+        }
         let refused = |message: String| Err(ErrorKind::Requirement { message });
         if found.order < order {
             let Some(violated) = &found.refuted_by else {

@@ -64,10 +64,13 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         #visibility struct #name;
 
+        // A coefficient may well be 1/π.
+        #[allow(clippy::approx_constant)]
         impl #name {
             #constants
         }
 
+        #[allow(clippy::approx_constant)]
         const _: () = {
             impl ::symplectic::Method for #name {
                 const NAME: &'static str = #text;

@@ -76,10 +76,20 @@ pub(super) fn sections(
         .map(|class| (class.name(), class_order(report.class(class))))
         .into();
     order.push(("symplecticity", symplecticity(tableau)));
-    [
-        ("order", order),
-        ("stability", stability(&tableau.stability(), digits)),
-    ]
+    let stability = if tableau.stages() > STABILITY_STAGES {
+        vec![("omitted", Text(omitted()))]
+    } else {
+        stability(&tableau.stability(), digits)
+    };
+    [("order", order), ("stability", stability)]
+}
+
+/// Stability of methods with more stages is left out of files: the real roots of polynomials of twice that
+/// degree take seconds and more. [`Tableau::stability`] has no such bound.
+pub const STABILITY_STAGES: usize = 12;
+
+fn omitted() -> String {
+    format!("more than {STABILITY_STAGES} stages")
 }
 
 fn class_order(found: &ClassOrder) -> Fact {
@@ -218,13 +228,12 @@ pub(super) fn lines(tableau: &Tableau) -> Vec<String> {
     }
     lines.push(String::new());
     lines.push("stability on the oscillator, ν = hω".to_owned());
-    lines.extend(
-        tableau
-            .stability()
-            .to_string()
-            .lines()
-            .map(|line| format!("  {line}")),
-    );
+    if tableau.stages() > STABILITY_STAGES {
+        lines.push(format!("  left out: {}", omitted()));
+    } else {
+        let stability = tableau.stability().to_string();
+        lines.extend(stability.lines().map(|line| format!("  {line}")));
+    }
     lines
 }
 

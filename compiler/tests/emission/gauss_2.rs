@@ -26,6 +26,7 @@ properties
 ```*/
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Gauss2;
+#[allow(clippy::approx_constant)]
 impl Gauss2 {
     /// a_ij: the position stages from the velocities. Correctly rounded.
     pub const A: [[f64; 2]; 2] = [
@@ -43,6 +44,7 @@ impl Gauss2 {
     /// c̃_i = Σ_j ã_ij. Correctly rounded.
     pub const C_TILDE: [f64; 2] = Self::C;
 }
+#[allow(clippy::approx_constant)]
 const _: () = {
     impl ::symplectic::Method for Gauss2 {
         const NAME: &'static str = "Gauss2";

@@ -25,6 +25,7 @@ properties
 ```*/
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lobatto3;
+#[allow(clippy::approx_constant)]
 impl Lobatto3 {
     /// a_ij: the position stages from the velocities. Correctly rounded.
     pub const A: [[f64; 3]; 3] = [
@@ -51,6 +52,7 @@ impl Lobatto3 {
     /// c̃_i = Σ_j ã_ij. Correctly rounded.
     pub const C_TILDE: [f64; 3] = [0.0, 0.5, 1.0];
 }
+#[allow(clippy::approx_constant)]
 const _: () = {
     impl ::symplectic::Method for Lobatto3 {
         const NAME: &'static str = "Lobatto3";

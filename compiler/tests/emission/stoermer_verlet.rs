@@ -24,6 +24,7 @@ properties
 ```*/
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StoermerVerlet;
+#[allow(clippy::approx_constant)]
 impl StoermerVerlet {
     /// a_ij: the position stages from the velocities. Correctly rounded.
     pub const A: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.5]];
@@ -38,6 +39,7 @@ impl StoermerVerlet {
     /// c̃_i = Σ_j ã_ij. Correctly rounded.
     pub const C_TILDE: [f64; 2] = [0.5, 0.5];
 }
+#[allow(clippy::approx_constant)]
 const _: () = {
     impl ::symplectic::Method for StoermerVerlet {
         const NAME: &'static str = "StoermerVerlet";

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+use symplectic_compiler::export::STABILITY_STAGES;
 use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::{Error, Limits, check, export};
 
@@ -59,9 +60,14 @@ fn check_file(path: &Path, limits: &Limits) -> Result<String, Error> {
         };
         format!("{class} {at_least}{}", found.order)
     });
-    let stable = tableau.stability().intervals_text();
+    let stable = if tableau.stages() > STABILITY_STAGES {
+        String::new()
+    } else {
+        let intervals = tableau.stability().intervals_text();
+        format!(", stable for hω in {intervals}")
+    };
     Ok(format!(
-        "{called} with {stages}, order {}, stable for hω in {stable}",
+        "{called} with {stages}, order {}{stable}",
         orders.join(", ")
     ))
 }
