@@ -417,3 +417,67 @@ fn runge_kutta_methods_are_given() {
     assert_eq!(reversed.to_f64().c, [1.0, 0.0]);
     assert!(reversed.properties().symmetric.holds && reversed.properties().explicit.holds);
 }
+
+#[test]
+fn weights_go_with_their_nodes() {
+    let sorted = define("basis: [1], quadrature: [0, 1], weights: [3/4, 1/4]");
+    let given = define("basis: [1], quadrature: [1, 0], weights: [1/4, 3/4]");
+    assert!(given.has_coefficients_of(&sorted));
+    assert_eq!(given.provenance(), sorted.provenance());
+    assert_eq!(given.to_f64().b, [0.75, 0.25]);
+}
+
+#[test]
+fn factors_of_functions_do_not_matter() {
+    for (with, without) in [
+        ("[1, pi*t, exp(-t)]", "[1, t, exp(-t)]"),
+        ("[e, cos(pi*t)*e, sin(pi*t)]", "[1, cos(pi*t), sin(pi*t)]"),
+    ] {
+        let [with, without] =
+            [with, without].map(|basis| define(&format!("basis: {basis}, nodes: [0, 1/2, 1]")));
+        assert_eq!(with.tier(), Tier::ConstantField);
+        assert!(with.has_coefficients_of(&without));
+    }
+}
+
+#[test]
+fn tiny_numbers_are_not_taken_for_zero() {
+    let tiny = define("a: [[pi*exp(-1000)]], b: [1 + 1/2^53 + pi*exp(-1000)]");
+    assert_eq!(tiny.tier(), Tier::Enclosure);
+    assert_eq!(tiny.properties().first_row_zero.evidence, Evidence::Refuted);
+    let digits = tiny.numbers().a[0][0].decimal(3).to_string();
+    assert_eq!(digits, "1.59e-434");
+    assert_eq!(tiny.to_f64().b[0], 1.0 + f64::EPSILON);
+}
+
+#[test]
+fn fields_that_would_be_too_large_give_way_to_enclosures() {
+    for text in [
+        "basis: [1, cos(200*t), sin(200*t)], nodes: [0, 1/3, 1]",
+        "basis: [1, exp(t)], nodes: [0.1, 0.957]",
+        "a: [[exp(400) + exp(1/2)]], b: [1]",
+        "basis: polynomial(5), nodes: [cos(pi/5), exp(-1), cbrt(2)/2, sqrt(3)/2, exp(-1/2)]",
+    ] {
+        assert_eq!(define(text).tier(), Tier::Enclosure, "{text}");
+    }
+}
+
+#[test]
+fn zeros_at_nodes_of_any_degree_are_exact() {
+    for nodes in ["radau-left(5)", "lobatto(6)"] {
+        let tableau = derive(
+            &format!("polynomial({})", &nodes[nodes.len() - 2..nodes.len() - 1]),
+            nodes,
+        )
+        .expect("derived");
+        let forms = tableau.exact_forms();
+        let mut zeros = 0;
+        for (form, number) in forms.iter().zip(tableau.numbers().iter()) {
+            if number.is_zero() {
+                assert_eq!(form.as_deref(), Some("0"), "{nodes}");
+                zeros += 1;
+            }
+        }
+        assert!(zeros > 4, "{nodes}");
+    }
+}

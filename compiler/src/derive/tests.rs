@@ -131,3 +131,84 @@ fn polynomial_bases_give_the_weights_of_the_rule() {
         assert!(tableau.properties().consistent.holds);
     }
 }
+
+/// Numbers of one tier lie in the enclosures of the next.
+fn agree(exact: &Tableau, enclosed: &Tableau) {
+    let pairs = exact.numbers();
+    for (x, y) in pairs.iter().zip(enclosed.numbers().iter()) {
+        for bits in [200, 500] {
+            let difference = x.enclose(bits).subtract(&y.enclose(bits));
+            assert!(difference.contains(&ratio(0, 1)));
+            assert!(difference.width_bits() < 8 - i64::from(bits));
+        }
+    }
+}
+
+/// The same construction in each tier that can hold it, strongest first.
+fn in_all_tiers(basis: &str, nodes: &str) -> Vec<Tableau> {
+    use super::dense::{Samples, collocation};
+    use crate::algebra::{Constants, Reals};
+
+    let limits = Limits::default();
+    let derived = derive(basis, nodes).expect("derived");
+    let functions = Basis::parse(basis, &limits).and_then(|b| Ok(b.functions()?));
+    let constants = Nodes::parse("nodes", nodes, &limits).and_then(|n| Ok(n.constants()?));
+    let samples =
+        Samples::new(&functions.expect("functions"), &constants.expect("nodes")).expect("small");
+    let definition = derived.provenance().definition.clone();
+    let mut all = vec![derived];
+    if let Some(field) = Constants::containing(samples.constants()) {
+        let samples = samples.in_field(&field).expect("in the field");
+        let pair = collocation(field, &samples).unwrap_or_else(|_| panic!("derived before"));
+        all.push(Tableau::new(definition.clone(), Exact::Field(pair)));
+    }
+    let samples = samples.in_field(&Reals).expect("reals");
+    let pair = collocation(Reals, &samples).unwrap_or_else(|_| panic!("derived before"));
+    all.push(Tableau::new(definition, Exact::Reals(pair)));
+    all
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn tiers_agree_where_they_overlap(
+        functions in prop::sample::subsequence(
+            vec!["t^2 - 1/3", "cos(pi*t)", "sin(pi*t/2)", "t*sin(pi*t)", "t^3", "cos(2*pi*t/3 + pi/7)"], 1..3),
+        more in prop::sample::subsequence(vec!["t", "exp(t)", "t*exp(-t)", "cosh(t/2)", "cos(t)", "sin(t + 1)"], 0..2),
+        nodes in prop::sample::subsequence(vec!["0", "1/5", "1/3", "1/2", "sqrt(2)/2", "3/4", "cos(pi/9)", "1"], 4),
+    ) {
+        let basis = [vec!["1"], functions, more].concat();
+        let nodes = nodes[..basis.len().min(4)].join(", ");
+        prop_assume!(basis.len() <= 4);
+        let basis = basis.join(", ");
+        prop_assume!(derive(&basis, &nodes).is_ok());
+        let all = in_all_tiers(&basis, &nodes);
+        for pair in all.windows(2) {
+            agree(&pair[0], &pair[1]);
+        }
+    }
+}
+
+#[test]
+fn tiers_agree_on_the_classical_rules() {
+    for (basis, nodes) in [
+        ("polynomial(2)", "gauss(2)"),
+        ("polynomial(3)", "lobatto(3)"),
+        ("polynomial(4)", "gauss(4)"),
+        ("legendre(3)", "chebyshev(3)"),
+    ] {
+        let all = in_all_tiers(basis, nodes);
+        assert_eq!(all.len(), 3, "{basis} at {nodes}");
+        for pair in all.windows(2) {
+            agree(&pair[0], &pair[1]);
+        }
+    }
+    // A wrong digit shows.
+    let wrong = derive("polynomial(2)", "1/5, 4/5").expect("derived");
+    let right = derive("polynomial(2)", "gauss(2)").expect("derived");
+    let difference = wrong.numbers().a[0][0]
+        .enclose(200)
+        .subtract(&right.numbers().a[0][0].enclose(200));
+    assert!(!difference.contains(&ratio(0, 1)));
+}
