@@ -47,12 +47,12 @@ impl Interval {
 
     /// The lower end.
     pub fn low(&self) -> BigRational {
-        BigRational::new(self.low.clone(), BigInt::one() << self.bits)
+        dyadic(&self.low, self.bits)
     }
 
     /// The upper end.
     pub fn high(&self) -> BigRational {
-        BigRational::new(self.high.clone(), BigInt::one() << self.bits)
+        dyadic(&self.high, self.bits)
     }
 
     /// The sign of all numbers in the interval, if they have the same.
@@ -70,9 +70,8 @@ impl Interval {
 
     /// Whether a rational lies in the interval.
     pub fn contains(&self, value: &BigRational) -> bool {
-        let scaled = value * BigRational::from_integer(BigInt::one() << self.bits);
-        BigRational::from_integer(self.low.clone()) <= scaled
-            && scaled <= BigRational::from_integer(self.high.clone())
+        let scaled = value.numer() << self.bits;
+        &self.low * value.denom() <= scaled && scaled <= &self.high * value.denom()
     }
 
     /// The sum.
@@ -288,6 +287,17 @@ impl Interval {
     }
 }
 
+/// `numerator·2⁻ᵇⁱᵗˢ` in lowest terms, for which no greatest common divisor is needed.
+fn dyadic(numerator: &BigInt, bits: u32) -> BigRational {
+    match numerator.trailing_zeros() {
+        None => BigRational::zero(),
+        Some(zeros) => {
+            let common = u32::try_from(zeros).unwrap_or(u32::MAX).min(bits);
+            BigRational::new_raw(numerator >> common, BigInt::one() << (bits - common))
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -312,6 +322,8 @@ mod tests {
             let p = Polynomial::from_rationals(&[ratio(1, 3), ratio(-2, 5), ratio(7, 2)]);
             prop_assert!(i.evaluate(&p).contains(&p.evaluate(&x)));
             prop_assert!(i.sign().is_none_or(|s| s == x.cmp(&BigRational::zero())));
+            let (low, reduced) = (i.low(), BigRational::new(i.low.clone(), BigInt::one() << i.bits));
+            prop_assert_eq!((low.numer(), low.denom()), (reduced.numer(), reduced.denom()));
         }
 
         #[test]
