@@ -36,6 +36,9 @@ pub struct StageValue<'a> {
     pub coefficients: Vec<Number<'a>>,
     /// Whether the value is the result of the step: its coefficients are the weights.
     pub is_end: bool,
+    /// The evaluations that have been applied in full where the value is reached, if every coefficient is zero or
+    /// the weight of its evaluation, as in a splitting.
+    pub applied: Option<Vec<usize>>,
 }
 
 impl StageValue<'_> {
@@ -120,9 +123,15 @@ impl<'a> StepGraph<'a> {
                     [single] => entries[row][*single].clone(),
                     _ => merged(matrix, row, group),
                 };
+                let coefficients: Vec<Number<'a>> = evaluations.iter().map(coefficient).collect();
+                let applied = coefficients.iter().zip(evaluations).enumerate();
+                let applied = applied.filter(|(_, (coefficient, _))| !coefficient.is_zero());
                 StageValue {
-                    coefficients: evaluations.iter().map(coefficient).collect(),
+                    applied: applied
+                        .map(|(j, (_, group))| vanishes(group).then_some(j))
+                        .collect(),
                     is_end: evaluations.iter().all(vanishes),
+                    coefficients,
                     stages: stages.clone(),
                 }
             };
@@ -199,21 +208,19 @@ impl<'a> StepGraph<'a> {
         }
     }
 
-    /// Splits the nodes into those before, in and after the coupled ones.
-    pub fn schedule(&self) -> Schedule {
+    /// All nodes.
+    pub fn nodes(&self) -> impl Iterator<Item = Node> {
         let positions = (0..self.positions.len()).map(Node::Position);
         let forces = (0..self.forces.len()).map(Node::Force);
         let momenta = (0..self.momenta.len()).map(Node::Momentum);
         let velocities = (0..self.velocities.len()).map(Node::Velocity);
-        let nodes: Vec<Node> = positions
-            .chain(forces)
-            .chain(momenta)
-            .chain(velocities)
-            .collect();
-        let mut rest: Vec<(Node, Vec<Node>)> = nodes
-            .into_iter()
-            .map(|node| (node, self.needs(node)))
-            .collect();
+        positions.chain(forces).chain(momenta).chain(velocities)
+    }
+
+    /// Splits the nodes into those before, in and after the coupled ones.
+    pub fn schedule(&self) -> Schedule {
+        let mut rest: Vec<(Node, Vec<Node>)> =
+            self.nodes().map(|node| (node, self.needs(node))).collect();
         let before = take_while_possible(&mut rest, |(_, needs), rest| {
             needs
                 .iter()

@@ -1,6 +1,9 @@
 //! How the stages of a step are found: in order, or by iteration.
 
-use crate::{Class, Hamiltonian, Plan, Quantity, Scalar, Separable, StageStorage, Step, Vector};
+use crate::{
+    Class, Hamiltonian, Kept, Outcome, Plan, Quantity, Scalar, Separable, StageStorage, Step,
+    Summation, Vector, Witness,
+};
 
 mod sealed {
     pub trait Sealed {}
@@ -10,23 +13,47 @@ mod sealed {
 
 /// Whether the stages of a [`Plan`] have to be solved for: [`Explicit`] or [`Coupled`]. Sealed.
 pub trait Coupling: sealed::Sealed + Sized + 'static {
-    /// Takes `step` and writes its result into `q1` and `p1`; returns the number of sweeps made.
+    /// Takes `step` and writes its result into `outcome`; returns what that took.
     ///
     /// # Errors
     ///
     /// [`Failure`], where the stages cannot be found. That the result is finite is left to the caller to check.
-    fn drive<P, V, S>(
+    fn drive<P, R, V, S>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut P::Stages<V>,
-        carried: bool,
+        kept: Kept,
         max_iterations: u32,
-        result: (&mut V, &mut V),
-    ) -> Result<u32, Failure>
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
     where
         P: Plan<Coupling = Self>,
+        R: Summation,
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>;
+
+    /// Takes a step that failed once more and shows its evaluations to `witness`, if they are not in `stages`.
+    fn observe<P, R, V, S, W>(
+        step: &Step<'_, V>,
+        system: &S,
+        stages: &mut P::Stages<V>,
+        outcome: Outcome<'_, V>,
+        witness: &mut W,
+    ) where
+        P: Plan<Coupling = Self>,
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        W: Witness;
+}
+
+/// What a step took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Fixed-point sweeps.
+    pub iterations: u32,
+    /// Evaluations of a velocity or a force.
+    pub evaluations: u32,
 }
 
 /// Why the stages of a step could not be found.
@@ -77,51 +104,127 @@ const CONTRACTION: f64 = 1.0 / 1024.0;
 
 impl Coupling for Explicit {
     #[inline(always)]
-    fn drive<P, V, S>(
+    fn drive<P, R, V, S>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut P::Stages<V>,
-        carried: bool,
+        kept: Kept,
         _max_iterations: u32,
-        (q1, p1): (&mut V, &mut V),
-    ) -> Result<u32, Failure>
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
     where
         P: Plan<Coupling = Self>,
+        R: Summation,
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,
     {
-        P::begin(step, system, stages, carried);
-        P::finish(step, system, stages, q1, p1);
-        Ok(0)
+        P::begin::<R, V, S>(step, system, stages, kept);
+        P::finish::<R, V, S, ()>(step, system, stages, kept, outcome, &mut ());
+        Ok(Work {
+            iterations: 0,
+            evaluations: P::EVALUATIONS.at_begin(kept) + P::EVALUATIONS.finish,
+        })
+    }
+
+    fn observe<P, R, V, S, W>(
+        step: &Step<'_, V>,
+        system: &S,
+        stages: &mut P::Stages<V>,
+        outcome: Outcome<'_, V>,
+        witness: &mut W,
+    ) where
+        P: Plan<Coupling = Self>,
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        W: Witness,
+    {
+        *stages = P::Stages::like(step.q);
+        P::begin::<R, V, S>(step, system, stages, Kept::default());
+        P::finish::<R, V, S, W>(step, system, stages, Kept::default(), outcome, witness);
     }
 }
 
 impl Coupling for Coupled {
     #[inline]
-    fn drive<P, V, S>(
+    fn drive<P, R, V, S>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut P::Stages<V>,
-        carried: bool,
+        kept: Kept,
         max_iterations: u32,
-        (q1, p1): (&mut V, &mut V),
-    ) -> Result<u32, Failure>
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
     where
         P: Plan<Coupling = Self>,
+        R: Summation,
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,
     {
-        P::begin(step, system, stages, carried);
-        if let Some((what, stage)) = stages.non_finite() {
-            return Err(Failure::NonFinite {
-                what,
-                stage: Some(stage),
-            });
+        let mut work = Work::default();
+        let mut solved = solve::<P, R, V, S>(step, system, stages, kept, max_iterations, &mut work);
+        if solved.is_err() && kept.stages {
+            // What the step before was like may say nothing about this one: once more without it.
+            let anew = Kept {
+                stages: false,
+                ..kept
+            };
+            solved = solve::<P, R, V, S>(step, system, stages, anew, max_iterations, &mut work);
         }
-        let iterations = iterate::<P, V, S>(step, system, stages, max_iterations)?;
-        P::finish(step, system, stages, q1, p1);
-        Ok(iterations)
+        solved?;
+        P::finish::<R, V, S, ()>(step, system, stages, kept, outcome, &mut ());
+        work.evaluations += P::EVALUATIONS.finish;
+        Ok(work)
     }
+
+    fn observe<P, R, V, S, W>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _stages: &mut P::Stages<V>,
+        _outcome: Outcome<'_, V>,
+        _witness: &mut W,
+    ) where
+        P: Plan<Coupling = Self>,
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        W: Witness,
+    {
+    }
+}
+
+/// Finds the coupled stages, and adds to `work` what that took.
+#[inline(always)]
+fn solve<P, R, V, S>(
+    step: &Step<'_, V>,
+    system: &S,
+    stages: &mut P::Stages<V>,
+    kept: Kept,
+    max_iterations: u32,
+    work: &mut Work,
+) -> Result<(), Failure>
+where
+    P: Plan,
+    R: Summation,
+    V: Vector,
+    S: Hamiltonian<V, Class = P::Class>,
+{
+    P::begin::<R, V, S>(step, system, stages, kept);
+    work.evaluations += P::EVALUATIONS.at_begin(kept);
+    if let Some((what, stage)) = stages.non_finite() {
+        return Err(Failure::NonFinite {
+            what,
+            stage: Some(stage),
+        });
+    }
+    let solved = iterate::<P, R, V, S>(step, system, stages, max_iterations);
+    let iterations = match solved {
+        Ok(iterations) | Err(Failure::NoConvergence { iterations, .. }) => iterations,
+        Err(Failure::NonFinite { .. }) => 1,
+    };
+    work.iterations += iterations;
+    work.evaluations += iterations * P::EVALUATIONS.sweep;
+    solved.map(|_| ())
 }
 
 /// Sweeps until stagnation; returns the number of sweeps.
@@ -129,7 +232,7 @@ impl Coupling for Coupled {
 /// A change that grows ends nothing: where the stages are many and their coupling is far from normal, it can
 /// grow for many sweeps and vanish after all. A true divergence ends at the bound or overflows.
 #[inline]
-fn iterate<P, V, S>(
+fn iterate<P, R, V, S>(
     step: &Step<'_, V>,
     system: &S,
     stages: &mut P::Stages<V>,
@@ -137,6 +240,7 @@ fn iterate<P, V, S>(
 ) -> Result<u32, Failure>
 where
     P: Plan,
+    R: Summation,
     V: Vector,
     S: Hamiltonian<V, Class = P::Class>,
 {
@@ -146,7 +250,7 @@ where
     let mut last = f64::INFINITY;
     let mut idle = 0;
     for iteration in 1..=max_iterations {
-        let change = P::sweep(step, system, stages);
+        let change = P::sweep::<R, V, S>(step, system, stages);
         let residual = change.residual();
         if residual.is_nan() {
             // In the first sweep the system has been evaluated at the start and next to it: that the state is

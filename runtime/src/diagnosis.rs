@@ -1,7 +1,61 @@
 //! Why a step failed, with what a person needs to know about it.
 
 use crate::stage::is_finite;
-use crate::{Error, Failure, Quantity, StageStorage, Vector};
+use crate::{Error, Failure, Quantity, StageStorage, Vector, Witness};
+
+/// What is wrong with an evaluation.
+#[derive(Clone, Copy)]
+enum Fault {
+    NonFinite,
+    /// It has another dimension, this one.
+    Dimension(usize),
+}
+
+/// Looks for the first evaluation that is wrong although its argument is not.
+pub(crate) struct FirstFault {
+    dimension: usize,
+    found: Option<(Quantity, usize, Fault)>,
+}
+
+impl FirstFault {
+    /// For a state of this dimension.
+    pub(crate) const fn new(dimension: usize) -> Self {
+        Self {
+            dimension,
+            found: None,
+        }
+    }
+
+    /// The first that is not finite: what, and the number of its stage.
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        match self.found {
+            Some((what, stage, Fault::NonFinite)) => Some((what, stage)),
+            _ => None,
+        }
+    }
+
+    /// The first that has another dimension: what, the number of its stage, and its dimension.
+    fn mismatch(&self) -> Option<(Quantity, usize, usize)> {
+        match self.found {
+            Some((what, stage, Fault::Dimension(found))) => Some((what, stage, found)),
+            _ => None,
+        }
+    }
+}
+
+impl Witness for FirstFault {
+    fn evaluation<V: Vector>(&mut self, what: Quantity, stage: usize, argument: &V, value: &V) {
+        let dimension = value.dimension();
+        let fault = if dimension != self.dimension {
+            Fault::Dimension(dimension)
+        } else if is_finite(argument) && !is_finite(value) {
+            Fault::NonFinite
+        } else {
+            return;
+        };
+        self.found.get_or_insert((what, stage, fault));
+    }
+}
 
 /// The step that failed.
 pub(crate) struct Attempt {
@@ -11,24 +65,28 @@ pub(crate) struct Attempt {
     pub step_size: f64,
     /// Its number, from 1.
     pub step: u64,
+    /// Dimension of the state.
+    pub dimension: usize,
 }
 
 impl Attempt {
     /// The error for a failure to find the stages or, without one, for a result that is not sound, of which `q1` is
-    /// the position.
+    /// the position. What is wrong is in the stages, or it was `observed`.
     pub(crate) fn error<V: Vector, T: StageStorage<V>>(
         self,
         failure: Option<Failure>,
+        observed: &FirstFault,
         stages: &T,
         q1: &V,
-        dimension: usize,
     ) -> Error {
         let Self {
             time,
             step_size,
             step,
+            dimension,
         } = self;
-        if let Some((what, stage, found)) = stages.mismatch(dimension) {
+        let mismatch = observed.mismatch().or_else(|| stages.mismatch(dimension));
+        if let Some((what, stage, found)) = mismatch {
             // First of all: whatever else went wrong may be a consequence.
             return Error::EvaluationDimension {
                 time,
@@ -64,7 +122,7 @@ impl Attempt {
                 } else {
                     Quantity::Position
                 };
-                let culprit = stages.non_finite();
+                let culprit = observed.non_finite().or_else(|| stages.non_finite());
                 Error::NonFinite {
                     time,
                     step_size,

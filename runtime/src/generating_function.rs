@@ -5,12 +5,13 @@ use core::marker::PhantomData;
 
 use num_traits::Zero;
 
-use crate::diagnosis::Attempt;
+use crate::diagnosis::{Attempt, FirstFault};
 use crate::integrator::{check_state, check_step_size};
 use crate::stage::{first_mismatch, first_non_finite, is_finite};
 use crate::{
-    Change, Class, Coefficient, Coefficients, Coupled, Coupling, Error, Hamiltonian, Integrator,
-    Method, PartChange, Plan, Quantity, Scalar, StageStorage, Step, Vector,
+    Change, Class, Coefficient, Coefficients, Coupled, Coupling, Error, EvaluationCounts,
+    Hamiltonian, Integrator, Kept, Method, Outcome, PartChange, Plain, Plan, Quantity, Scalar,
+    StageStorage, Step, Summation, Vector, Witness,
 };
 
 /// What [`generating_function`] returns: the value at `(q0, p1)`, and the step that it generates.
@@ -92,11 +93,14 @@ pub fn generating_function<M: Method, S: Hamiltonian<V>, V: Vector>(
 ) -> Result<GeneratingFunction<V>, Error> {
     check_step_size(step_size)?;
     check_state(time, q0, p1, q0.dimension())?;
+    let nothing = q0.zeros_like();
     let step = Step {
         time,
         size: step_size,
         q: q0,
+        q_low: &nothing,
         p: p1,
+        p_low: &nothing,
     };
     let max_iterations = Integrator::<M, S, V>::DEFAULT_MAX_ITERATIONS;
     generating::<M, S, V>(system, &step, 1, max_iterations)
@@ -110,24 +114,33 @@ pub(crate) fn generating<M: Method, S: Hamiltonian<V>, V: Vector>(
     max_iterations: u32,
 ) -> Result<GeneratingFunction<V>, Error> {
     let mut stages = Unknowns::<M, V>::like(step.q);
-    let (mut q1, mut p0) = (step.q.zeros_like(), step.q.zeros_like());
-    let outcome = Coupled::drive::<TypeTwo<M, S::Class>, V, S>(
+    let zeros = || step.q.zeros_like();
+    let (mut q1, mut p0) = (zeros(), zeros());
+    let outcome = Coupled::drive::<TypeTwo<M, S::Class>, Plain, V, S>(
         step,
         system,
         &mut stages,
-        false,
+        Kept::default(),
         max_iterations,
-        (&mut q1, &mut p0),
+        Outcome {
+            q: &mut q1,
+            q_low: &mut zeros(),
+            p: &mut p0,
+            p_low: &mut zeros(),
+        },
     );
     let attempt = Attempt {
         time: step.time,
         step_size: step.size,
         step: number,
+        dimension: step.q.dimension(),
     };
-    let dimension = step.q.dimension();
-    let sound = stages.mismatch(dimension).is_none() && is_finite(&q1) && is_finite(&p0);
+    let mismatch = stages.mismatch(attempt.dimension);
+    let sound = mismatch.is_none() && is_finite(&q1) && is_finite(&p0);
     if outcome.is_err() || !sound {
-        return Err(attempt.error(outcome.err(), &stages, &q1, dimension));
+        // The stages are there to tell.
+        let observed = FirstFault::new(attempt.dimension);
+        return Err(attempt.error(outcome.err(), &observed, &stages, &q1));
     }
     let value = stages.value(system, step, number)?;
     Ok(GeneratingFunction { value, p0, q1 })
@@ -142,11 +155,19 @@ impl<M: Method, C: Class> Plan for TypeTwo<M, C> {
     type Coupling = Coupled;
     type Stages<V: Vector> = Unknowns<M, V>;
 
-    fn begin<V: Vector, S: Hamiltonian<V, Class = C>>(
+    const EVALUATIONS: EvaluationCounts = EvaluationCounts {
+        begin: 0,
+        start: 1,
+        sweep: 2 * M::STAGES as u32,
+        finish: 0,
+        carried: 0,
+    };
+
+    fn begin<R: Summation, V: Vector, S: Hamiltonian<V, Class = C>>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Unknowns<M, V>,
-        _carried: bool,
+        _kept: Kept,
     ) {
         stages.weights = Weights::new(&M::COEFFICIENTS, step.size);
         stages.q.iter_mut().for_each(|q| q.clone_from(step.q));
@@ -158,7 +179,7 @@ impl<M: Method, C: Class> Plan for TypeTwo<M, C> {
         }
     }
 
-    fn sweep<V: Vector, S: Hamiltonian<V, Class = C>>(
+    fn sweep<R: Summation, V: Vector, S: Hamiltonian<V, Class = C>>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Unknowns<M, V>,
@@ -192,12 +213,13 @@ impl<M: Method, C: Class> Plan for TypeTwo<M, C> {
         change
     }
 
-    fn finish<V: Vector, S: Hamiltonian<V, Class = C>>(
+    fn finish<R: Summation, V: Vector, S: Hamiltonian<V, Class = C>, W: Witness>(
         step: &Step<'_, V>,
         _system: &S,
         stages: &mut Unknowns<M, V>,
-        q1: &mut V,
-        p0: &mut V,
+        _kept: Kept,
+        outcome: Outcome<'_, V>,
+        _witness: &mut W,
     ) {
         let Unknowns {
             velocity,
@@ -208,9 +230,9 @@ impl<M: Method, C: Class> Plan for TypeTwo<M, C> {
         } = stages;
         let mut unused = PartChange::default();
         sum(increment, &weights.b, velocity);
-        settle(q1, step.q, increment, &mut unused);
+        settle(outcome.q, step.q, increment, &mut unused);
         sum(increment, &weights.back, force);
-        settle(p0, step.p, increment, &mut unused);
+        settle(outcome.p, step.p, increment, &mut unused);
     }
 
     fn carry<V: Vector>(_stages: &mut Unknowns<M, V>) -> bool {

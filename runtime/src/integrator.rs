@@ -4,12 +4,12 @@ use core::fmt;
 use core::marker::PhantomData;
 use core::mem;
 
-use crate::diagnosis::Attempt;
+use crate::diagnosis::{Attempt, FirstFault};
 use crate::stage::is_finite;
 use crate::time::{Clock, uniform};
 use crate::{
-    Class, Coupling, Error, Failure, Hamiltonian, Method, Plan, Quantity, Scalar, StageStorage,
-    State, States, Step, Vector,
+    Class, Compensated, Coupling, Error, Failure, Hamiltonian, Kept, Method, Outcome, Plain, Plan,
+    Quantity, Scalar, StageStorage, State, States, Statistics, Step, Summation, Vector, Work,
 };
 #[cfg(feature = "alloc")]
 use crate::{GeneratingFunction, generating_function::generating};
@@ -50,46 +50,97 @@ type PlanOf<M, S, V> = <<S as Hamiltonian<V>>::Class as Class>::Plan<M>;
 /// # Ok(())
 /// # }
 /// ```
-pub struct Integrator<M: Method, S: Hamiltonian<V>, V: Vector> {
+pub struct Integrator<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation = Compensated> {
     system: S,
     state: State<V>,
+    /// What the position and the momentum of the state leave out.
+    low: (V, V),
     /// Where a step writes its result; swapped with the state when it is accepted.
     next: (V, V),
+    /// What they leave out.
+    next_low: (V, V),
     stages: <PlanOf<M, S, V> as Plan>::Stages<V>,
-    /// Whether `stages` holds the first evaluation of the next step.
-    carried: bool,
+    /// What `stages` holds for the next step.
+    kept: Kept,
+    /// Size of the step before.
+    last_size: f64,
     clock: Clock,
     step_size: f64,
     max_iterations: u32,
-    steps: u64,
-    iterations: u64,
-    method: PhantomData<M>,
+    statistics: Statistics,
+    method: PhantomData<(M, R)>,
 }
 
 impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
-    /// A bound on the sweeps of one step, for [`set_max_iterations`](Self::set_max_iterations). An iteration that
-    /// needs more gains less than a factor of 1.2 a sweep.
-    pub const DEFAULT_MAX_ITERATIONS: u32 = 200;
-
-    /// An integrator at `state`, with steps of size `step_size`, negative to go backward.
+    /// An integrator at `state`, with steps of size `step_size`, negative to go backward, and with [`Compensated`]
+    /// sums.
     ///
     /// # Errors
     ///
     /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`].
-    pub fn new(_method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error> {
+    pub fn new(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error> {
+        Self::with_summation(method, system, state, step_size)
+    }
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V, Plain> {
+    /// [`new`](Integrator::new) with [`Plain`] sums.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Integrator::new).
+    ///
+    /// ```
+    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, separable};
+    /// # fn main() -> Result<(), Error> {
+    /// let oscillator = || separable::<Vector1<f64>, _, _>(|_, p, velocity| *velocity = *p, |_, q, force| *force = -q);
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+    /// let mut plain = Integrator::plain(StoermerVerlet, oscillator(), start.clone(), 0.1)?;
+    /// let mut compensated = Integrator::new(StoermerVerlet, oscillator(), start, 0.1)?;
+    /// let difference = plain.integrate_to(1e4)?.q - compensated.integrate_to(1e4)?.q;
+    /// assert!(difference[0] != 0.0 && difference[0].abs() < 1e-9);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn plain(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error> {
+        Self::with_summation(method, system, state, step_size)
+    }
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Integrator<M, S, V, R> {
+    /// A bound on the sweeps of one step, for [`set_max_iterations`](Self::set_max_iterations). An iteration that
+    /// needs more gains less than a factor of 1.2 a sweep.
+    pub const DEFAULT_MAX_ITERATIONS: u32 = 200;
+
+    /// [`new`](Integrator::new) with the sums that the type says.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Integrator::new).
+    pub fn with_summation(
+        _method: M,
+        system: S,
+        state: State<V>,
+        step_size: f64,
+    ) -> Result<Self, Error> {
         check_step_size(step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
+        let zeros = || (state.q.zeros_like(), state.q.zeros_like());
         Ok(Self {
             system,
-            next: (state.q.zeros_like(), state.q.zeros_like()),
+            low: zeros(),
+            next: zeros(),
+            next_low: zeros(),
             stages: StageStorage::like(&state.q),
-            carried: false,
+            kept: Kept::default(),
+            last_size: step_size,
             clock: Clock::new(state.time, step_size),
             state,
             step_size,
             max_iterations: Self::DEFAULT_MAX_ITERATIONS,
-            steps: 0,
-            iterations: 0,
+            statistics: Statistics::default(),
             method: PhantomData,
         })
     }
@@ -134,21 +185,23 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     #[cfg(feature = "alloc")]
     pub fn step_with_generating_function(&mut self) -> Result<GeneratingFunction<V>, Error> {
         let (size, time) = (self.step_size, self.clock.next());
-        let iterations = self.prepare(size, time)?;
+        let work = self.prepare(size, time)?;
         let step = Step {
             time: self.state.time,
             size,
             q: &self.state.q,
+            q_low: &self.low.0,
             p: &self.next.1,
+            p_low: &self.next_low.1,
         };
-        let number = self.steps + 1;
+        let number = self.statistics.steps + 1;
         let outcome = generating::<M, S, V>(&self.system, &step, number, self.max_iterations);
         if outcome.is_ok() {
-            self.accept(time, iterations);
+            self.accept(size, time, work);
             self.clock.tick();
         } else {
             // The stages are those of a step that was not taken.
-            self.carried = false;
+            self.kept = Kept::default();
         }
         outcome
     }
@@ -206,13 +259,19 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     }
 
     /// An endless iterator over the states after each step. [`Iterator::take`] what is needed.
-    pub const fn states(&mut self) -> States<'_, M, S, V> {
+    pub const fn states(&mut self) -> States<'_, M, S, V, R> {
         States::new(self)
     }
 
-    /// The present state.
+    /// The present state, rounded.
     pub const fn state(&self) -> &State<V> {
         &self.state
+    }
+
+    /// What the position and the momentum of [`state`](Self::state) leave out: less than half a unit in their last
+    /// places, and zero with [`Plain`] sums.
+    pub const fn remainder(&self) -> (&V, &V) {
+        (&self.low.0, &self.low.1)
     }
 
     /// Puts another state of the same dimension in place of the present one.
@@ -223,7 +282,8 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     pub fn set_state(&mut self, state: State<V>) -> Result<(), Error> {
         check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
         self.state = state;
-        self.carried = false;
+        self.low = (self.state.q.zeros_like(), self.state.q.zeros_like());
+        self.kept = Kept::default();
         self.restart_clock();
         Ok(())
     }
@@ -264,14 +324,19 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
         &self.system
     }
 
+    /// What the steps have taken so far.
+    pub const fn statistics(&self) -> &Statistics {
+        &self.statistics
+    }
+
     /// Number of steps taken.
     pub const fn steps(&self) -> u64 {
-        self.steps
+        self.statistics.steps
     }
 
     /// Number of fixed-point sweeps in all steps taken; 0 for an explicit method.
     pub const fn iterations(&self) -> u64 {
-        self.iterations
+        self.statistics.iterations
     }
 
     /// The energy of the present state, where the system knows it.
@@ -283,72 +348,84 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     /// One step of size `size`, to the time `time`. The clock is the caller's.
     #[inline]
     fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
-        let iterations = self.prepare(size, time)?;
-        self.accept(time, iterations);
+        let work = self.prepare(size, time)?;
+        self.accept(size, time, work);
         Ok(())
     }
 
-    /// Computes a step of size `size`, to the time `time`, into `next`; returns the number of sweeps.
+    /// Computes a step of size `size`, to the time `time`, into `next`; returns what it took.
     #[inline]
-    fn prepare(&mut self, size: f64, time: f64) -> Result<u32, Error> {
+    fn prepare(&mut self, size: f64, time: f64) -> Result<Work, Error> {
         if time == self.state.time {
             return Err(Error::TimeResolution {
                 time,
                 step_size: size,
             });
         }
-        match self.attempt(size) {
-            Ok(iterations) => Ok(iterations),
-            Err(failure) => Err(self.fail(size, failure)),
-        }
+        self.attempt(size)
+            .map_err(|failure| self.fail(size, failure))
     }
 
     /// Makes the step that [`prepare`](Self::prepare) has computed the present state.
     #[inline]
-    fn accept(&mut self, time: f64, iterations: u32) {
+    fn accept(&mut self, size: f64, time: f64, work: Work) {
         mem::swap(&mut self.state.q, &mut self.next.0);
         mem::swap(&mut self.state.p, &mut self.next.1);
+        if R::COMPENSATED {
+            mem::swap(&mut self.low, &mut self.next_low);
+        }
         self.state.time = time;
-        self.steps += 1;
-        self.iterations += u64::from(iterations);
-        self.carried = <PlanOf<M, S, V> as Plan>::carry(&mut self.stages);
+        self.statistics.count(work);
+        self.last_size = size;
+        self.kept = Kept {
+            evaluation: <PlanOf<M, S, V> as Plan>::carry(&mut self.stages),
+            stages: true,
+        };
     }
 
-    /// Computes a step into `next` and checks it; returns the number of sweeps.
+    /// Computes a step into `next` and checks it; returns what it took.
     #[inline]
-    fn attempt(&mut self, size: f64) -> Result<u32, Option<Failure>> {
-        let State { time, q, p } = &self.state;
-        let step = Step {
-            time: *time,
-            size,
-            q,
-            p,
+    fn attempt(&mut self, size: f64) -> Result<Work, Option<Failure>> {
+        let kept = Kept {
+            stages: self.kept.stages && size == self.last_size,
+            ..self.kept
         };
-        let (q1, p1) = &mut self.next;
-        let iterations = <PlanOf<M, S, V> as Plan>::Coupling::drive::<PlanOf<M, S, V>, V, S>(
-            &step,
+        let work = <PlanOf<M, S, V> as Plan>::Coupling::drive::<PlanOf<M, S, V>, R, V, S>(
+            &step(&self.state, &self.low, size),
             &self.system,
             &mut self.stages,
-            self.carried,
+            kept,
             self.max_iterations,
-            (&mut *q1, &mut *p1),
+            outcome(&mut self.next, &mut self.next_low),
         )?;
-        let sound = self.stages.mismatch(q.dimension()).is_none() && is_finite(q1) && is_finite(p1);
-        if sound { Ok(iterations) } else { Err(None) }
+        let (q1, p1) = &self.next;
+        let dimension = self.state.q.dimension();
+        let sound = self.stages.mismatch(dimension).is_none() && is_finite(q1) && is_finite(p1);
+        if sound { Ok(work) } else { Err(None) }
     }
 
     /// Says why a step failed, and forgets everything that it left behind.
     #[cold]
-    fn fail(&mut self, step_size: f64, failure: Option<Failure>) -> Error {
+    fn fail(&mut self, size: f64, failure: Option<Failure>) -> Error {
         let attempt = Attempt {
             time: self.state.time,
-            step_size,
-            step: self.steps + 1,
+            step_size: size,
+            step: self.statistics.steps + 1,
+            dimension: self.state.q.dimension(),
         };
-        let dimension = self.state.q.dimension();
-        let error = attempt.error(failure, &self.stages, &self.next.0, dimension);
+        let mut fault = FirstFault::new(attempt.dimension);
+        if failure.is_none() {
+            <PlanOf<M, S, V> as Plan>::Coupling::observe::<PlanOf<M, S, V>, R, V, S, FirstFault>(
+                &step(&self.state, &self.low, size),
+                &self.system,
+                &mut self.stages,
+                outcome(&mut self.next, &mut self.next_low),
+                &mut fault,
+            );
+        }
+        let error = attempt.error(failure, &fault, &self.stages, &self.next.0);
         self.stages = StageStorage::like(&self.state.q);
-        self.carried = false;
+        self.kept = Kept::default();
         error
     }
 
@@ -357,16 +434,39 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector> fmt::Debug for Integrator<M, S, V> {
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> fmt::Debug for Integrator<M, S, V, R> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter
             .debug_struct("Integrator")
             .field("method", &M::NAME)
             .field("state", &self.state)
             .field("step_size", &self.step_size)
-            .field("steps", &self.steps)
-            .field("iterations", &self.iterations)
+            .field("statistics", &self.statistics)
             .finish_non_exhaustive()
+    }
+}
+
+/// A step of size `size` from a state and what it leaves out.
+#[inline(always)]
+const fn step<'a, V>(state: &'a State<V>, low: &'a (V, V), size: f64) -> Step<'a, V> {
+    Step {
+        time: state.time,
+        size,
+        q: &state.q,
+        q_low: &low.0,
+        p: &state.p,
+        p_low: &low.1,
+    }
+}
+
+/// Places for the result of a step.
+#[inline(always)]
+const fn outcome<'a, V>(next: &'a mut (V, V), low: &'a mut (V, V)) -> Outcome<'a, V> {
+    Outcome {
+        q: &mut next.0,
+        q_low: &mut low.0,
+        p: &mut next.1,
+        p_low: &mut low.1,
     }
 }
 

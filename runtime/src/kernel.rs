@@ -1,91 +1,233 @@
 //! The linear combinations that generated code is made of.
+//!
+//! Nothing is allocated. Vectors of different dimension, which only a system that resized a result can bring
+//! here, are combined up to the shortest one; the integrator then reports
+//! [`Error::EvaluationDimension`](crate::Error::EvaluationDimension).
 
-use crate::{Coefficient, PartChange, Scalar, Vector};
+use core::array;
 
-/// `out = base + h Σ_j coefficients_j terms_j`; a copy of `base` where there are no terms.
+use crate::summation::{fast_two_sum, two_sum};
+use crate::{Coefficient, PartChange, Scalar, Summation, Vector};
+
+/// Coefficients times the step size: the factors of evaluations.
+#[inline(always)]
+pub fn weights<T: Scalar, const N: usize>(h: f64, coefficients: [Coefficient; N]) -> [T; N] {
+    coefficients.map(|c| T::weight(h, c))
+}
+
+/// Coefficients as they are: the factors of increments.
+#[inline(always)]
+pub fn factors<T: Scalar, const N: usize>(coefficients: [Coefficient; N]) -> [T; N] {
+    coefficients.map(T::from_coefficient)
+}
+
+/// `out = base + Σ_j factors_j terms_j`, for a base that is the sum of `base` and `low`.
 ///
-/// The increments are summed before they meet the base, which is usually larger. Nothing is allocated. Vectors
-/// of different dimension, which only a system that resized a result can bring here, are combined up to the
-/// shortest one; the integrator then reports [`Error::EvaluationDimension`](crate::Error::EvaluationDimension).
+/// The terms are summed before they meet the base, which is usually larger.
 ///
 /// ```
-/// use symplectic::{Coefficient, combine};
 /// use symplectic::nalgebra::Vector2;
+/// use symplectic::{Coefficient, Plain, combine, weights};
 ///
 /// let (q, force) = (Vector2::new(1.0, 2.0), Vector2::new(4.0, 8.0));
-/// let mut out = Vector2::zeros();
-/// combine(&mut out, &q, 0.5, [1.0, -0.5].map(Coefficient::exact), [&force, &q]);
+/// let (low, mut out) = (Vector2::zeros(), Vector2::zeros());
+/// let factors = weights(0.5, [1.0, -0.5].map(Coefficient::exact));
+/// combine::<Plain, _, 2>(&mut out, &q, &low, factors, [&force, &q]);
 /// assert_eq!(out, Vector2::new(2.75, 5.5));
-/// combine(&mut out, &q, 0.5, [], []);
-/// assert_eq!(out, q);
 /// ```
 #[inline(always)]
-pub fn combine<V: Vector, const N: usize>(
+pub fn combine<R: Summation, V: Vector, const N: usize>(
     out: &mut V,
     base: &V,
-    h: f64,
-    coefficients: [Coefficient; N],
+    low: &V,
+    factors: [V::Scalar; N],
     terms: [&V; N],
 ) {
-    let weights = coefficients.map(|c| V::Scalar::weight(h, c));
-    let (out, base, terms) = common(out.as_mut_slice(), base.as_slice(), terms.map(V::as_slice));
-    for i in 0..out.len() {
-        out[i] = accumulate(base[i], &weights, &terms, i);
+    let n = shortest([&*out, base, low]).min(shortest(terms));
+    let (out, base) = (&mut out.as_mut_slice()[..n], &base.as_slice()[..n]);
+    let (low, terms) = (
+        &low.as_slice()[..n],
+        terms.map(|term| &term.as_slice()[..n]),
+    );
+    for i in 0..n {
+        out[i] = value::<R, _, N>(base[i], low[i], &factors, &terms, i);
     }
 }
 
 /// [`combine`] for a stage that is solved for: notes in `change` how far `out` moved.
 #[inline(always)]
-pub fn relax<V: Vector, const N: usize>(
+pub fn relax<R: Summation, V: Vector, const N: usize>(
     out: &mut V,
     base: &V,
-    h: f64,
-    coefficients: [Coefficient; N],
+    low: &V,
+    factors: [V::Scalar; N],
     terms: [&V; N],
     change: &mut PartChange,
 ) {
-    let weights = coefficients.map(|c| V::Scalar::weight(h, c));
-    let (out, base, terms) = common(out.as_mut_slice(), base.as_slice(), terms.map(V::as_slice));
+    let n = shortest([&*out, base, low]).min(shortest(terms));
+    let (out, base) = (&mut out.as_mut_slice()[..n], &base.as_slice()[..n]);
+    let (low, terms) = (
+        &low.as_slice()[..n],
+        terms.map(|term| &term.as_slice()[..n]),
+    );
     // A local copy stays in registers; behind the reference it would be stored for every component.
     let mut local = *change;
-    for i in 0..out.len() {
-        let new = accumulate(base[i], &weights, &terms, i);
+    for i in 0..n {
+        let new = value::<R, _, N>(base[i], low[i], &factors, &terms, i);
         local.record(base[i], out[i], new);
         out[i] = new;
     }
     *change = local;
 }
 
-/// Copies one vector of an array to others, which starts an iteration from a single evaluation.
-#[inline]
-pub fn copy_to<V: Vector, const N: usize>(vectors: &mut [V], from: usize, to: [usize; N]) {
-    for index in to {
-        if let Ok([source, target]) = vectors.get_disjoint_mut([from, index]) {
-            // Component by component: `clone_from` of a dynamic vector may allocate.
-            let components = target.as_mut_slice().iter_mut().zip(source.as_slice());
-            components.for_each(|(target, source)| *target = *source);
+/// `vector = (h coefficient) vector`: an evaluation becomes an increment.
+#[inline(always)]
+pub fn scale<V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
+    let factor = V::Scalar::weight(h, coefficient);
+    for component in vector.as_mut_slice() {
+        *component = *component * factor;
+    }
+}
+
+/// The result of a step from its increments: `base + low + Σ_j increments_j`, rounded to `out`, with what that leaves
+/// out in `out_low`.
+///
+/// ```
+/// use symplectic::nalgebra::Vector1;
+/// use symplectic::{Compensated, total};
+///
+/// let (one, tiny, zero) = (Vector1::new(1.0), Vector1::new(1e-20), Vector1::new(0.0));
+/// let (mut out, mut low) = (zero, zero);
+/// total::<Compensated, _, 2>(&mut out, &mut low, &one, &tiny, [&tiny, &tiny]);
+/// assert_eq!((out[0], low[0]), (1.0, 3e-20));
+/// ```
+#[inline(always)]
+pub fn total<R: Summation, V: Vector, const N: usize>(
+    out: &mut V,
+    out_low: &mut V,
+    base: &V,
+    low: &V,
+    increments: [&V; N],
+) {
+    let n = shortest([&*out, &*out_low, base, low]).min(shortest(increments));
+    let terms = increments.map(|term| &term.as_slice()[..n]);
+    sum::<R, V, N>((out, out_low), (base, low), n, |i, j| terms[j][i]);
+}
+
+/// [`total`] of evaluations that are no increments yet: `base + low + Σ_j factors_j terms_j`.
+#[inline(always)]
+pub fn weighted_total<R: Summation, V: Vector, const N: usize>(
+    out: &mut V,
+    out_low: &mut V,
+    base: &V,
+    low: &V,
+    factors: [V::Scalar; N],
+    terms: [&V; N],
+) {
+    let n = shortest([&*out, &*out_low, base, low]).min(shortest(terms));
+    let terms = terms.map(|term| &term.as_slice()[..n]);
+    sum::<R, V, N>((out, out_low), (base, low), n, |i, j| {
+        factors[j] * terms[j][i]
+    });
+}
+
+/// A drift or a kick: `base + low + (h coefficient) evaluation`, rounded to `out`, with what that leaves out in
+/// `out_low`.
+#[inline(always)]
+pub fn advance<R: Summation, V: Vector>(
+    out: &mut V,
+    out_low: &mut V,
+    base: &V,
+    low: &V,
+    h: f64,
+    coefficient: Coefficient,
+    evaluation: &V,
+) {
+    let factors = weights(h, [coefficient]);
+    weighted_total::<R, V, 1>(out, out_low, base, low, factors, [evaluation]);
+}
+
+/// [`advance`] from where `out` is.
+#[inline(always)]
+pub fn advance_in_place<R: Summation, V: Vector>(
+    out: &mut V,
+    out_low: &mut V,
+    h: f64,
+    coefficient: Coefficient,
+    evaluation: &V,
+) {
+    let factor = V::Scalar::weight(h, coefficient);
+    let n = shortest([&*out, &*out_low, evaluation]);
+    let (out, low) = (
+        &mut out.as_mut_slice()[..n],
+        &mut out_low.as_mut_slice()[..n],
+    );
+    let evaluation = &evaluation.as_slice()[..n];
+    for i in 0..n {
+        let (high, rest) = add::<R, _, 1>(out[i], low[i], |_| factor * evaluation[i]);
+        out[i] = high;
+        if R::COMPENSATED {
+            low[i] = rest;
         }
     }
 }
 
-/// All slices cut to the shortest length, so that one comparison bounds every index of the loop.
+/// `vectors_i = Σ_j matrix_ij vectors_j`, for those vectors the `indices` of which are given: starting values from the
+/// step before.
 #[inline(always)]
-fn common<'a, T, const N: usize>(
-    out: &'a mut [T],
-    base: &'a [T],
-    terms: [&'a [T]; N],
-) -> (&'a mut [T], &'a [T], [&'a [T]; N]) {
-    let mut n = out.len().min(base.len());
-    for term in &terms {
-        n = n.min(term.len());
+pub fn transform<V: Vector, const N: usize>(
+    vectors: &mut [V],
+    indices: [usize; N],
+    matrix: [[f64; N]; N],
+) {
+    let Ok(vectors) = vectors.get_disjoint_mut(indices) else {
+        return;
+    };
+    let mut slices = vectors.map(V::as_mut_slice);
+    let n = slices.iter().map(|slice| slice.len()).min().unwrap_or(0);
+    for i in 0..n {
+        let old: [V::Scalar; N] = array::from_fn(|j| slices[j][i]);
+        for (row, slice) in matrix.iter().zip(&mut slices) {
+            // Where a time of this step is one of the step before, all entries but one are zero.
+            let entries = old.iter().zip(row).filter(|&(_, &e)| e != 0.0);
+            let mut products = entries.map(|(&x, &e)| x * V::Scalar::from_f64(e));
+            if let Some(first) = products.next() {
+                slice[i] = products.fold(first, |sum, product| sum + product);
+            }
+        }
     }
-    (&mut out[..n], &base[..n], terms.map(|term| &term[..n]))
 }
 
+/// Copies one vector to another, component by component: `clone_from` of a dynamic vector may allocate.
 #[inline(always)]
-fn accumulate<T: Scalar, const N: usize>(
+pub fn copy<V: Vector>(out: &mut V, from: &V) {
+    let components = out.as_mut_slice().iter_mut().zip(from.as_slice());
+    components.for_each(|(out, from)| *out = *from);
+}
+
+/// Copies one vector of an array to others.
+#[inline(always)]
+pub fn copy_to<V: Vector, const N: usize>(vectors: &mut [V], from: usize, to: [usize; N]) {
+    for index in to {
+        if let Ok([source, target]) = vectors.get_disjoint_mut([from, index]) {
+            copy(target, source);
+        }
+    }
+}
+
+/// The shortest length, so that one comparison bounds every index of a loop.
+#[inline(always)]
+fn shortest<V: Vector, const N: usize>(vectors: [&V; N]) -> usize {
+    let lengths = vectors.map(|vector| vector.as_slice().len());
+    lengths.into_iter().fold(usize::MAX, usize::min)
+}
+
+/// One component of a stage.
+#[inline(always)]
+fn value<R: Summation, T: Scalar, const N: usize>(
     base: T,
-    weights: &[T; N],
+    low: T,
+    factors: &[T; N],
     terms: &[&[T]; N],
     i: usize,
 ) -> T {
@@ -93,9 +235,61 @@ fn accumulate<T: Scalar, const N: usize>(
         return base;
     }
     // Starting from the first product, not from zero: 0 + x is an addition that the compiler has to keep.
-    let mut sum = weights[0] * terms[0][i];
+    let mut sum = factors[0] * terms[0][i];
     for j in 1..N {
-        sum += weights[j] * terms[j][i];
+        sum += factors[j] * terms[j][i];
+    }
+    if R::COMPENSATED {
+        sum += low;
     }
     base + sum
+}
+
+/// The components of a result.
+#[inline(always)]
+fn sum<R: Summation, V: Vector, const N: usize>(
+    (out, out_low): (&mut V, &mut V),
+    (base, low): (&V, &V),
+    n: usize,
+    term: impl Fn(usize, usize) -> V::Scalar,
+) {
+    let (out, out_low) = (
+        &mut out.as_mut_slice()[..n],
+        &mut out_low.as_mut_slice()[..n],
+    );
+    let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
+    for i in 0..n {
+        let (high, rest) = add::<R, _, N>(base[i], low[i], |j| term(i, j));
+        out[i] = high;
+        if R::COMPENSATED {
+            out_low[i] = rest;
+        }
+    }
+}
+
+/// `base + low + Σ_j term(j)` as the nearest number and the rest.
+#[inline(always)]
+fn add<R: Summation, T: Scalar, const N: usize>(
+    base: T,
+    low: T,
+    term: impl Fn(usize) -> T,
+) -> (T, T) {
+    if N == 0 {
+        return (base, low);
+    }
+    let mut sum = term(0);
+    if !R::COMPENSATED {
+        for j in 1..N {
+            sum += term(j);
+        }
+        return (base + sum, low);
+    }
+    let mut rest = low;
+    for j in 1..N {
+        let (next, error) = two_sum(sum, term(j));
+        sum = next;
+        rest += error;
+    }
+    let (high, error) = two_sum(base, sum);
+    fast_two_sum(high, rest + error)
 }

@@ -80,7 +80,9 @@ mod scalar;
 mod stage;
 mod state;
 mod states;
+mod statistics;
 mod step;
+mod summation;
 mod tableau_macro;
 mod time;
 mod vector;
@@ -89,20 +91,25 @@ pub use change::{Change, PartChange};
 pub use class::{Class, General, Separable};
 pub use closures::{HamiltonianClosures, NoEnergy, SeparableClosures, hamiltonian, separable};
 pub use coefficient::{Coefficient, Coefficients};
-pub use coupling::{Coupled, Coupling, Explicit, Failure};
+pub use coupling::{Coupled, Coupling, Explicit, Failure, Work};
 pub use error::{Error, Quantity};
 #[cfg(feature = "alloc")]
 pub use generating_function::{GeneratingFunction, generating_function};
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
 pub use integrator::Integrator;
-pub use kernel::{combine, copy_to, relax};
+pub use kernel::{
+    advance, advance_in_place, combine, copy, copy_to, factors, relax, scale, total, transform,
+    weighted_total, weights,
+};
 pub use method::{Method, Plan};
 pub use nalgebra;
 pub use num_traits;
 pub use scalar::Scalar;
-pub use stage::{StageStorage, Stages};
+pub use stage::{Evaluations, StageStorage, Stages};
 pub use state::State;
 pub use states::States;
-pub use step::Step;
+pub use statistics::Statistics;
+pub use step::{EvaluationCounts, Kept, Outcome, Step, Witness};
+pub use summation::{Compensated, Plain, Summation};
 pub use tableau_macro::tableau;
 pub use vector::Vector;

@@ -3,8 +3,8 @@
 use core::fmt::Debug;
 
 use crate::{
-    Change, Class, Coefficients, Coupling, General, Hamiltonian, Separable, StageStorage, Step,
-    Vector,
+    Change, Class, Coefficients, Coupling, EvaluationCounts, General, Hamiltonian, Kept, Outcome,
+    Separable, StageStorage, Step, Summation, Vector, Witness,
 };
 
 /// A symplectic partitioned Runge–Kutta method: a type without a value, emitted from a proved tableau.
@@ -28,11 +28,16 @@ pub trait Method: Copy + Debug + 'static {
 /// How a [`Method`] goes through one step of a system of one [`Class`].
 ///
 /// A step is `begin`, then `sweep` until the stages no longer change (never where the
-/// [`Coupling`](Self::Coupling) is [`Explicit`](crate::Explicit)), then `finish`; after it was accepted, `carry`.
+/// [`Coupling`](Self::Coupling) is [`Explicit`](crate::Explicit)), then `finish`.
 ///
 /// Stage `i` evaluates the force at `t0 + c_i h` and the velocity at `t0 + c̃_i h`: see
 /// [`Hamiltonian`](Hamiltonian#time). Plans of the class [`Separable`] pass for the argument that the system does not
 /// read whatever vector is at hand.
+///
+/// Where the method is symplectic and no weight is zero, coupled stages are sums of increments `h b_j velocity_j` and
+/// `h b̃_j force_j` with the coefficients `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, rounded so that `μ̃_ij + μ_ji = 1`
+/// exactly: the rounded method is symplectic too. A splitting, where every evaluation is in the later stages in full,
+/// applies it to the state at once and stores no stages.
 pub trait Plan {
     /// The class of systems that it steps.
     type Class: Class;
@@ -41,14 +46,16 @@ pub trait Plan {
     /// Where the stage values and evaluations are.
     type Stages<V: Vector>: StageStorage<V>;
 
-    /// Evaluates what is explicit before the coupled stages, and gives these their starting values.
-    ///
-    /// With `carried` the evaluation that [`carry`](Self::carry) left in its place is used instead of a new one.
-    fn begin<V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
+    /// How many evaluations it makes.
+    const EVALUATIONS: EvaluationCounts;
+
+    /// Evaluates what is explicit before the coupled stages, and gives these their starting values: extrapolated from
+    /// the stages of the step before where they are [kept](Kept::stages), the start of the step elsewhere.
+    fn begin<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Self::Stages<V>,
-        carried: bool,
+        kept: Kept,
     );
 
     /// One fixed-point sweep over the coupled stages: new stage values from the latest velocities and forces,
@@ -56,23 +63,24 @@ pub trait Plan {
     ///
     /// For a separable system one half comes after the other and uses its new evaluations: the stopping rule of
     /// [`Coupled`](crate::Coupled) relies on it.
-    fn sweep<V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
+    fn sweep<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Self::Stages<V>,
     ) -> Change;
 
-    /// Evaluates what comes after the coupled stages, and writes the result of the step into `q1` and `p1`,
-    /// whose old values mean nothing.
-    fn finish<V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
+    /// Evaluates what comes after the coupled stages, and writes the result of the step.
+    ///
+    /// A splitting makes all its evaluations here, and shows them to `witness`.
+    fn finish<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>, W: Witness>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Self::Stages<V>,
-        q1: &mut V,
-        p1: &mut V,
+        kept: Kept,
+        outcome: Outcome<'_, V>,
+        witness: &mut W,
     );
 
-    /// After an accepted step: where the last evaluation of a step is the first of the next one, puts it in
-    /// the first one's place and returns true; elsewhere returns false.
+    /// After an accepted step: whether `stages` holds the first evaluation of the next one.
     fn carry<V: Vector>(stages: &mut Self::Stages<V>) -> bool;
 }

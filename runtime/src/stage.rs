@@ -10,12 +10,40 @@ pub trait StageStorage<V: Vector>: Sized {
     fn like(prototype: &V) -> Self;
 
     /// The first evaluation that is not finite although the stage value that it was made from is: the quantity
-    /// and the number of the stage, from 1; of two with the same number, the force.
+    /// and the number of the stage, from 1; of two with the same number, the force. `None` where stages are not stored.
     fn non_finite(&self) -> Option<(Quantity, usize)>;
 
     /// The first evaluation whose dimension is not `dimension`: the quantity, the number of the stage, from 1, and the
     /// dimension found.
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)>;
+}
+
+/// The memory of a splitting: the latest evaluation of each kind.
+#[derive(Clone, Debug)]
+pub struct Evaluations<V> {
+    /// The latest ∂H/∂p.
+    pub velocity: V,
+    /// The latest −∂H/∂q.
+    pub force: V,
+}
+
+impl<V: Vector> StageStorage<V> for Evaluations<V> {
+    fn like(prototype: &V) -> Self {
+        Self {
+            velocity: prototype.zeros_like(),
+            force: prototype.zeros_like(),
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        None
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        let (force, velocity) = (&self.force, &self.velocity);
+        first_mismatch(array::from_ref(force), array::from_ref(velocity), dimension)
+    }
 }
 
 /// `Q` positions with a force each, and `P` momenta with a velocity each.
@@ -29,9 +57,9 @@ pub struct Stages<V, const Q: usize, const P: usize> {
     pub q: [V; Q],
     /// Stage momenta P_i.
     pub p: [V; P],
-    /// ∂H/∂p at the stage momenta.
+    /// ∂H/∂p at the stage momenta, or the increments made of it.
     pub velocity: [V; P],
-    /// −∂H/∂q at the stage positions.
+    /// −∂H/∂q at the stage positions, or the increments made of it.
     pub force: [V; Q],
 }
 

@@ -82,7 +82,8 @@ fn steps_make_no_vectors() -> Result<(), Error> {
         assert_eq!(count, 2 * 3, "an iterator clones q and p");
         Ok(())
     }
-    // Two for the result; two positions, two forces, a momentum and a velocity; one of each.
-    check(StoermerVerlet, 2 + 6)?;
-    check(Midpoint, 2 + 4)
+    // What the state leaves out, the result and what that leaves out, two each; a velocity and a force, and the
+    // stages where they are solved for.
+    check(StoermerVerlet, 6 + 2)?;
+    check(Midpoint, 6 + 4)
 }

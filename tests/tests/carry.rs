@@ -18,8 +18,9 @@ symplectic::tableau! {
     }
 }
 
-/// Runs a few steps in a row, and the same steps each begun anew from the state so far.
-fn compare<M: Method>(method: M) -> Result<(), Error> {
+/// Runs a few steps in a row, and the same steps each begun anew from the state so far; they may differ by as many units
+/// of rounding. With plain sums, for a state that is put in leaves nothing out.
+fn compare<M: Method>(method: M, units: f64) -> Result<(), Error> {
     let system = || {
         separable::<Vector1<f64>, _, _>(
             |_, p, velocity| velocity[0] = p[0] + p[0].powi(3) / 7.0,
@@ -27,11 +28,14 @@ fn compare<M: Method>(method: M) -> Result<(), Error> {
         )
     };
     let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.25));
-    let mut in_a_row = Integrator::new(method, system(), start.clone(), 0.125)?;
-    let mut anew = Integrator::new(method, system(), start, 0.125)?;
+    let mut in_a_row = Integrator::plain(method, system(), start.clone(), 0.125)?;
+    let mut anew = Integrator::plain(method, system(), start, 0.125)?;
     for _ in 0..5 {
         let state = in_a_row.step()?.clone();
-        assert_eq!(*anew.step()?, state, "{}", M::NAME);
+        let other = anew.step()?;
+        let [q, p] = [other.q - state.q, other.p - state.p].map(|difference| difference[0].abs());
+        assert!(q.max(p) <= units * f64::EPSILON, "{}: {q:e} {p:e}", M::NAME);
+        assert_eq!(other.time, state.time);
         // A state that is put in carries nothing over.
         anew.set_state(state)?;
     }
@@ -40,9 +44,10 @@ fn compare<M: Method>(method: M) -> Result<(), Error> {
 
 #[test]
 fn steps_in_a_row_are_steps_begun_anew() -> Result<(), Error> {
-    compare(TwoAtEachEnd)?;
-    compare(StoermerVerlet)?;
-    compare(SymplecticEuler)?;
-    compare(Lobatto3)?;
-    compare(Lobatto4)
+    compare(TwoAtEachEnd, 0.0)?;
+    compare(StoermerVerlet, 0.0)?;
+    compare(SymplecticEuler, 0.0)?;
+    // Where stages are solved for, they start from those of the step before, or from the state.
+    compare(Lobatto3, 2.0)?;
+    compare(Lobatto4, 2.0)
 }

@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
+use super::relative::Rounded;
 use crate::algebra::Number;
 
 /// A name of the generated code.
@@ -38,13 +39,21 @@ fn signed(size: &str, kind: &str, negative: bool) -> TokenStream {
 
 /// A coefficient as the runtime takes it: rounded to a double, what that leaves out, and rounded to a single.
 pub(super) fn coefficient(number: &Number<'_>) -> TokenStream {
-    let (value, nearest) = (number.to_f64(), number.to_f32());
-    let rest = number.low_double(value);
-    let high = double(value);
-    if rest == 0.0 && nearest.to_bits() == (value as f32).to_bits() {
+    let double = number.to_f64();
+    rounded(Rounded {
+        double,
+        low: number.low_double(double),
+        single: number.to_f32(),
+    })
+}
+
+/// The same for a number that has been rounded already.
+pub(super) fn rounded(number: Rounded) -> TokenStream {
+    let high = double(number.double);
+    if number.low == 0.0 && number.single.to_bits() == (number.double as f32).to_bits() {
         return quote!(::symplectic::Coefficient::exact(#high));
     }
-    let (low, single) = (double(rest), single(nearest));
+    let (low, single) = (double(number.low), single(number.single));
     quote!(::symplectic::Coefficient::new(#high, #low, #single))
 }
 

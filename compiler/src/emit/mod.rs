@@ -7,8 +7,10 @@
 //! stage is a line of its own (theory.md §7): no product with zero, equal stages computed once, stages
 //! in order where they are explicit, no evaluation that the previous step has made already.
 
+mod extrapolation;
 mod literal;
 mod plan;
+mod relative;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};

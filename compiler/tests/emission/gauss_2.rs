@@ -103,39 +103,113 @@ const _: () = {
         type Class = ::symplectic::General;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;
+        const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
+            begin: 0,
+            start: 1,
+            sweep: 4,
+            finish: 0,
+            carried: 0,
+        };
         #[inline]
         fn begin<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
         >(
             step: &::symplectic::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            carried: bool,
+            kept: ::symplectic::Kept,
         ) {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::combine(&mut q[0], step.q, step.size, [], []);
-            ::symplectic::combine(&mut q[1], step.q, step.size, [], []);
-            ::symplectic::combine(&mut p[0], step.p, step.size, [], []);
-            ::symplectic::combine(&mut p[1], step.p, step.size, [], []);
-            system
-                .velocity(
-                    step
-                        .at(
-                            ::symplectic::Coefficient::new(
-                                0.2113248654051871,
-                                1.1030435245950743e-17,
-                                0.21132487,
-                            ),
-                        ),
-                    step.q,
-                    step.p,
-                    &mut velocity[0],
+            if kept.stages {
+                ::symplectic::transform(
+                    velocity,
+                    [0, 1],
+                    [
+                        [(-0.7320508075688773), 1.7320508075688772],
+                        [(-1.7320508075688772), 2.732050807568877],
+                    ],
                 );
-            ::symplectic::copy_to(velocity, 0, [1]);
+                ::symplectic::transform(
+                    force,
+                    [0, 1],
+                    [
+                        [(-0.7320508075688773), 1.7320508075688772],
+                        [(-1.7320508075688772), 2.732050807568877],
+                    ],
+                );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut p[0],
+                    step.p,
+                    step.p_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::new(
+                            (-0.07735026918962573),
+                            (-3.3450280739356345e-17),
+                            (-0.07735026),
+                        ),
+                    ]),
+                    [&force[0], &force[1]],
+                );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut p[1],
+                    step.p,
+                    step.p_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::new(
+                            1.0773502691896257,
+                            3.3450280739356345e-17,
+                            1.0773503,
+                        ),
+                        ::symplectic::Coefficient::exact(0.5),
+                    ]),
+                    [&force[0], &force[1]],
+                );
+            } else {
+                ::symplectic::copy(&mut q[0], step.q);
+                ::symplectic::copy(&mut q[1], step.q);
+                ::symplectic::copy(&mut p[0], step.p);
+                ::symplectic::copy(&mut p[1], step.p);
+                system
+                    .velocity(
+                        step
+                            .at(
+                                ::symplectic::Coefficient::new(
+                                    0.2113248654051871,
+                                    1.1030435245950743e-17,
+                                    0.21132487,
+                                ),
+                            ),
+                        step.q,
+                        step.p,
+                        &mut velocity[0],
+                    );
+                ::symplectic::copy_to(velocity, 0, [1]);
+                ::symplectic::scale(
+                    &mut velocity[0],
+                    step.size,
+                    ::symplectic::Coefficient::exact(0.5),
+                );
+                ::symplectic::scale(
+                    &mut velocity[1],
+                    step.size,
+                    ::symplectic::Coefficient::exact(0.5),
+                );
+            }
         }
         #[inline]
         fn sweep<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
         >(
@@ -145,33 +219,41 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
-            ::symplectic::relax(
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut q[0],
                 step.q,
-                step.size,
-                [
-                    ::symplectic::Coefficient::exact(0.25),
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(0.5),
                     ::symplectic::Coefficient::new(
-                        (-0.03867513459481288),
-                        (-2.8473525618637145e-18),
-                        (-0.038675133),
+                        (-0.07735026918962573),
+                        (-3.3450280739356345e-17),
+                        (-0.07735026),
                     ),
-                ],
+                ]),
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
-            ::symplectic::relax(
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut q[1],
                 step.q,
-                step.size,
-                [
+                step.q_low,
+                ::symplectic::factors([
                     ::symplectic::Coefficient::new(
-                        0.5386751345948129,
-                        1.6725140369678172e-17,
-                        0.5386751,
+                        1.0773502691896257,
+                        3.3450280739356345e-17,
+                        1.0773503,
                     ),
-                    ::symplectic::Coefficient::exact(0.25),
-                ],
+                    ::symplectic::Coefficient::exact(0.5),
+                ]),
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
@@ -189,6 +271,11 @@ const _: () = {
                     &p[0],
                     &mut force[0],
                 );
+            ::symplectic::scale(
+                &mut force[0],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
             system
                 .force(
                     step
@@ -203,33 +290,46 @@ const _: () = {
                     &p[1],
                     &mut force[1],
                 );
-            ::symplectic::relax(
+            ::symplectic::scale(
+                &mut force[1],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut p[0],
                 step.p,
-                step.size,
-                [
-                    ::symplectic::Coefficient::exact(0.25),
+                step.p_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(0.5),
                     ::symplectic::Coefficient::new(
-                        (-0.03867513459481288),
-                        (-2.8473525618637145e-18),
-                        (-0.038675133),
+                        (-0.07735026918962573),
+                        (-3.3450280739356345e-17),
+                        (-0.07735026),
                     ),
-                ],
+                ]),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            ::symplectic::relax(
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut p[1],
                 step.p,
-                step.size,
-                [
+                step.p_low,
+                ::symplectic::factors([
                     ::symplectic::Coefficient::new(
-                        0.5386751345948129,
-                        1.6725140369678172e-17,
-                        0.5386751,
+                        1.0773502691896257,
+                        3.3450280739356345e-17,
+                        1.0773503,
                     ),
-                    ::symplectic::Coefficient::exact(0.25),
-                ],
+                    ::symplectic::Coefficient::exact(0.5),
+                ]),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -247,6 +347,11 @@ const _: () = {
                     &p[0],
                     &mut velocity[0],
                 );
+            ::symplectic::scale(
+                &mut velocity[0],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
             system
                 .velocity(
                     step
@@ -261,40 +366,39 @@ const _: () = {
                     &p[1],
                     &mut velocity[1],
                 );
+            ::symplectic::scale(
+                &mut velocity[1],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
             change
         }
         #[inline]
         fn finish<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            W: ::symplectic::Witness,
         >(
             step: &::symplectic::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            q1: &mut V,
-            p1: &mut V,
+            kept: ::symplectic::Kept,
+            outcome: ::symplectic::Outcome<'_, V>,
+            witness: &mut W,
         ) {
+            let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
             let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::combine(
-                q1,
-                step.q,
-                step.size,
-                [
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
-                ],
-                [&velocity[0], &velocity[1]],
-            );
-            ::symplectic::combine(
-                p1,
-                step.p,
-                step.size,
-                [
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
-                ],
-                [&force[0], &force[1]],
-            );
+            ::symplectic::total::<
+                R,
+                V,
+                _,
+            >(q1, q1_low, step.q, step.q_low, [&velocity[0], &velocity[1]]);
+            ::symplectic::total::<
+                R,
+                V,
+                _,
+            >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
         }
         #[inline]
         fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
@@ -307,39 +411,69 @@ const _: () = {
         type Class = ::symplectic::Separable;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;
+        const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
+            begin: 0,
+            start: 1,
+            sweep: 4,
+            finish: 0,
+            carried: 0,
+        };
         #[inline]
         fn begin<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
         >(
             step: &::symplectic::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            carried: bool,
+            kept: ::symplectic::Kept,
         ) {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::combine(&mut q[0], step.q, step.size, [], []);
-            ::symplectic::combine(&mut q[1], step.q, step.size, [], []);
-            ::symplectic::combine(&mut p[0], step.p, step.size, [], []);
-            ::symplectic::combine(&mut p[1], step.p, step.size, [], []);
-            system
-                .velocity(
-                    step
-                        .at(
-                            ::symplectic::Coefficient::new(
-                                0.2113248654051871,
-                                1.1030435245950743e-17,
-                                0.21132487,
-                            ),
-                        ),
-                    step.q,
-                    step.p,
-                    &mut velocity[0],
+            if kept.stages {
+                ::symplectic::transform(
+                    velocity,
+                    [0, 1],
+                    [
+                        [(-0.7320508075688773), 1.7320508075688772],
+                        [(-1.7320508075688772), 2.732050807568877],
+                    ],
                 );
-            ::symplectic::copy_to(velocity, 0, [1]);
+            } else {
+                ::symplectic::copy(&mut q[0], step.q);
+                ::symplectic::copy(&mut q[1], step.q);
+                ::symplectic::copy(&mut p[0], step.p);
+                ::symplectic::copy(&mut p[1], step.p);
+                system
+                    .velocity(
+                        step
+                            .at(
+                                ::symplectic::Coefficient::new(
+                                    0.2113248654051871,
+                                    1.1030435245950743e-17,
+                                    0.21132487,
+                                ),
+                            ),
+                        step.q,
+                        step.p,
+                        &mut velocity[0],
+                    );
+                ::symplectic::copy_to(velocity, 0, [1]);
+                ::symplectic::scale(
+                    &mut velocity[0],
+                    step.size,
+                    ::symplectic::Coefficient::exact(0.5),
+                );
+                ::symplectic::scale(
+                    &mut velocity[1],
+                    step.size,
+                    ::symplectic::Coefficient::exact(0.5),
+                );
+            }
         }
         #[inline]
         fn sweep<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
         >(
@@ -349,33 +483,41 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
-            ::symplectic::relax(
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut q[0],
                 step.q,
-                step.size,
-                [
-                    ::symplectic::Coefficient::exact(0.25),
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(0.5),
                     ::symplectic::Coefficient::new(
-                        (-0.03867513459481288),
-                        (-2.8473525618637145e-18),
-                        (-0.038675133),
+                        (-0.07735026918962573),
+                        (-3.3450280739356345e-17),
+                        (-0.07735026),
                     ),
-                ],
+                ]),
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
-            ::symplectic::relax(
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut q[1],
                 step.q,
-                step.size,
-                [
+                step.q_low,
+                ::symplectic::factors([
                     ::symplectic::Coefficient::new(
-                        0.5386751345948129,
-                        1.6725140369678172e-17,
-                        0.5386751,
+                        1.0773502691896257,
+                        3.3450280739356345e-17,
+                        1.0773503,
                     ),
-                    ::symplectic::Coefficient::exact(0.25),
-                ],
+                    ::symplectic::Coefficient::exact(0.5),
+                ]),
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
@@ -393,6 +535,11 @@ const _: () = {
                     step.p,
                     &mut force[0],
                 );
+            ::symplectic::scale(
+                &mut force[0],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
             system
                 .force(
                     step
@@ -407,33 +554,46 @@ const _: () = {
                     step.p,
                     &mut force[1],
                 );
-            ::symplectic::relax(
+            ::symplectic::scale(
+                &mut force[1],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut p[0],
                 step.p,
-                step.size,
-                [
-                    ::symplectic::Coefficient::exact(0.25),
+                step.p_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(0.5),
                     ::symplectic::Coefficient::new(
-                        (-0.03867513459481288),
-                        (-2.8473525618637145e-18),
-                        (-0.038675133),
+                        (-0.07735026918962573),
+                        (-3.3450280739356345e-17),
+                        (-0.07735026),
                     ),
-                ],
+                ]),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            ::symplectic::relax(
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut p[1],
                 step.p,
-                step.size,
-                [
+                step.p_low,
+                ::symplectic::factors([
                     ::symplectic::Coefficient::new(
-                        0.5386751345948129,
-                        1.6725140369678172e-17,
-                        0.5386751,
+                        1.0773502691896257,
+                        3.3450280739356345e-17,
+                        1.0773503,
                     ),
-                    ::symplectic::Coefficient::exact(0.25),
-                ],
+                    ::symplectic::Coefficient::exact(0.5),
+                ]),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -451,6 +611,11 @@ const _: () = {
                     &p[0],
                     &mut velocity[0],
                 );
+            ::symplectic::scale(
+                &mut velocity[0],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
             system
                 .velocity(
                     step
@@ -465,40 +630,39 @@ const _: () = {
                     &p[1],
                     &mut velocity[1],
                 );
+            ::symplectic::scale(
+                &mut velocity[1],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
             change
         }
         #[inline]
         fn finish<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            W: ::symplectic::Witness,
         >(
             step: &::symplectic::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            q1: &mut V,
-            p1: &mut V,
+            kept: ::symplectic::Kept,
+            outcome: ::symplectic::Outcome<'_, V>,
+            witness: &mut W,
         ) {
+            let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
             let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::combine(
-                q1,
-                step.q,
-                step.size,
-                [
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
-                ],
-                [&velocity[0], &velocity[1]],
-            );
-            ::symplectic::combine(
-                p1,
-                step.p,
-                step.size,
-                [
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
-                ],
-                [&force[0], &force[1]],
-            );
+            ::symplectic::total::<
+                R,
+                V,
+                _,
+            >(q1, q1_low, step.q, step.q_low, [&velocity[0], &velocity[1]]);
+            ::symplectic::total::<
+                R,
+                V,
+                _,
+            >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
         }
         #[inline]
         fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {

@@ -186,33 +186,120 @@ const _: () = {
         type Class = ::symplectic::General;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 3, 3>;
+        const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
+            begin: 0,
+            start: 1,
+            sweep: 5,
+            finish: 1,
+            carried: 0,
+        };
         #[inline]
         fn begin<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
         >(
             step: &::symplectic::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            carried: bool,
+            kept: ::symplectic::Kept,
         ) {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::combine(&mut q[1], step.q, step.size, [], []);
-            ::symplectic::combine(&mut q[2], step.q, step.size, [], []);
-            ::symplectic::combine(&mut p[0], step.p, step.size, [], []);
-            ::symplectic::combine(&mut p[1], step.p, step.size, [], []);
-            ::symplectic::combine(&mut p[2], step.p, step.size, [], []);
-            system
-                .velocity(
-                    step.at(::symplectic::Coefficient::exact(0.0)),
-                    step.q,
-                    step.p,
-                    &mut velocity[0],
+            if kept.stages {
+                ::symplectic::transform(
+                    velocity,
+                    [0, 1, 2],
+                    [[0.0, 0.0, 1.0], [4.0, (-3.0), 12.0], [3.0, (-2.0), 6.0]],
                 );
-            ::symplectic::copy_to(velocity, 0, [1, 2]);
+                ::symplectic::transform(force, [0, 1], [[(-1.0), 0.5], [(-8.0), 3.0]]);
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut p[0],
+                    step.p,
+                    step.p_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact((-0.25)),
+                    ]),
+                    [&force[0], &force[1]],
+                );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut p[1],
+                    step.p,
+                    step.p_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact(0.5),
+                    ]),
+                    [&force[0], &force[1]],
+                );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut p[2],
+                    step.p,
+                    step.p_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact(1.25),
+                    ]),
+                    [&force[0], &force[1]],
+                );
+            } else {
+                ::symplectic::copy(&mut q[1], step.q);
+                ::symplectic::copy(&mut q[2], step.q);
+                ::symplectic::copy(&mut p[0], step.p);
+                ::symplectic::copy(&mut p[1], step.p);
+                ::symplectic::copy(&mut p[2], step.p);
+                system
+                    .velocity(
+                        step.at(::symplectic::Coefficient::exact(0.0)),
+                        step.q,
+                        step.p,
+                        &mut velocity[0],
+                    );
+                ::symplectic::copy_to(velocity, 0, [1, 2]);
+                ::symplectic::scale(
+                    &mut velocity[0],
+                    step.size,
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                );
+                ::symplectic::scale(
+                    &mut velocity[1],
+                    step.size,
+                    ::symplectic::Coefficient::new(
+                        0.6666666666666666,
+                        3.700743415417188e-17,
+                        0.6666667,
+                    ),
+                );
+                ::symplectic::scale(
+                    &mut velocity[2],
+                    step.size,
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                );
+            }
         }
         #[inline]
         fn sweep<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
         >(
@@ -222,51 +309,35 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
-            ::symplectic::relax(
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut q[1],
                 step.q,
-                step.size,
-                [
-                    ::symplectic::Coefficient::new(
-                        0.20833333333333334,
-                        (-9.25185853854297e-18),
-                        0.20833333,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.3333333333333333,
-                        1.850371707708594e-17,
-                        0.33333334,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        (-0.041666666666666664),
-                        (-2.3129646346357427e-18),
-                        (-0.041666668),
-                    ),
-                ],
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.25),
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact((-0.25)),
+                ]),
                 [&velocity[0], &velocity[1], &velocity[2]],
                 &mut change.q,
             );
-            ::symplectic::relax(
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut q[2],
                 step.q,
-                step.size,
-                [
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.6666666666666666,
-                        3.700743415417188e-17,
-                        0.6666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                ],
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::Coefficient::exact(1.0),
+                ]),
                 [&velocity[0], &velocity[1], &velocity[2]],
                 &mut change.q,
             );
@@ -277,6 +348,15 @@ const _: () = {
                     &p[0],
                     &mut force[0],
                 );
+            ::symplectic::scale(
+                &mut force[0],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+            );
             system
                 .force(
                     step.at(::symplectic::Coefficient::exact(0.5)),
@@ -284,60 +364,57 @@ const _: () = {
                     &p[1],
                     &mut force[1],
                 );
-            ::symplectic::relax(
+            ::symplectic::scale(
+                &mut force[1],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.6666666666666666,
+                    3.700743415417188e-17,
+                    0.6666667,
+                ),
+            );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut p[0],
                 step.p,
-                step.size,
-                [
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        (-0.16666666666666666),
-                        (-9.25185853854297e-18),
-                        (-0.16666667),
-                    ),
-                ],
+                step.p_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::Coefficient::exact((-0.25)),
+                ]),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            ::symplectic::relax(
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut p[1],
                 step.p,
-                step.size,
-                [
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.3333333333333333,
-                        1.850371707708594e-17,
-                        0.33333334,
-                    ),
-                ],
+                step.p_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::Coefficient::exact(0.5),
+                ]),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            ::symplectic::relax(
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut p[2],
                 step.p,
-                step.size,
-                [
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.8333333333333334,
-                        (-3.700743415417188e-17),
-                        0.8333333,
-                    ),
-                ],
+                step.p_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::Coefficient::exact(1.25),
+                ]),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -348,6 +425,15 @@ const _: () = {
                     &p[0],
                     &mut velocity[0],
                 );
+            ::symplectic::scale(
+                &mut velocity[0],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+            );
             system
                 .velocity(
                     step.at(::symplectic::Coefficient::exact(0.5)),
@@ -355,6 +441,15 @@ const _: () = {
                     &p[1],
                     &mut velocity[1],
                 );
+            ::symplectic::scale(
+                &mut velocity[1],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.6666666666666666,
+                    3.700743415417188e-17,
+                    0.6666667,
+                ),
+            );
             system
                 .velocity(
                     step.at(::symplectic::Coefficient::exact(1.0)),
@@ -362,19 +457,32 @@ const _: () = {
                     &p[2],
                     &mut velocity[2],
                 );
+            ::symplectic::scale(
+                &mut velocity[2],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+            );
             change
         }
         #[inline]
         fn finish<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            W: ::symplectic::Witness,
         >(
             step: &::symplectic::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            q1: &mut V,
-            p1: &mut V,
+            kept: ::symplectic::Kept,
+            outcome: ::symplectic::Outcome<'_, V>,
+            witness: &mut W,
         ) {
+            let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             system
                 .force(
@@ -383,52 +491,31 @@ const _: () = {
                     &p[2],
                     &mut force[2],
                 );
-            ::symplectic::combine(
-                q1,
-                step.q,
+            ::symplectic::scale(
+                &mut force[2],
                 step.size,
-                [
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.6666666666666666,
-                        3.700743415417188e-17,
-                        0.6666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                ],
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+            );
+            ::symplectic::total::<
+                R,
+                V,
+                _,
+            >(
+                q1,
+                q1_low,
+                step.q,
+                step.q_low,
                 [&velocity[0], &velocity[1], &velocity[2]],
             );
-            ::symplectic::combine(
-                p1,
-                step.p,
-                step.size,
-                [
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.6666666666666666,
-                        3.700743415417188e-17,
-                        0.6666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                ],
-                [&force[0], &force[1], &force[2]],
-            );
+            ::symplectic::total::<
+                R,
+                V,
+                _,
+            >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1], &force[2]]);
         }
         #[inline]
         fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
@@ -441,41 +528,95 @@ const _: () = {
         type Class = ::symplectic::Separable;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 3, 3>;
+        const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
+            begin: 1,
+            start: 1,
+            sweep: 4,
+            finish: 1,
+            carried: 1,
+        };
         #[inline]
         fn begin<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
         >(
             step: &::symplectic::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            carried: bool,
+            kept: ::symplectic::Kept,
         ) {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
-            if !carried {
+            if !kept.evaluation {
                 system
                     .force(
                         step.at(::symplectic::Coefficient::exact(0.0)),
                         step.q,
                         step.p,
-                        &mut force[0],
+                        &mut force[2],
                     );
             }
-            ::symplectic::combine(&mut q[1], step.q, step.size, [], []);
-            ::symplectic::combine(&mut p[0], step.p, step.size, [], []);
-            ::symplectic::combine(&mut p[1], step.p, step.size, [], []);
-            ::symplectic::combine(&mut p[2], step.p, step.size, [], []);
-            system
-                .velocity(
-                    step.at(::symplectic::Coefficient::exact(0.0)),
-                    step.q,
-                    step.p,
-                    &mut velocity[0],
+            ::symplectic::copy_to(force, 2, [0]);
+            ::symplectic::scale(
+                &mut force[0],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+            );
+            if kept.stages {
+                ::symplectic::transform(
+                    velocity,
+                    [0, 1, 2],
+                    [[0.0, 0.0, 1.0], [4.0, (-3.0), 12.0], [3.0, (-2.0), 6.0]],
                 );
-            ::symplectic::copy_to(velocity, 0, [1, 2]);
+            } else {
+                ::symplectic::copy(&mut q[1], step.q);
+                ::symplectic::copy(&mut p[0], step.p);
+                ::symplectic::copy(&mut p[1], step.p);
+                ::symplectic::copy(&mut p[2], step.p);
+                system
+                    .velocity(
+                        step.at(::symplectic::Coefficient::exact(0.0)),
+                        step.q,
+                        step.p,
+                        &mut velocity[0],
+                    );
+                ::symplectic::copy_to(velocity, 0, [1, 2]);
+                ::symplectic::scale(
+                    &mut velocity[0],
+                    step.size,
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                );
+                ::symplectic::scale(
+                    &mut velocity[1],
+                    step.size,
+                    ::symplectic::Coefficient::new(
+                        0.6666666666666666,
+                        3.700743415417188e-17,
+                        0.6666667,
+                    ),
+                );
+                ::symplectic::scale(
+                    &mut velocity[2],
+                    step.size,
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                );
+            }
         }
         #[inline]
         fn sweep<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
         >(
@@ -485,27 +626,19 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
-            ::symplectic::relax(
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut q[1],
                 step.q,
-                step.size,
-                [
-                    ::symplectic::Coefficient::new(
-                        0.20833333333333334,
-                        (-9.25185853854297e-18),
-                        0.20833333,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.3333333333333333,
-                        1.850371707708594e-17,
-                        0.33333334,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        (-0.041666666666666664),
-                        (-2.3129646346357427e-18),
-                        (-0.041666668),
-                    ),
-                ],
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.25),
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact((-0.25)),
+                ]),
                 [&velocity[0], &velocity[1], &velocity[2]],
                 &mut change.q,
             );
@@ -516,60 +649,57 @@ const _: () = {
                     step.p,
                     &mut force[1],
                 );
-            ::symplectic::relax(
+            ::symplectic::scale(
+                &mut force[1],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.6666666666666666,
+                    3.700743415417188e-17,
+                    0.6666667,
+                ),
+            );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut p[0],
                 step.p,
-                step.size,
-                [
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        (-0.16666666666666666),
-                        (-9.25185853854297e-18),
-                        (-0.16666667),
-                    ),
-                ],
+                step.p_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::Coefficient::exact((-0.25)),
+                ]),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            ::symplectic::relax(
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut p[1],
                 step.p,
-                step.size,
-                [
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.3333333333333333,
-                        1.850371707708594e-17,
-                        0.33333334,
-                    ),
-                ],
+                step.p_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::Coefficient::exact(0.5),
+                ]),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            ::symplectic::relax(
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut p[2],
                 step.p,
-                step.size,
-                [
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.8333333333333334,
-                        (-3.700743415417188e-17),
-                        0.8333333,
-                    ),
-                ],
+                step.p_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::Coefficient::exact(1.25),
+                ]),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -580,6 +710,15 @@ const _: () = {
                     &p[0],
                     &mut velocity[0],
                 );
+            ::symplectic::scale(
+                &mut velocity[0],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+            );
             system
                 .velocity(
                     step.at(::symplectic::Coefficient::exact(0.5)),
@@ -587,6 +726,15 @@ const _: () = {
                     &p[1],
                     &mut velocity[1],
                 );
+            ::symplectic::scale(
+                &mut velocity[1],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.6666666666666666,
+                    3.700743415417188e-17,
+                    0.6666667,
+                ),
+            );
             system
                 .velocity(
                     step.at(::symplectic::Coefficient::exact(1.0)),
@@ -594,77 +742,73 @@ const _: () = {
                     &p[2],
                     &mut velocity[2],
                 );
+            ::symplectic::scale(
+                &mut velocity[2],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+            );
             change
         }
         #[inline]
         fn finish<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            W: ::symplectic::Witness,
         >(
             step: &::symplectic::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            q1: &mut V,
-            p1: &mut V,
+            kept: ::symplectic::Kept,
+            outcome: ::symplectic::Outcome<'_, V>,
+            witness: &mut W,
         ) {
+            let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
             let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::combine(
+            ::symplectic::total::<
+                R,
+                V,
+                _,
+            >(
                 q1,
+                q1_low,
                 step.q,
-                step.size,
-                [
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.6666666666666666,
-                        3.700743415417188e-17,
-                        0.6666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                ],
+                step.q_low,
                 [&velocity[0], &velocity[1], &velocity[2]],
             );
             system
                 .force(
                     step.at(::symplectic::Coefficient::exact(1.0)),
-                    q1,
+                    &*q1,
                     step.p,
                     &mut force[2],
                 );
-            ::symplectic::combine(
+            ::symplectic::total::<
+                R,
+                V,
+                _,
+            >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
+            ::symplectic::advance_in_place::<
+                R,
+                V,
+            >(
                 p1,
-                step.p,
+                p1_low,
                 step.size,
-                [
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.6666666666666666,
-                        3.700743415417188e-17,
-                        0.6666667,
-                    ),
-                    ::symplectic::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                ],
-                [&force[0], &force[1], &force[2]],
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+                &force[2],
             );
         }
         #[inline]
         fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
-            stages.force.swap(0, 2);
             true
         }
     }

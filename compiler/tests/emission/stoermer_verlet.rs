@@ -96,19 +96,27 @@ const _: () = {
         type Class = ::symplectic::General;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;
+        const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
+            begin: 0,
+            start: 1,
+            sweep: 3,
+            finish: 1,
+            carried: 0,
+        };
         #[inline]
         fn begin<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
         >(
             step: &::symplectic::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            carried: bool,
+            kept: ::symplectic::Kept,
         ) {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::combine(&mut q[1], step.q, step.size, [], []);
-            ::symplectic::combine(&mut p[0], step.p, step.size, [], []);
+            ::symplectic::copy(&mut q[1], step.q);
+            ::symplectic::copy(&mut p[0], step.p);
             system
                 .velocity(
                     step.at(::symplectic::Coefficient::exact(0.5)),
@@ -117,9 +125,20 @@ const _: () = {
                     &mut velocity[0],
                 );
             ::symplectic::copy_to(velocity, 0, [1]);
+            ::symplectic::scale(
+                &mut velocity[0],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
+            ::symplectic::scale(
+                &mut velocity[1],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
         }
         #[inline]
         fn sweep<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
         >(
@@ -129,14 +148,18 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
-            ::symplectic::relax(
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut q[1],
                 step.q,
-                step.size,
-                [
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
-                ],
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::Coefficient::exact(1.0),
+                ]),
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
@@ -147,11 +170,20 @@ const _: () = {
                     &p[0],
                     &mut force[0],
                 );
-            ::symplectic::relax(
+            ::symplectic::scale(
+                &mut force[0],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
                 &mut p[0],
                 step.p,
-                step.size,
-                [::symplectic::Coefficient::exact(0.5)],
+                step.p_low,
+                ::symplectic::factors([::symplectic::Coefficient::exact(1.0)]),
                 [&force[0]],
                 &mut change.p,
             );
@@ -162,6 +194,11 @@ const _: () = {
                     &p[0],
                     &mut velocity[0],
                 );
+            ::symplectic::scale(
+                &mut velocity[0],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
             system
                 .velocity(
                     step.at(::symplectic::Coefficient::exact(0.5)),
@@ -169,19 +206,28 @@ const _: () = {
                     &p[0],
                     &mut velocity[1],
                 );
+            ::symplectic::scale(
+                &mut velocity[1],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
             change
         }
         #[inline]
         fn finish<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            W: ::symplectic::Witness,
         >(
             step: &::symplectic::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            q1: &mut V,
-            p1: &mut V,
+            kept: ::symplectic::Kept,
+            outcome: ::symplectic::Outcome<'_, V>,
+            witness: &mut W,
         ) {
+            let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             system
                 .force(
@@ -190,26 +236,21 @@ const _: () = {
                     &p[0],
                     &mut force[1],
                 );
-            ::symplectic::combine(
-                q1,
-                step.q,
+            ::symplectic::scale(
+                &mut force[1],
                 step.size,
-                [
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
-                ],
-                [&velocity[0], &velocity[1]],
+                ::symplectic::Coefficient::exact(0.5),
             );
-            ::symplectic::combine(
-                p1,
-                step.p,
-                step.size,
-                [
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
-                ],
-                [&force[0], &force[1]],
-            );
+            ::symplectic::total::<
+                R,
+                V,
+                _,
+            >(q1, q1_low, step.q, step.q_low, [&velocity[0], &velocity[1]]);
+            ::symplectic::total::<
+                R,
+                V,
+                _,
+            >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
         }
         #[inline]
         fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
@@ -221,44 +262,28 @@ const _: () = {
     impl ::symplectic::Plan for StoermerVerletSeparable {
         type Class = ::symplectic::Separable;
         type Coupling = ::symplectic::Explicit;
-        type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 1>;
+        type Stages<V: ::symplectic::Vector> = ::symplectic::Evaluations<V>;
+        const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
+            begin: 3,
+            start: 0,
+            sweep: 0,
+            finish: 0,
+            carried: 1,
+        };
         #[inline]
         fn begin<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
         >(
             step: &::symplectic::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            carried: bool,
-        ) {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            if !carried {
-                system
-                    .force(
-                        step.at(::symplectic::Coefficient::exact(0.0)),
-                        step.q,
-                        step.p,
-                        &mut force[0],
-                    );
-            }
-            ::symplectic::combine(
-                &mut p[0],
-                step.p,
-                step.size,
-                [::symplectic::Coefficient::exact(0.5)],
-                [&force[0]],
-            );
-            system
-                .velocity(
-                    step.at(::symplectic::Coefficient::exact(0.5)),
-                    step.q,
-                    &p[0],
-                    &mut velocity[0],
-                );
-        }
+            kept: ::symplectic::Kept,
+        ) {}
         #[inline]
         fn sweep<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
         >(
@@ -270,44 +295,77 @@ const _: () = {
         }
         #[inline]
         fn finish<
+            R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            W: ::symplectic::Witness,
         >(
             step: &::symplectic::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            q1: &mut V,
-            p1: &mut V,
+            kept: ::symplectic::Kept,
+            outcome: ::symplectic::Outcome<'_, V>,
+            witness: &mut W,
         ) {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::combine(
-                q1,
-                step.q,
+            let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
+            let ::symplectic::Evaluations { velocity, force } = stages;
+            if !kept.evaluation {
+                system
+                    .force(
+                        step.at(::symplectic::Coefficient::exact(0.0)),
+                        step.q,
+                        step.p,
+                        force,
+                    );
+                witness.evaluation(::symplectic::Quantity::Force, 1, step.q, force);
+            }
+            ::symplectic::advance::<
+                R,
+                V,
+            >(
+                p1,
+                p1_low,
+                step.p,
+                step.p_low,
                 step.size,
-                [::symplectic::Coefficient::exact(1.0)],
-                [&velocity[0]],
+                ::symplectic::Coefficient::exact(0.5),
+                force,
+            );
+            system
+                .velocity(
+                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    step.q,
+                    &*p1,
+                    velocity,
+                );
+            witness.evaluation(::symplectic::Quantity::Velocity, 1, &*p1, velocity);
+            ::symplectic::advance::<
+                R,
+                V,
+            >(
+                q1,
+                q1_low,
+                step.q,
+                step.q_low,
+                step.size,
+                ::symplectic::Coefficient::exact(1.0),
+                velocity,
             );
             system
                 .force(
                     step.at(::symplectic::Coefficient::exact(1.0)),
-                    q1,
-                    step.p,
-                    &mut force[1],
+                    &*q1,
+                    &*p1,
+                    force,
                 );
-            ::symplectic::combine(
-                p1,
-                step.p,
-                step.size,
-                [
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
-                ],
-                [&force[0], &force[1]],
-            );
+            witness.evaluation(::symplectic::Quantity::Force, 2, &*q1, force);
+            ::symplectic::advance_in_place::<
+                R,
+                V,
+            >(p1, p1_low, step.size, ::symplectic::Coefficient::exact(0.5), force);
         }
         #[inline]
         fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
-            stages.force.swap(0, 1);
             true
         }
     }

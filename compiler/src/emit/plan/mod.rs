@@ -1,0 +1,174 @@
+//! The plan of a step for one class of Hamiltonians, as code.
+
+mod chain;
+mod form;
+mod phases;
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+use super::{extrapolation, literal, literal::identifier, relative};
+use crate::algebra::Number;
+use crate::coefficients::Coefficients;
+use crate::schedule::{Class, Evaluation, Node, StageValue, StepGraph};
+use crate::tableau::Tableau;
+use chain::Chain;
+use form::Form;
+use phases::Phases;
+
+/// What the functions of a plan consist of.
+struct Bodies {
+    /// Whether stages are solved for.
+    coupling: &'static str,
+    /// The type of the memory.
+    stages: TokenStream,
+    begin: TokenStream,
+    sweep: TokenStream,
+    finish: TokenStream,
+    carry: TokenStream,
+    /// Evaluations in `begin`, for starting values, in a sweep and in `finish`.
+    counts: [usize; 4],
+    /// How many of them the step before has made already.
+    carried: usize,
+}
+
+/// The type of a plan and its implementation of `Plan`.
+pub(super) fn implementation(
+    class: Class,
+    tableau: &Tableau,
+    numbers: &Coefficients<Number<'_>>,
+    name: &Ident,
+) -> TokenStream {
+    let graph = StepGraph::new(class, tableau, numbers);
+    let bodies = match Chain::new(&graph) {
+        Some(chain) => chain.bodies(),
+        None => Phases::new(&graph, Form::new(&graph)).bodies(),
+    };
+    let Bodies {
+        stages,
+        begin,
+        sweep,
+        finish,
+        carry,
+        ..
+    } = bodies;
+    let class = identifier(match class {
+        Class::General => "General",
+        Class::Separable => "Separable",
+    });
+    let coupling = identifier(bodies.coupling);
+    let [at_begin, at_start, in_sweep, at_finish] = bodies.counts.map(Literal::usize_unsuffixed);
+    let carried = Literal::usize_unsuffixed(bodies.carried);
+    let system = quote!(S: ::symplectic::Hamiltonian<V, Class = Self::Class>);
+    let arguments = quote! {
+        step: &::symplectic::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>
+    };
+    quote! {
+        pub struct #name;
+
+        #[allow(unused_variables)]
+        impl ::symplectic::Plan for #name {
+            type Class = ::symplectic::#class;
+            type Coupling = ::symplectic::#coupling;
+            type Stages<V: ::symplectic::Vector> = #stages;
+
+            const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
+                begin: #at_begin,
+                start: #at_start,
+                sweep: #in_sweep,
+                finish: #at_finish,
+                carried: #carried,
+            };
+
+            #[inline]
+            fn begin<R: ::symplectic::Summation, V: ::symplectic::Vector, #system>(#arguments, kept: ::symplectic::Kept) {
+                #begin
+            }
+
+            #[inline]
+            fn sweep<R: ::symplectic::Summation, V: ::symplectic::Vector, #system>(#arguments) -> ::symplectic::Change {
+                #sweep
+            }
+
+            #[inline]
+            fn finish<R: ::symplectic::Summation, V: ::symplectic::Vector, #system, W: ::symplectic::Witness>(
+                #arguments,
+                kept: ::symplectic::Kept,
+                outcome: ::symplectic::Outcome<'_, V>,
+                witness: &mut W,
+            ) {
+                let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
+                #finish
+            }
+
+            #[inline]
+            fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
+                #carry
+            }
+        }
+    }
+}
+
+fn value<'g, 'a>(graph: &'g StepGraph<'a>, node: Node) -> Option<&'g StageValue<'a>> {
+    match node {
+        Node::Position(i) => graph.positions.get(i),
+        Node::Momentum(i) => graph.momenta.get(i),
+        Node::Force(_) | Node::Velocity(_) => None,
+    }
+}
+
+fn evaluation<'g, 'a>(graph: &'g StepGraph<'a>, node: Node) -> &'g Evaluation<'a> {
+    match node {
+        Node::Position(i) | Node::Force(i) => &graph.forces[i],
+        Node::Momentum(i) | Node::Velocity(i) => &graph.velocities[i],
+    }
+}
+
+fn index(node: Node) -> usize {
+    match node {
+        Node::Position(i) | Node::Force(i) | Node::Momentum(i) | Node::Velocity(i) => i,
+    }
+}
+
+/// Where a node is stored.
+fn slot(node: Node) -> TokenStream {
+    let array = identifier(match node {
+        Node::Position(_) => "q",
+        Node::Momentum(_) => "p",
+        Node::Force(_) => "force",
+        Node::Velocity(_) => "velocity",
+    });
+    let index = Literal::usize_unsuffixed(index(node));
+    quote!(#array[#index])
+}
+
+/// The start of the step for a stage value.
+fn start(node: Node) -> TokenStream {
+    match node {
+        Node::Momentum(_) | Node::Force(_) => quote!(step.p),
+        Node::Position(_) | Node::Velocity(_) => quote!(step.q),
+    }
+}
+
+/// The start of the step and what it leaves out, as two arguments.
+fn base(node: Node) -> TokenStream {
+    match node {
+        Node::Momentum(_) | Node::Force(_) => quote!(step.p, step.p_low),
+        Node::Position(_) | Node::Velocity(_) => quote!(step.q, step.q_low),
+    }
+}
+
+/// The evaluations that a stage value is a sum of.
+fn terms_of(node: Node) -> fn(usize) -> Node {
+    match node {
+        Node::Momentum(_) => Node::Force,
+        _ => Node::Velocity,
+    }
+}
+
+fn evaluation_name(node: Node) -> Ident {
+    identifier(match node {
+        Node::Force(_) | Node::Position(_) => "force",
+        Node::Velocity(_) | Node::Momentum(_) => "velocity",
+    })
+}

@@ -1,0 +1,349 @@
+//! Steps in which the stages are stored: explicit ones that are no splitting, and coupled ones.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::form::Form;
+use super::{
+    Bodies, base, evaluation, evaluation_name, extrapolation, index, literal, slot, start, value,
+};
+use crate::arithmetic::rational::ratio;
+use crate::schedule::{Class, Node, Schedule, StageValue, StepGraph};
+
+/// The nodes of a step by the function in which they are computed.
+pub(super) struct Phases<'g, 'a> {
+    graph: &'g StepGraph<'a>,
+    form: Form,
+    begin: Vec<Node>,
+    coupled: Vec<Node>,
+    finish: Vec<Node>,
+    /// Evaluations at the start of the step that are the same as one at the end of the step before.
+    carried: Vec<(Node, Node)>,
+}
+
+impl<'g, 'a> Phases<'g, 'a> {
+    pub(super) fn new(graph: &'g StepGraph<'a>, form: Form) -> Self {
+        let Schedule {
+            before,
+            coupled,
+            after,
+        } = graph.schedule();
+        let mut begin = before;
+        let mut finish = after;
+        if coupled.is_empty() {
+            // From the first stage on that is the result itself, everything is computed where the
+            // result is written.
+            let is_end = |node: &Node| value(graph, *node).is_some_and(|value| value.is_end);
+            let split = begin.iter().position(is_end).unwrap_or(begin.len());
+            finish.splice(0..0, begin.drain(split..));
+        }
+        let mut phases = Phases {
+            graph,
+            form,
+            begin,
+            coupled,
+            finish,
+            carried: Vec::new(),
+        };
+        phases.carried = phases.carried();
+        phases
+    }
+
+    /// The code of the step.
+    pub(super) fn bodies(&self) -> Bodies {
+        let forces = literal::count(self.graph.forces.len());
+        let velocities = literal::count(self.graph.velocities.len());
+        let slots = quote!(let ::symplectic::Stages { q, p, velocity, force } = stages;);
+        let [begin, sweep, finish] = [self.begin(), self.sweep(), self.finish()];
+        let evaluations = |nodes: &[Node]| {
+            nodes
+                .iter()
+                .filter(|&&node| value(self.graph, node).is_none())
+                .count()
+        };
+        let starts = usize::from(!self.coupled_of_kind(Node::Velocity(0)).is_empty());
+        Bodies {
+            coupling: if self.coupled.is_empty() {
+                "Explicit"
+            } else {
+                "Coupled"
+            },
+            stages: quote!(::symplectic::Stages<V, #forces, #velocities>),
+            begin: quote!(#slots #begin),
+            sweep: quote!(#slots #sweep),
+            finish: quote!(#slots #finish),
+            carry: self.carry(),
+            counts: [
+                evaluations(&self.begin),
+                starts,
+                evaluations(&self.coupled),
+                evaluations(&self.finish),
+            ],
+            carried: self.carried.len(),
+        }
+    }
+
+    /// The coupled nodes of the kind of a node.
+    fn coupled_of_kind(&self, kind: Node) -> Vec<Node> {
+        let same = |node: &&Node| std::mem::discriminant(*node) == std::mem::discriminant(&kind);
+        self.coupled.iter().filter(same).copied().collect()
+    }
+
+    fn begin(&self) -> TokenStream {
+        let explicit = self.begin.iter().map(|&node| self.compute(node));
+        let (extrapolated, initial) = (self.extrapolated(), self.initial());
+        let start = match extrapolated {
+            Some(extrapolated) => quote!(if kept.stages { #extrapolated } else { #initial }),
+            None => initial,
+        };
+        quote!(#(#explicit)* #start)
+    }
+
+    /// Starting values from the start of the step alone: the coupled stages there, and one velocity for all.
+    fn initial(&self) -> TokenStream {
+        let stages = self.coupled.iter();
+        let stages = stages
+            .filter(|&&node| value(self.graph, node).is_some_and(|value| !value.is_start()))
+            .map(|&node| Form::reset(node));
+        let velocities = self.coupled_of_kind(Node::Velocity(0));
+        let Some((&first, others)) = velocities.split_first() else {
+            return quote!(#(#stages)*);
+        };
+        let evaluate = self.evaluate(first, &quote!(step.q), &quote!(step.p));
+        let copies = (!others.is_empty()).then(|| {
+            let first = literal::count(index(first));
+            let others = others.iter().map(|&node| literal::count(index(node)));
+            quote!(::symplectic::copy_to(velocity, #first, [#(#others),*]);)
+        });
+        let increments = velocities.iter().map(|&node| self.increment(node));
+        quote!(#(#stages)* #evaluate #copies #(#increments)*)
+    }
+
+    /// Starting values from the increments that the step before has left: those of the velocities and, where forces see
+    /// the momenta, those of the forces too. `None` where there are none to be had.
+    fn extrapolated(&self) -> Option<TokenStream> {
+        let Form::Increments(_) = self.form else {
+            return None;
+        };
+        let velocities = self.transform(Node::Velocity(0))?;
+        if self.graph.class == Class::Separable {
+            return Some(velocities);
+        }
+        let forces = self.transform(Node::Force(0))?;
+        let momenta = self.coupled_of_kind(Node::Momentum(0));
+        let momenta = momenta.iter().map(|&node| self.compute(node));
+        Some(quote!(#velocities #forces #(#momenta)*))
+    }
+
+    /// The line that takes the increments of one kind to the next step.
+    fn transform(&self, kind: Node) -> Option<TokenStream> {
+        let nodes = self.coupled_of_kind(kind);
+        if nodes.is_empty() {
+            return Some(TokenStream::new());
+        }
+        let evaluations: Vec<_> = nodes
+            .iter()
+            .map(|&node| evaluation(self.graph, node))
+            .collect();
+        let matrix = extrapolation::matrix(&evaluations)?;
+        let rows = matrix.iter().map(|row| literal::array(row));
+        let indices = nodes.iter().map(|&node| literal::count(index(node)));
+        let array = evaluation_name(kind);
+        Some(quote!(::symplectic::transform(#array, [#(#indices),*], [#(#rows),*]);))
+    }
+
+    fn sweep(&self) -> TokenStream {
+        if self.coupled.is_empty() {
+            return quote!(::symplectic::Change::default());
+        }
+        // Each kind sees the newest of the kind before it, which converges in fewer sweeps than all
+        // stage values from all old evaluations.
+        let rank = |node: &Node| match node {
+            Node::Position(_) => 0,
+            Node::Force(_) => 1,
+            Node::Momentum(_) => 2,
+            Node::Velocity(_) => 3,
+        };
+        let mut nodes = self.coupled.clone();
+        nodes.sort_by_key(rank);
+        let lines = nodes.iter().map(|&node| match value(self.graph, node) {
+            Some(value) if !value.is_start() => {
+                let (stage, base) = (slot(node), base(node));
+                let sum = self.form.sum(self.graph, node);
+                let change = literal::identifier(match node {
+                    Node::Position(_) => "q",
+                    _ => "p",
+                });
+                quote!(::symplectic::relax::<R, V, _>(&mut #stage, #base, #sum, &mut change.#change);)
+            }
+            _ => self.compute(node),
+        });
+        quote! {
+            let mut change = ::symplectic::Change::default();
+            #(#lines)*
+            change
+        }
+    }
+
+    fn finish(&self) -> TokenStream {
+        let mut lines: Vec<TokenStream> = Vec::new();
+        // A stage that is the result is computed as the result, once.
+        for &node in &self.finish {
+            lines.push(if self.is_aliased(node) {
+                self.result(node)
+            } else {
+                self.compute(node)
+            });
+        }
+        for result in [Node::Position(0), Node::Momentum(0)] {
+            let same = std::mem::discriminant(&result);
+            let mut stages = self.finish.iter();
+            if !stages.any(|node| std::mem::discriminant(node) == same && self.is_aliased(*node)) {
+                lines.push(self.result(result));
+            }
+        }
+        quote!(#(#lines)*)
+    }
+
+    /// The lines that write the result of the step, for positions or momenta.
+    fn result(&self, kind: Node) -> TokenStream {
+        let evaluations = match kind {
+            Node::Momentum(_) => &self.graph.forces,
+            _ => &self.graph.velocities,
+        };
+        let term = super::terms_of(kind);
+        let (late, early): (Vec<usize>, Vec<usize>) =
+            (0..evaluations.len()).partition(|&j| self.is_kept(term(j)));
+        let total = self.form.total(evaluations, kind, |j| early.contains(&j));
+        let late = late.iter().map(|&j| Form::late(&evaluations[j], term(j)));
+        quote!(#total #(#late)*)
+    }
+
+    /// Whether a stage value is never stored because it is the result of the step.
+    fn is_aliased(&self, node: Node) -> bool {
+        self.finish.contains(&node)
+            && value(self.graph, node).is_some_and(|value| value.is_end && !value.is_start())
+    }
+
+    /// The line that computes a stage value or an evaluation.
+    fn compute(&self, node: Node) -> TokenStream {
+        match value(self.graph, node) {
+            Some(value) if value.is_start() => TokenStream::new(),
+            Some(_) => {
+                let (stage, base) = (slot(node), base(node));
+                let sum = self.form.sum(self.graph, node);
+                quote!(::symplectic::combine::<R, V, _>(&mut #stage, #base, #sum);)
+            }
+            None => self.evaluation(node),
+        }
+    }
+
+    /// The lines that make an evaluation and its increment.
+    fn evaluation(&self, node: Node) -> TokenStream {
+        let evaluation = evaluation(self.graph, node);
+        let argument = |index: Option<usize>, kind: fn(usize) -> Node| match index {
+            Some(index) => self.argument(kind(index)),
+            // Separable: this argument is not read.
+            None => start(kind(0)),
+        };
+        let q = argument(evaluation.position, Node::Position);
+        let p = argument(evaluation.momentum, Node::Momentum);
+        if let Some(&(_, last)) = self.carried.iter().find(|(first, _)| *first == node) {
+            // It stays where the step before has left it, and its increment goes to its own place.
+            let evaluate = self.evaluate_into(node, last, &q, &p);
+            let array = evaluation_name(node);
+            let [from, to] = [last, node].map(|node| literal::count(index(node)));
+            let increment = self.increment(node);
+            return quote! {
+                if !kept.evaluation { #evaluate }
+                ::symplectic::copy_to(#array, #from, [#to]);
+                #increment
+            };
+        }
+        let evaluate = self.evaluate(node, &q, &p);
+        let increment = (!self.is_kept(node)).then(|| self.increment(node));
+        quote!(#evaluate #increment)
+    }
+
+    fn increment(&self, node: Node) -> TokenStream {
+        self.form.increment(evaluation(self.graph, node), node)
+    }
+
+    fn evaluate(&self, node: Node, q: &TokenStream, p: &TokenStream) -> TokenStream {
+        self.evaluate_into(node, node, q, p)
+    }
+
+    /// The line that writes an evaluation into the place of another one of its kind.
+    fn evaluate_into(
+        &self,
+        node: Node,
+        place: Node,
+        q: &TokenStream,
+        p: &TokenStream,
+    ) -> TokenStream {
+        let function = evaluation_name(node);
+        let out = slot(place);
+        let time = literal::coefficient(&evaluation(self.graph, node).time);
+        quote!(system.#function(step.at(#time), #q, #p, &mut #out);)
+    }
+
+    /// A stage value as an argument: the start of the step, its result, or where it is stored.
+    fn argument(&self, node: Node) -> TokenStream {
+        let is_start = value(self.graph, node).is_some_and(StageValue::is_start);
+        match node {
+            _ if is_start => start(node),
+            Node::Position(_) if self.is_aliased(node) => quote!(&*q1),
+            Node::Momentum(_) if self.is_aliased(node) => quote!(&*p1),
+            _ => {
+                let stage = slot(node);
+                quote!(&#stage)
+            }
+        }
+    }
+
+    /// Evaluations at the start of the step that are the same as one at the end of the previous step.
+    fn carried(&self) -> Vec<(Node, Node)> {
+        let forces = (0..self.graph.forces.len()).map(Node::Force);
+        let velocities = (0..self.graph.velocities.len()).map(Node::Velocity);
+        let nodes: Vec<Node> = forces.chain(velocities).collect();
+        let sees_only = |node: Node, accept: &dyn Fn(Node) -> bool, time: i64| {
+            let evaluation = evaluation(self.graph, node);
+            let arguments = evaluation
+                .position
+                .map(Node::Position)
+                .into_iter()
+                .chain(evaluation.momentum.map(Node::Momentum));
+            arguments.into_iter().all(accept) && evaluation.time.equals(&ratio(time, 1))
+        };
+        let at_start = |node: Node| value(self.graph, node).is_some_and(StageValue::is_start);
+        let first = nodes
+            .iter()
+            .filter(|&&node| self.begin.contains(&node) && sees_only(node, &at_start, 0));
+        let mut carried: Vec<(Node, Node)> = Vec::new();
+        for &first in first {
+            let is_last = |node: &&Node| {
+                evaluation_name(**node) == evaluation_name(first)
+                    && self.finish.contains(node)
+                    && sees_only(**node, &|n| self.is_aliased(n), 1)
+                    // Nothing but the result is made of it.
+                    && self.graph.nodes().all(|other| value(self.graph, other).is_none() || !self.graph.needs(other).contains(node))
+                    // An evaluation can take the place of one other only.
+                    && carried.iter().all(|(_, taken)| taken != *node)
+            };
+            if let Some(&last) = nodes.iter().find(is_last) {
+                carried.push((first, last));
+            }
+        }
+        carried
+    }
+
+    /// Whether an evaluation stays as it is, for the next step.
+    fn is_kept(&self, node: Node) -> bool {
+        self.carried.iter().any(|(_, last)| *last == node)
+    }
+
+    fn carry(&self) -> TokenStream {
+        let kept = !self.carried.is_empty();
+        quote!(#kept)
+    }
+}

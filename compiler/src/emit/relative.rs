@@ -1,0 +1,251 @@
+//! Coefficients relative to the weights, `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, with which the stages are
+//! sums of increments: `Q_i = q0 + Σ_j μ_ij (h b_j velocity_j)`.
+//!
+//! A method is symplectic iff `μ̃_ij + μ_ji = 1`, which can hold exactly in floating-point arithmetic (theory.md §6):
+//! the larger of the two, which is at least 1/2, is rounded correctly to x, and the other one is 1 − x, which is exact
+//! for every double from 1/2 to 2⁵³. With correctly rounded `a_ij` the condition fails by a rounding error, always the
+//! same, and the energy drifts (Hairer, McLachlan & Razakarivony, 2008; Antoñana, Makazaga & Murua, 2017).
+
+use num_rational::BigRational;
+
+use crate::algebra::Number;
+use crate::arithmetic::interval::Interval;
+use crate::arithmetic::rational::ratio;
+use crate::arithmetic::rounding::{exact, to_f32, to_f64};
+use crate::schedule::StepGraph;
+
+/// A coefficient rounded to what the scalars take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rounded {
+    /// The double.
+    pub double: f64,
+    /// The double nearest to what `double` leaves out.
+    pub low: f64,
+    /// The single.
+    pub single: f32,
+}
+
+impl Rounded {
+    const ZERO: Self = Rounded {
+        double: 0.0,
+        low: 0.0,
+        single: 0.0,
+    };
+    const ONE: Self = Rounded {
+        double: 1.0,
+        low: 0.0,
+        single: 1.0,
+    };
+
+    /// 1 minus the number, where that is exact in doubles: from 1/2 to 2⁵³. In singles it is to 2²⁴.
+    fn complement(self) -> Option<Self> {
+        let exact = (0.5..9_007_199_254_740_992.0).contains(&self.double);
+        exact.then(|| Rounded {
+            double: 1.0 - self.double,
+            low: -self.low,
+            single: 1.0 - self.single,
+        })
+    }
+}
+
+/// The relative coefficients of the distinct stage values of a step.
+#[derive(Debug)]
+pub struct Relative {
+    /// `μ`: a row for each position value, an entry for each velocity.
+    pub positions: Vec<Vec<Rounded>>,
+    /// `μ̃`: a row for each momentum value, an entry for each force.
+    pub momenta: Vec<Vec<Rounded>>,
+}
+
+impl Relative {
+    /// The relative coefficients; `None` where the method is not symplectic, where a weight is zero, or so small that
+    /// a quotient has no exact complement.
+    pub fn new(graph: &StepGraph<'_>) -> Option<Self> {
+        let evaluations = || graph.velocities.iter().chain(&graph.forces);
+        if evaluations().any(|evaluation| evaluation.weight.is_zero()) {
+            return None;
+        }
+        let zeros = |rows: usize, columns: usize| vec![vec![Rounded::ZERO; columns]; rows];
+        let mut relative = Relative {
+            positions: zeros(graph.positions.len(), graph.velocities.len()),
+            momenta: zeros(graph.momenta.len(), graph.forces.len()),
+        };
+        for (f, force) in graph.forces.iter().enumerate() {
+            for (v, velocity) in graph.velocities.iter().enumerate() {
+                let (position, momentum) = (force.position?, velocity.momentum?);
+                let (mu, mu_tilde) = complements(
+                    (&graph.positions[position].coefficients[v], &velocity.weight),
+                    (&graph.momenta[momentum].coefficients[f], &force.weight),
+                )?;
+                relative.positions[position][v] = mu;
+                relative.momenta[momentum][f] = mu_tilde;
+            }
+        }
+        Some(relative)
+    }
+}
+
+/// A coefficient and the weight that it is relative to.
+type Fraction<'n> = (&'n Number<'n>, &'n Number<'n>);
+
+/// Two quotients the sum of which is 1, rounded so that it stays 1; `None` where it is not.
+fn complements(mu: Fraction<'_>, mu_tilde: Fraction<'_>) -> Option<(Rounded, Rounded)> {
+    let enclosure = quotient(mu, 0)?;
+    if !enclosure
+        .add(&quotient(mu_tilde, 0)?)
+        .contains(&ratio(1, 1))
+    {
+        return None;
+    }
+    if mu.0.is_zero() {
+        return Some((Rounded::ZERO, Rounded::ONE));
+    }
+    if mu_tilde.0.is_zero() {
+        return Some((Rounded::ONE, Rounded::ZERO));
+    }
+    // Where both are 1/2, or as good as that, either may be the larger one.
+    let first_is_larger = enclosure.low() + enclosure.high() >= ratio(1, 1);
+    let larger = round(if first_is_larger { mu } else { mu_tilde })?;
+    let smaller = larger.complement()?;
+    Some(if first_is_larger {
+        (larger, smaller)
+    } else {
+        (smaller, larger)
+    })
+}
+
+/// An enclosure of a quotient; `None` where the weight is not told from zero by it.
+fn quotient((value, weight): Fraction<'_>, bits: u32) -> Option<Interval> {
+    value.enclose(bits).divide(&weight.enclose(bits))
+}
+
+/// A quotient, correctly rounded.
+fn round(fraction: Fraction<'_>) -> Option<Rounded> {
+    let enclose = |bits| quotient(fraction, bits);
+    let double = decide(enclose, to_f64)?;
+    let whole = exact(double);
+    let low = decide(
+        |bits| {
+            let rest = enclose(bits)?;
+            let known = Interval::enclosing(&whole, rest.bits());
+            Some(rest.subtract(&known))
+        },
+        to_f64,
+    )?;
+    let single = decide(enclose, to_f32)?;
+    Some(Rounded {
+        double,
+        low,
+        single,
+    })
+}
+
+/// Binary places beyond which an enclosure that still contains zero, or the middle between two neighbours, is taken for
+/// it.
+const DECIDED_BITS: u32 = 2048;
+
+/// Rounds a number that is enclosed as narrowly as needed.
+pub(super) fn decide<T: PartialEq>(
+    enclose: impl Fn(u32) -> Option<Interval>,
+    round: impl Fn(&BigRational) -> T,
+) -> Option<T> {
+    let mut bits = 192;
+    loop {
+        if let Some(interval) = enclose(bits) {
+            let (low, high) = (interval.low(), interval.high());
+            let below = round(&low);
+            let sign = interval.sign();
+            if sign.is_some() && below == round(&high) {
+                return Some(below);
+            }
+            if bits >= DECIDED_BITS {
+                let value = sign.map_or_else(|| ratio(0, 1), |_| (low + high) / ratio(2, 1));
+                return Some(round(&value));
+            }
+        } else if bits >= DECIDED_BITS {
+            return None;
+        }
+        bits *= 2;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue;
+    use crate::schedule::Class;
+
+    /// Every pair of coefficients that belong together, of every symplectic method with weights that are not zero.
+    fn pairs(mut check: impl FnMut(&str, Fraction<'_>, Rounded, Fraction<'_>, Rounded)) -> usize {
+        let mut methods = 0;
+        for entry in catalogue::entries() {
+            let tableau = entry.derive().expect("derived");
+            let numbers = tableau.numbers();
+            for class in [Class::General, Class::Separable] {
+                let graph = StepGraph::new(class, &tableau, &numbers);
+                let Some(relative) = Relative::new(&graph) else {
+                    // With equal weights, a symplectic method has this form.
+                    assert!(!tableau.properties().symplectic.holds, "{}", entry.name);
+                    continue;
+                };
+                methods += 1;
+                for (f, force) in graph.forces.iter().enumerate() {
+                    for (v, velocity) in graph.velocities.iter().enumerate() {
+                        let position = force.position.expect("seen");
+                        let momentum = velocity.momentum.expect("seen");
+                        check(
+                            &entry.name,
+                            (&graph.positions[position].coefficients[v], &velocity.weight),
+                            relative.positions[position][v],
+                            (&graph.momenta[momentum].coefficients[f], &force.weight),
+                            relative.momenta[momentum][f],
+                        );
+                    }
+                }
+            }
+        }
+        methods
+    }
+
+    #[test]
+    fn rounded_methods_are_symplectic_exactly() {
+        let methods = pairs(|name, _, mu, _, mu_tilde| {
+            assert_eq!(
+                exact(mu.double) + exact(mu_tilde.double),
+                ratio(1, 1),
+                "{name}"
+            );
+            let [single, single_tilde] = [mu, mu_tilde].map(|mu| exact(mu.single.into()));
+            assert_eq!(single + single_tilde, ratio(1, 1), "{name}");
+            assert_eq!(mu.low, -mu_tilde.low, "{name}");
+        });
+        assert!(methods > 100, "{methods}");
+    }
+
+    #[test]
+    fn they_are_next_to_the_exact_ones() {
+        pairs(|name, fraction, mu, fraction_tilde, mu_tilde| {
+            let larger = mu.double.abs().max(mu_tilde.double.abs());
+            for (fraction, mu) in [(fraction, mu), (fraction_tilde, mu_tilde)] {
+                let enclosure = quotient(fraction, 256).expect("a quotient");
+                let distance = enclosure.low() - exact(mu.double);
+                let bound = exact(larger * f64::EPSILON / 2.0);
+                assert!(distance <= bound && -distance <= bound, "{name}");
+            }
+        });
+    }
+
+    /// The negative twin: rounded each for itself, the two do not make 1.
+    #[test]
+    fn correctly_rounded_methods_are_not_symplectic() {
+        let mut broken = 0;
+        pairs(|_, mu, _, mu_tilde, _| {
+            let [mu, mu_tilde] = [mu, mu_tilde].map(|mu| match mu.0.is_zero() {
+                true => 0.0,
+                false => round(mu).expect("rounded").double,
+            });
+            broken += usize::from(exact(mu) + exact(mu_tilde) != ratio(1, 1));
+        });
+        assert!(broken > 100, "{broken}");
+    }
+}
