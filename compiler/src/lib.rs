@@ -20,6 +20,8 @@
 //! | adjoint methods and compositions | [`Tableau::adjoint`], [`Tableau::scale`], [`Tableau::compose`], [`Tableau::concatenate`] |
 //! | what is proved about them | [`Properties`], each a [`Property`] with its [`Evidence`] |
 //! | the order for each class of Hamiltonians, trees, the modified equation | [`order`] |
+//! | linear stability on the oscillator | [`stability`] |
+//! | what a user requires of a method | [`Requirement`], [`Tableau::require`], [`assert_order!`] |
 //! | text, JSON, TOML; reading and checking files | [`export`], [`check`] |
 //! | known methods | [`catalogue`] |
 //! | Rust code | [`emit`], from the order of computation found in [`schedule`] |

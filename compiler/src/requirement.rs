@@ -3,6 +3,7 @@
 use std::fmt;
 
 use num_rational::BigRational;
+use num_traits::Signed;
 
 use crate::error::{Error, ErrorKind};
 use crate::expression::{ExpressionKind, Input, parse_list, shown};
@@ -57,9 +58,13 @@ impl Requirement {
             if let Some((left, right)) = text.split_once(sign) {
                 let start = left.len() + sign.len();
                 let number = right.trim().parse().map_err(|_| {
+                    let found = match right.trim() {
+                        "" => "nothing".to_owned(),
+                        right => shown(right),
+                    };
                     let kind = ErrorKind::Type {
-                        found: shown(right.trim()),
-                        expected: "an order, a whole number,".to_owned(),
+                        found,
+                        expected: format!("an order, a whole number from 0 to {},", usize::MAX),
                     };
                     input.error(&(start..text.len()), kind)
                 })?;
@@ -79,7 +84,12 @@ impl Requirement {
             };
             input.error(&(0..text.len()), kind)
         };
-        let items = parse_list(input).map_err(|_| unknown())?;
+        let items = match parse_list(input) {
+            Ok(items) => items,
+            // What is wrong is in the bound, not in the name.
+            Err(error) if text.trim_start().starts_with("stable_to") => return Err(error),
+            Err(_) => return Err(unknown()),
+        };
         let [item] = items.as_slice() else {
             return Err(unknown());
         };
@@ -93,7 +103,15 @@ impl Requirement {
                 arguments,
                 ..
             } if function == "stable_to" && arguments.len() == 1 => {
-                Ok(Requirement::StableTo(arguments[0].rational(input)?))
+                let bound = arguments[0].rational(input)?;
+                if !bound.is_positive() {
+                    let kind = ErrorKind::Type {
+                        found: shown(&bound.to_string()),
+                        expected: "a positive bound on hω".to_owned(),
+                    };
+                    return Err(input.error(&(0..text.len()), kind));
+                }
+                Ok(Requirement::StableTo(bound))
             }
             _ => Err(unknown()),
         }
@@ -265,16 +283,24 @@ impl Tableau {
 }
 
 /// Derives a definition and decides a requirement: what [`assert_order!`](crate::assert_order) does.
+/// `accepted` is as in [`Tableau::require`]; `limits` has to let the stages of the method through.
 ///
 /// # Errors
 /// What is wrong with the texts, or with the method.
-pub fn require(definition: &str, requirement: &str) -> Result<(), Error> {
-    let tableau = crate::Definition::parse(definition)?.derive(&crate::Limits::default())?;
-    Ok(tableau.require(&Requirement::parse(requirement)?, None)?)
+pub fn require(
+    definition: &str,
+    requirement: &str,
+    accepted: Option<u32>,
+    limits: &crate::Limits,
+) -> Result<(), Error> {
+    let tableau = crate::Definition::parse(definition)?.derive(limits)?;
+    Ok(tableau.require(&Requirement::parse(requirement)?, accepted)?)
 }
 
 /// Asserts the order of a method of `symplectic::tableau!` for a class of Hamiltonians, proved from its exact
-/// coefficients: `assert_order!(Lobatto3, general == 4)`, `assert_order!(Lobatto3, nystrom >= 4)`.
+/// coefficients: `assert_order!(Lobatto3, general == 4)`, `assert_order!(Lobatto3, nystrom >= 4)`. For a method
+/// that is only known by enclosures:
+/// `assert_order!(Waves, general == 2, accept: verified(100 bits))`.
 ///
 /// The classes are those of [`HamiltonianClass`](crate::order::HamiltonianClass): `general`, `separable`,
 /// `nystrom`. With `symplectic-compiler` as a dev-dependency, order conditions are decided in a crate's
@@ -284,19 +310,61 @@ pub fn require(definition: &str, requirement: &str) -> Result<(), Error> {
 /// Where the order is another one: with the condition that is violated.
 #[macro_export]
 macro_rules! assert_order {
-    ($method:ty, $class:ident $sign:tt $order:literal) => {
-        if let Err(error) = $crate::require(
-            <$method as ::symplectic::Method>::DEFINITION,
-            concat!(
-                "order(",
-                stringify!($class),
-                ") ",
-                stringify!($sign),
-                " ",
-                $order
-            ),
-        ) {
-            panic!("{}: {error}", stringify!($method));
-        }
+    ($method:ty, $class:ident == $order:literal $(, accept: verified($bits:literal bits))? $(,)?) => {
+        $crate::assert_order!(@ $method, $class, "==", $order, [$($bits)?])
     };
+    ($method:ty, $class:ident >= $order:literal $(, accept: verified($bits:literal bits))? $(,)?) => {
+        $crate::assert_order!(@ $method, $class, ">=", $order, [$($bits)?])
+    };
+    (@ $method:ty, $class:ident, $sign:literal, $order:literal, [$($bits:literal)?]) => {{
+        let mut accepted: ::core::option::Option<u32> = ::core::option::Option::None;
+        $(accepted = ::core::option::Option::Some($bits);)?
+        let _ = &mut accepted;
+        // It has compiled, so its stages were allowed.
+        let limits = $crate::Limits {
+            stages: ::core::cmp::max(
+                $crate::Limits::default().stages,
+                <$method as ::symplectic::Method>::STAGES,
+            ),
+        };
+        if let ::core::result::Result::Err(error) = $crate::require(
+            <$method as ::symplectic::Method>::DEFINITION,
+            ::core::concat!("order(", ::core::stringify!($class), ") ", $sign, " ", $order),
+            accepted,
+            &limits,
+        ) {
+            ::core::panic!("{}: {error}", ::core::stringify!($method));
+        }
+    }};
+    ($($other:tt)*) => {
+        ::core::compile_error!(
+            "expected `assert_order!(Method, general == 4)`: a class, `==` or `>=`, and a whole number"
+        )
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wrong_with_a_requirement_is_said_where_it_is() {
+        for (text, message) in [
+            ("order >=", "require, column 9: nothing where an order"),
+            (
+                "order >= 99999999999999999999999",
+                "a whole number from 0 to",
+            ),
+            ("stable_to(0)", "0 where a positive bound on hω is needed"),
+            (
+                "stable_to(-1/2)",
+                "-1/2 where a positive bound on hω is needed",
+            ),
+            ("stable_to(1 +)", "require, column 14: "),
+            ("stable_t(1)", "unknown property `stable_t(1)`"),
+        ] {
+            let error = Requirement::parse(text).unwrap_err().to_string();
+            assert!(error.contains(message), "{text}: {error}");
+        }
+    }
 }

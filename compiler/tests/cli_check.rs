@@ -129,3 +129,61 @@ fn what_is_no_table_file_is_bad_input() {
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(String::from_utf8_lossy(&output.stdout).lines().count(), 2);
 }
+
+#[test]
+fn facts_are_neither_hidden_nor_added_nor_left_out() {
+    let toml = stdout(&["show", "lobatto-3", "--format", "toml"]);
+    let json = stdout(&["show", "lobatto-3", "--format", "json"]);
+    for (name, text, from, to, message) in [
+        (
+            "twice.json",
+            &json,
+            r#""p_stable": false"#,
+            r#""p_stable": true, "p_stable": false"#,
+            "`stability.p_stable` does not fit: the file has true, the derivation gives false",
+        ),
+        (
+            "empty.json",
+            &json,
+            r#""p_stable": false"#,
+            r#""p_stable": false, "l_stable": []"#,
+            "`stability.l_stable` does not fit: the file has [], the derivation gives no such entry",
+        ),
+        (
+            "empty.toml",
+            &toml,
+            "p_stable = false",
+            "p_stable = false\nl_stable = {}",
+            "`stability.l_stable` does not fit: the file has {}, the derivation gives no such entry",
+        ),
+        (
+            "quoted.toml",
+            &toml,
+            "p_stable = false",
+            "p_stable = \"false\"",
+            "`stability.p_stable` does not fit: the file has \"false\", the derivation gives false",
+        ),
+        (
+            "float.toml",
+            &toml,
+            "dispersion_order = 4",
+            "dispersion_order = 4.0",
+            "`stability.dispersion_order` does not fit: the file has 4.0, the derivation gives 4",
+        ),
+        (
+            "missing.toml",
+            &toml,
+            "determinant = \"1\"\n",
+            "",
+            "`stability.determinant` does not fit: the file has no such entry before `stability.dispersion`, the derivation gives \"1\"",
+        ),
+    ] {
+        assert_eq!(text.matches(from).count(), 1, "{name}");
+        let path = file(name, text.replace(from, to).as_bytes());
+        let (status, out, _) = checked(&path);
+        assert_eq!(
+            (status, out),
+            (Some(1), format!("{path}: FAILED, {message}\n"))
+        );
+    }
+}

@@ -139,7 +139,7 @@ fn a_changed_coefficient_is_no_longer_symmetric_consistent_or_equal() {
     assert_refuted(
         &edited(&weights, "b_tilde = [\"1\"]", "b_tilde = [\"2\"]"),
         "consistent",
-        "the weights sum to 2; the basis does not span the constants",
+        "the weights sum to 2 instead of 1",
     );
     let matrix = edited(&midpoint, "a = [\n    [\"1/2\"]", "a = [\n    [\"1/3\"]");
     assert_refuted(&matrix, "equal_matrices", "a_11 − ã_11 = -1/6");
@@ -166,7 +166,7 @@ fn a_basis_without_constants_is_not_consistent() {
     assert_refuted(
         &method("t", "1"),
         "consistent",
-        "the weights sum to 1/2; the basis does not span the constants",
+        "the weights sum to 1/2 instead of 1",
     );
 }
 

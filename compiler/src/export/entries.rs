@@ -1,8 +1,9 @@
 //! The entries of a file in the order in which they stand, each with its name and its place.
 
-use std::collections::BTreeMap;
+use std::fmt;
 use std::ops::Range;
 
+use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 use toml::Spanned;
 use toml::de::DeValue;
@@ -39,13 +40,14 @@ impl Entry {
 /// # Errors
 /// [`ErrorKind::Mismatch`] for the first entry that does not fit.
 pub(crate) fn compare(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> Result<(), Error> {
-    let Some((found, expected)) = found
+    let all = found;
+    let Some((found, expected)) = all
         .iter()
         .zip(expected)
         .find(|(f, e)| f.name != e.name || f.value != e.value)
     else {
         // What is left out at the end.
-        let Some(missing) = expected.get(found.len()) else {
+        let Some(missing) = expected.get(all.len()) else {
             return Ok(());
         };
         let end = file.text.trim_end().len();
@@ -58,10 +60,18 @@ pub(crate) fn compare(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> R
     };
     if found.name != expected.name {
         // One of the two has an entry that the other has not.
-        let kind = ErrorKind::Mismatch {
-            entry: found.name.clone(),
-            found: difference(&found.value, "").0,
-            expected: format!("no such entry but `{}`", expected.name),
+        let kind = if all.iter().any(|entry| entry.name == expected.name) {
+            ErrorKind::Mismatch {
+                entry: found.name.clone(),
+                found: difference(&found.value, "").0,
+                expected: "no such entry".to_owned(),
+            }
+        } else {
+            ErrorKind::Mismatch {
+                entry: expected.name.clone(),
+                found: format!("no such entry before `{}`", found.name),
+                expected: difference(&expected.value, "").0,
+            }
         };
         return Err(file.error(&found.span, kind));
     }
@@ -105,11 +115,18 @@ pub(super) fn of_json(file: Input<'_>, name: &str, value: &RawValue, entries: &m
     let text = value.get();
     // The value is borrowed from the text.
     let start = (text.as_ptr() as usize).saturating_sub(file.text.as_ptr() as usize);
-    if let Ok(table) = serde_json::from_str::<BTreeMap<String, &RawValue>>(text) {
+    if let Ok(Pairs(mut table)) = serde_json::from_str(text) {
+        if table.is_empty() {
+            entries.push(Entry::new(name, "{}", start..start + text.len()));
+        }
+        table.sort_by(|(a, _), (b, _)| a.cmp(b));
         for (key, value) in table {
             of_json(file, &format!("{name}.{key}"), value, entries);
         }
     } else if let Ok(list) = serde_json::from_str::<Vec<&RawValue>>(text) {
+        if list.is_empty() {
+            entries.push(Entry::new(name, "[]", start..start + text.len()));
+        }
         for (index, value) in list.into_iter().enumerate() {
             of_json(file, &format!("{name}[{index}]"), value, entries);
         }
@@ -118,23 +135,63 @@ pub(super) fn of_json(file: Input<'_>, name: &str, value: &RawValue, entries: &m
     }
 }
 
+/// The entries of an object, a key that stands there twice included.
+struct Pairs<'a>(Vec<(String, &'a RawValue)>);
+
+impl<'de: 'a, 'a> Deserialize<'de> for Pairs<'a> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visit;
+
+        impl<'de> Visitor<'de> for Visit {
+            type Value = Pairs<'de>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("an object")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+                let mut pairs = Vec::new();
+                while let Some(pair) = map.next_entry()? {
+                    pairs.push(pair);
+                }
+                Ok(Pairs(pairs))
+            }
+        }
+
+        deserializer.deserialize_map(Visit)
+    }
+}
+
 /// The entries of a value of TOML, with the name of the value before them.
 pub(super) fn of_toml(name: &str, value: &Spanned<DeValue<'_>>, entries: &mut Vec<Entry>) {
     match value.get_ref() {
         DeValue::Table(table) => {
+            if table.is_empty() {
+                entries.push(Entry::new(name, "{}", value.span()));
+            }
             for (key, value) in table {
                 of_toml(&format!("{name}.{}", key.get_ref()), value, entries);
             }
         }
         DeValue::Array(list) => {
+            if list.is_empty() {
+                entries.push(Entry::new(name, "[]", value.span()));
+            }
             for (index, value) in list.iter().enumerate() {
                 of_toml(&format!("{name}[{index}]"), value, entries);
             }
         }
+        // Quotes tell a string from the number, the truth value or the empty list that it looks like.
+        DeValue::String(text)
+            if text.parse::<i64>().is_ok() || ["true", "false", "[]", "{}"].contains(&&**text) =>
+        {
+            entries.push(Entry::new(name, format!("{text:?}"), value.span()));
+        }
         DeValue::String(text) => entries.push(Entry::new(name, text, value.span())),
         DeValue::Integer(number) => entries.push(Entry::new(name, number, value.span())),
         DeValue::Boolean(holds) => entries.push(Entry::new(name, holds, value.span())),
-        // No tableau has numbers or dates of other kinds.
+        DeValue::Float(number) => entries.push(Entry::new(name, number, value.span())),
+        // No tableau has dates.
         other => entries.push(Entry::new(name, format!("{other:?}"), value.span())),
     }
 }

@@ -116,8 +116,13 @@ pub(super) fn symplecticity_order<A: StageAlgebra>(
     let mut evidence = Evidence::Proved;
     // (M Φ(v))_i for the trees v coloured p, order by order.
     let mut transferred: Vec<Vec<(u32, A::Vector)>> = Vec::new();
-    let limit = limit.min(MAX_ORDER);
+    let mut limit = limit.min(MAX_ORDER);
     for order in 1..=limit {
+        // The stages of trees of this order are needed, as for conditions of the next.
+        if !weights.affordable(order + 1) {
+            limit = order - 1;
+            break;
+        }
         let mut check =
             |terms: A::Vector, trees: &dyn Fn() -> (BicolouredTree, Option<BicolouredTree>)| {
                 let number = algebra.sum(&terms);

@@ -424,3 +424,55 @@ fn order_10_of_five_stages_by_full_enumeration() {
     );
     assert_eq!(found.order, 10);
 }
+
+/// Yoshida's triple jump of Gauss with 4 stages has order 10. Its numbers are expressions, those for all trees of
+/// order 9 would take more than 10 GB.
+#[test]
+fn memory_is_bounded_where_numbers_are_expressions() {
+    let (outer, gauss) = (
+        "1/(2 - root(t^9 - 2, 1))",
+        "basis: polynomial(4), nodes: gauss(4)",
+    );
+    let text =
+        format!("compose: [[{outer}, {gauss}], [1 - 2*({outer}), {gauss}], [{outer}, {gauss}]]");
+    let definition = crate::Definition::parse(&text).expect("a definition");
+    let tableau = definition
+        .derive(&crate::Limits::default())
+        .expect("derived");
+    let report = tableau.order(&OrderOptions::default());
+    assert!(
+        (8..=10).contains(&report.general.order),
+        "{}",
+        report.general
+    );
+    assert_eq!(report.nystrom.order, 10);
+    assert!(report.nystrom.refuted_by.is_some());
+}
+
+/// The order of symplecticity is no lower than the order, which may be beyond the limit of its trees.
+#[test]
+fn methods_are_as_symplectic_as_accurate() {
+    let fractions: Vec<String> = (0..5).map(|i| format!("{i}/4")).collect();
+    let tableau = derived("polynomial(5)", &fractions.join(", "));
+    let numbers = tableau.exact_forms();
+    let list = |row: &[Option<String>]| -> String {
+        let numbers: Vec<&str> = row
+            .iter()
+            .map(|x| x.as_deref().expect("rational"))
+            .collect();
+        numbers.join(", ")
+    };
+    let rows: Vec<String> = numbers
+        .a
+        .iter()
+        .map(|row| format!("[{}]", list(row)))
+        .collect();
+    let text = format!("a: [{}], b: [{}]", rows.join(", "), list(&numbers.b));
+    let definition = crate::Definition::parse(&text).expect("a definition");
+    let boole = definition
+        .derive(&crate::Limits::default())
+        .expect("derived");
+    assert_eq!(boole.orders().general.order, 6);
+    let found = boole.symplecticity_order(3).expect("not symplectic");
+    assert_eq!((found.order, found.violated), (6, None));
+}

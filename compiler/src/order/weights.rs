@@ -13,11 +13,15 @@ use num_traits::One;
 
 use super::enumeration::{TreeRule, Trees};
 use super::tree::{BicolouredTree, Colour};
-use crate::algebra::{Number, StageAlgebra};
+use crate::algebra::{Field, Number, StageAlgebra};
 use crate::pair::Pair;
 
 /// The highest order of trees that are enumerated: densities, at most `order!`, are kept in 64 bits.
 pub(super) const MAX_ORDER: usize = 20;
+
+/// The most products of a coefficient and a stage that are kept as expressions, about 500 bytes each with its
+/// enclosure: 2 GB.
+const MOST_EXPRESSIONS: usize = 4_000_000;
 
 /// The tree of a condition: one vertex, or a product of trees in the enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,6 +92,18 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
                 applied: OnceCell::new(),
             });
         }
+    }
+
+    /// Whether the conditions of an order, 1 at least, can be evaluated in bounded memory: where numbers are
+    /// expressions, all that the stages of smaller trees are made of is kept.
+    pub(super) fn affordable(&mut self, order: usize) -> bool {
+        let algebra = &*self.pair.algebra;
+        if algebra.constants().verified_bits().is_none() {
+            return true;
+        }
+        self.grow(order - 1);
+        let products = self.trees.len() * algebra.stages() * algebra.stages();
+        products <= MOST_EXPRESSIONS
     }
 
     fn density(&self, rest: u32, last: u32) -> u64 {

@@ -21,7 +21,7 @@ pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
     }
     let [shown_b, shown_b_tilde] = [shown(&b), shown(&b_tilde)];
     Property::refuted(if pair.b == pair.b_tilde {
-        format!("the weights sum to {shown_b}; the basis does not span the constants")
+        format!("the weights sum to {shown_b} instead of 1")
     } else {
         format!("the weights b sum to {shown_b} and b̃ to {shown_b_tilde}")
     })
