@@ -86,7 +86,7 @@ impl<A: StageAlgebra> Pair<A> {
     }
 
     /// The adjoint method, the inverse of the step with `−h`: `a*_ij = b_j − a_ij` and
-    /// `ã*_ij = b̃_j − ã_ij`, `b* = b`, `b̃* = b̃` (theory.md §4 up to the order of the stages).
+    /// `ã*_ij = b̃_j − ã_ij`, `b* = b`, `b̃* = b̃` up to the order of the stages (GNI II.3).
     ///
     /// The stages keep their labels, so that the adjoint of the adjoint is the method itself; in the
     /// order of ascending `c*` they stand in reverse.

@@ -76,6 +76,14 @@ impl Requirement {
             }
         }
         let unknown = || {
+            if text.trim_start().starts_with("order") {
+                let kind = ErrorKind::Type {
+                    found: shown(text.trim()),
+                    expected: "`order >= 4`, `order == 4`, or the same with a class, as in `order(separable) >= 4`,"
+                        .to_owned(),
+                };
+                return input.error(&(0..text.len()), kind);
+            }
             let known = Properties::NAMES.join(", ");
             let kind = ErrorKind::Unknown {
                 what: "property",
@@ -363,7 +371,7 @@ mod tests {
             ("stable_to(1 +)", "require, column 14: "),
             ("stable_t(1)", "unknown property `stable_t(1)`"),
         ] {
-            let error = Requirement::parse(text).unwrap_err().to_string();
+            let error = Requirement::parse(text).expect_err(text).to_string();
             assert!(error.contains(message), "{text}: {error}");
         }
     }

@@ -63,7 +63,7 @@ pub(crate) enum Exact {
     Reals(Pair<Dense<Reals>>),
 }
 
-/// How the coefficients of a tableau are known (theory.md §3).
+/// How the coefficients of a tableau are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tier {
     /// As functions of the nodes, which are all roots of one rational polynomial: all equations are

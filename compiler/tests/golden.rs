@@ -198,7 +198,7 @@ fn a_half_wave_gives_stoermer_verlet() {
     assert!(!waves.has_coefficients_of(&derive("polynomial(2)", "0, 2/3").expect("derived")));
 }
 
-/// LZ Example 4, as theory.md §2 has it, with c̃.
+/// LZ Example 4, with c̃, which the paper does not print.
 #[test]
 fn half_waves_at_three_nodes_come_out_exactly() {
     let forms = derive("1, cos(pi*t), sin(pi*t)", "0, 1/2, 1")

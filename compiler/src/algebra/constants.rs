@@ -1,4 +1,4 @@
-//! The field that holds some given constants (theory.md §3.2).
+//! The field that holds some given constants.
 
 use std::collections::{HashMap, HashSet};
 use std::num::NonZeroU32;

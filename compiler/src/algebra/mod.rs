@@ -1,4 +1,4 @@
-//! Exact and certified arithmetic on functions of the stages (theory.md §3).
+//! Exact and certified arithmetic on functions of the stages.
 //!
 //! A quantity with one index is a vector over the stages, one with two a matrix. Three algebras hold
 //! them, and everything that is said about a tableau is said once, over [`StageAlgebra`]:

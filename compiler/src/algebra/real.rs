@@ -1,4 +1,4 @@
-//! Real numbers as expressions that are enclosed as narrowly as needed (theory.md §3.3).
+//! Real numbers as expressions that are enclosed as narrowly as needed.
 
 use std::cmp::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};

@@ -1,4 +1,4 @@
-//! The constructions of theory.md §2 over a field: any basis, any nodes.
+//! The constructions of [`super`] over a field: any basis, any nodes.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! From a definition to the tableau (LZ §4.4, steps 1–5; T §2.2; theory.md §2).
+//! From a definition to the tableau (LZ §4.4, steps 1–5; T §2.2).
 //!
 //! The tier follows from the definition: polynomial bases at all roots of one polynomial are derived in
 //! the node algebra; anything else in a constant field, if one holds all values and integrals of the

@@ -1,4 +1,4 @@
-//! The constructions of theory.md §2 in the node algebra: polynomial bases, all roots of one polynomial.
+//! The constructions of [`super`] in the node algebra: polynomial bases, all roots of one polynomial.
 
 use std::sync::Arc;
 

@@ -18,7 +18,7 @@ pub struct Problem {
     pub adjoint: bool,
 }
 
-/// The constructions of theory.md §2, and coefficients that are given.
+/// The constructions of [`super`], and coefficients that are given.
 pub enum Construction {
     /// As many functions as nodes.
     Collocation { basis: Basis, nodes: Nodes },

@@ -4,7 +4,7 @@
 //! each rounded correctly to a double, and as what the runtime computes with: rounded correctly to a
 //! double and from the exact value again to a single, which is infinite for a coefficient beyond the
 //! largest single, because the method is sound in doubles. For each class of Hamiltonians a plan of the step in which every
-//! stage is a line of its own (theory.md §7): no product with zero, equal stages computed once, stages
+//! stage is a line of its own: no product with zero, equal stages computed once, stages
 //! in order where they are explicit, no evaluation that the previous step has made already.
 
 mod extrapolation;

@@ -1,4 +1,4 @@
-//! Adjoint methods and compositions (theory.md §8; MW 2.5).
+//! Adjoint methods and compositions (MW 2.5).
 //!
 //! What an operation gives has a definition that derives it again, in every tier: the definitions of the
 //! operands and the operation, `compose: […]` or `adjoint: true`. Coefficients alone would not do, for those
@@ -18,7 +18,7 @@ impl Tableau {
     /// The adjoint method `Φ*_h = Φ_{−h}⁻¹`: `a*_ij = b_j − a_ij` and `b* = b`, and the same with tildes.
     ///
     /// The stages keep their labels, so that the adjoint of the adjoint is the method itself; in the order
-    /// of ascending `c*` they stand in reverse (theory.md §4; GNI II.3, Theorem 3.3).
+    /// of ascending `c*` they stand in reverse (GNI II.3, Theorem 3.3).
     ///
     /// ```
     /// let euler = symplectic_compiler::derive("1", "0")?;

@@ -264,7 +264,7 @@ mod tests {
         q.iter().zip(&p).map(|(q, p)| (q + p) as usize).collect()
     }
 
-    /// The first numbers were found by several independent programs (theory.md §4); orders 9 and 10
+    /// The first numbers were found by several independent programs; orders 9 and 10
     /// with them, and the trees of order 10 are counted without being kept.
     #[test]
     fn the_numbers_of_trees_are_known() {

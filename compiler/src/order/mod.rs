@@ -1,7 +1,7 @@
 //! The order of a method for each class of Hamiltonians, proved and sharp.
 //!
 //! A method has order `p` for a class iff `Σ_i b_i Φ_i(τ) = 1/γ(τ)` for every bicoloured rooted tree `τ`
-//! of the class with at most `p` vertices (GNI III.2; theory.md §4). An order is the largest such `p`
+//! of the class with at most `p` vertices (GNI III.2). An order is the largest such `p`
 //! together with a tree of order `p + 1` whose condition is refuted. It is proved
 //!
 //! 1. by the [`SimplifyingAssumptions`] up to the order that they give,
@@ -17,8 +17,9 @@
 //! | memory for that | 14 MB | 14 MB | 14 MB | 18 MB | 72 MB |
 //!
 //! Measured on one core, optimised. With the default options the methods of the catalogue take at most
-//! 0.1 s each but for the two of order 9, which take 1 s, and Gauss with 20 stages, order 40, takes 0.2 s. In
-//! the last tier, where numbers are expressions, orders are left out whose conditions need more than 2 GB.
+//! 0.1 s each but for the two of order 9, which take 1 s, and Gauss with 20 stages, order 40, takes 0.2 s. Orders
+//! the conditions of which take more than ten million products of a coefficient and a stage, or four where numbers are
+//! expressions, are not enumerated: what is then known of them is what the simplifying assumptions say.
 
 mod class;
 mod enumeration;
@@ -281,13 +282,9 @@ impl ViolatedCondition {
         // The same share of the wanted value at each stage, so that the sum is the residual.
         let share = &wanted / BigRational::from_integer(algebra.stages().into());
         let residual = algebra.subtract(terms, &algebra.constant(&share));
-        let text = |terms: &A::Vector, number: &Number<'_>| match algebra.exact_sum(terms) {
-            Some(exact) if exact.chars().count() <= SHORT => exact,
-            _ => short(number),
-        };
         ViolatedCondition {
-            value: text(terms, value),
-            residual: text(&residual, &algebra.sum(&residual)),
+            value: short_sum(algebra, terms, value),
+            residual: short_sum(algebra, &residual, &algebra.sum(&residual)),
             wanted,
             tree,
         }
@@ -296,6 +293,14 @@ impl ViolatedCondition {
 
 /// Exact values with more characters than this are written as decimals.
 const SHORT: usize = 40;
+
+/// `Σ_i f_i`, which is `number`: exact where that is short, otherwise its first digits and `…`.
+fn short_sum<A: StageAlgebra>(algebra: &A, f: &A::Vector, number: &Number<'_>) -> String {
+    match algebra.exact_sum(f) {
+        Some(exact) if exact.chars().count() <= SHORT => exact,
+        _ => short(number),
+    }
+}
 
 /// The first digits of a number that has no short exact form.
 fn short(number: &Number<'_>) -> String {

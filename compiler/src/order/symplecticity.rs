@@ -8,10 +8,15 @@ use super::tree::{BicolouredTree, Colour};
 use super::weights::{MAX_ORDER, Weights};
 use crate::algebra::{StageAlgebra, Zero};
 use crate::pair::Pair;
-use crate::properties::{Evidence, shown, vanishing_matrix, vanishing_vector};
+use crate::properties::{Evidence, vanishing_matrix, vanishing_vector};
 
 /// The order of symplecticity of a method that is not symplectic (pseudo-symplecticity, Aubry & Chartier
 /// 1998): the step changes the symplectic form by `O(hᵖ⁺¹)`.
+///
+/// Whether a method is symplectic is decided by its coefficients, `b_i ã_ij + b̃_j a_ji = b_i b̃_j`, which is necessary
+/// for irreducible methods only: one that has equal stages, or stages that nothing depends on, can take
+/// symplectic steps and violate it. It then has no order of symplecticity that could be refuted, and this is a
+/// lower bound.
 ///
 /// With the elementary weights `φ` of the method, the largest `p` such that for all trees `u` with a
 /// root coloured `q` and `v` with one coloured `p`, `|u| + |v| ≤ p`,
@@ -134,7 +139,7 @@ pub(super) fn symplecticity_order<A: StageAlgebra>(
                     }
                     Zero::No => {
                         let (left, right) = trees();
-                        let defect = algebra.exact_sum(&terms).unwrap_or_else(|| shown(&number));
+                        let defect = super::short_sum(algebra, &terms, &number);
                         Some(SymplecticityViolation {
                             left,
                             right,

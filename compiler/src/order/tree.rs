@@ -43,7 +43,7 @@ impl Colour {
 
 /// A bicoloured rooted tree `τ` in canonical form: equal trees are equal values.
 ///
-/// A tree stands for one order condition (theory.md §4): with the weights of the root's colour,
+/// A tree stands for one order condition: with the weights of the root's colour,
 /// `Σ_i b_i Φ_i(τ) = 1/γ(τ)`, where `Φ_i(τ)` multiplies over the children `u` of the root
 /// `Σ_j a_ij Φ_j(u)` for a child coloured `q` and `Σ_j ã_ij Φ_j(u)` for one coloured `p`.
 ///

@@ -19,8 +19,10 @@ use crate::pair::Pair;
 /// The highest order of trees that are enumerated: densities, at most `order!`, are kept in 64 bits.
 pub(super) const MAX_ORDER: usize = 20;
 
-/// The most products of a coefficient and a stage that are kept as expressions, about 500 bytes each with its
-/// enclosure: 2 GB.
+/// The most products of a coefficient and a stage, for all trees: with rationals that is half a minute.
+const MOST_PRODUCTS: usize = 10_000_000;
+
+/// The same where numbers are expressions, about 500 bytes each, which are kept with their enclosures: 2 GB.
 const MOST_EXPRESSIONS: usize = 4_000_000;
 
 /// The tree of a condition: one vertex, or a product of trees in the enumeration.
@@ -94,16 +96,16 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
         }
     }
 
-    /// Whether the conditions of an order, 1 at least, can be evaluated in bounded memory: where numbers are
-    /// expressions, all that the stages of smaller trees are made of is kept.
+    /// Whether the conditions of an order, 1 at least, can be evaluated in bounded time and memory.
     pub(super) fn affordable(&mut self, order: usize) -> bool {
         let algebra = &*self.pair.algebra;
-        if algebra.constants().verified_bits().is_none() {
-            return true;
-        }
+        let stages = algebra.stages();
         self.grow(order - 1);
-        let products = self.trees.len() * algebra.stages() * algebra.stages();
-        products <= MOST_EXPRESSIONS
+        let most = match algebra.constants().verified_bits() {
+            None => MOST_PRODUCTS,
+            Some(_) => MOST_EXPRESSIONS,
+        };
+        self.trees.len() * stages * stages <= most
     }
 
     fn density(&self, rest: u32, last: u32) -> u64 {

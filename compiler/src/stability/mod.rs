@@ -1,4 +1,4 @@
-//! Linear stability as exact algebra (theory.md §5; Hairer, Lubich & Wanner, *Geometric Numerical
+//! Linear stability as exact algebra (Hairer, Lubich & Wanner, *Geometric Numerical
 //! Integration*, §I.5 and §IX.9; Hairer & Wanner, *Solving Ordinary Differential Equations II*, §IV.3).
 //!
 //! For the oscillator `q' = p`, `p' = −ω²q` one step is a 2×2 matrix whose entries are rational functions of

@@ -4,7 +4,7 @@
 //! one index is a polynomial `f` modulo `m` with `f_i = f(c_i)`, and a quantity with two indices is an
 //! element of `K ⊗ K`, a polynomial in `x` and `y` modulo `m(x)` and `m(y)`. Sums over nodes are
 //! traces. `m` may be reducible; no splitting field is ever built, and no root is approximated to
-//! derive or to prove anything. (theory.md §3.1)
+//! derive or to prove anything.
 
 mod closed_form;
 mod divisor;

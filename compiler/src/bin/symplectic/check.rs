@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
 use symplectic_compiler::export::STABILITY_STAGES;
 use symplectic_compiler::order::HamiltonianClass;
-use symplectic_compiler::{Error, Limits, check, export};
+use symplectic_compiler::{Error, Limits, Tableau, check, export};
 
 use crate::output;
 use crate::report;
@@ -17,34 +18,86 @@ pub(crate) struct Arguments {
     /// Files written by `derive` or `show` with `--format toml` or `--format json`.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
+    /// How to report: a line for each file, or JSON with the whole tableau of each.
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
     /// The most stages that a file may have.
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
     max_stages: Option<u16>,
+}
+
+/// The formats of a report.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Format {
+    Text,
+    Json,
 }
 
 /// Checks every file; the exit status is that of the worst.
 pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let limits = output::limits(arguments.max_stages);
     let mut status = 0;
+    let mut results = Vec::new();
     for path in &arguments.files {
-        let name = path.display();
-        let line = match check_file(path, &limits) {
-            Ok(verdict) => format!("{name}: ok, {verdict}\n"),
-            Err(error) => {
-                report::to_stderr(&error);
-                status = report::status(&error).max(status);
-                format!("{name}: FAILED, {}\n", error.kind)
-            }
+        let name = path.display().to_string();
+        let outcome = check_file(path, &limits);
+        if let Err(error) = &outcome {
+            report::to_stderr(error);
+            status = report::status(error).max(status);
+        }
+        if arguments.format == Format::Json {
+            results.push(entry(&name, &outcome));
+            continue;
+        }
+        let verdict = match &outcome {
+            Ok(tableau) => format!("ok, {}", facts(tableau)),
+            Err(error) => format!("FAILED, {}", error.kind),
         };
-        output::print(&line)?;
+        // A name may hold anything, a line break that makes it two lines too.
+        let line: String = format!("{name}: {verdict}")
+            .chars()
+            .map(|c| {
+                if c.is_control() || is_direction(c) {
+                    '\u{fffd}'
+                } else {
+                    c
+                }
+            })
+            .collect();
+        output::print(&format!("{line}\n"))?;
+    }
+    if arguments.format == Format::Json {
+        let text = Value::Array(results);
+        output::print(&format!("{text:#}\n"))?;
     }
     Ok(ExitCode::from(status))
 }
 
-fn check_file(path: &Path, limits: &Limits) -> Result<String, Error> {
+/// Whether a character changes the direction of writing.
+fn is_direction(c: char) -> bool {
+    matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// What JSON says of a file: its tableau, as `derive` writes it, or the error.
+fn entry(name: &str, outcome: &Result<Tableau, Error>) -> Value {
+    match outcome {
+        Ok(tableau) => {
+            let text = export::json::write(tableau, export::DEFAULT_DIGITS);
+            let tableau: Value = serde_json::from_str(&text).unwrap_or_default();
+            json!({ "file": name, "ok": true, "tableau": tableau })
+        }
+        Err(error) => json!({ "file": name, "ok": false, "error": error.to_string() }),
+    }
+}
+
+fn check_file(path: &Path, limits: &Limits) -> Result<Tableau, Error> {
     let name = path.display().to_string();
     let text = export::read_text(path)?;
-    let tableau = check(&name, &text, limits)?;
+    check(&name, &text, limits)
+}
+
+/// The name, the orders and the stability of a tableau, in a line.
+fn facts(tableau: &Tableau) -> String {
     let called = tableau.name().unwrap_or("a tableau without a name");
     let stages = match tableau.stages() {
         1 => "1 stage".to_owned(),
@@ -66,8 +119,8 @@ fn check_file(path: &Path, limits: &Limits) -> Result<String, Error> {
         let intervals = tableau.stability().intervals_text();
         format!(", stable for hω in {intervals}")
     };
-    Ok(format!(
+    format!(
         "{called} with {stages}, order {}{stable}",
         orders.join(", ")
-    ))
+    )
 }

@@ -26,7 +26,7 @@
 //! ```
 //!
 //! All quantities with one index are polynomials in a node, all with two are polynomials in two nodes
-//! (theory.md §3.1), so rational coefficients hold irrational tableaux exactly. Every list has as many
+//! of them, so rational coefficients hold irrational tableaux exactly. Every list has as many
 //! entries as there are stages, the node polynomial has one more.
 //!
 //! Where the tier is `constant field`, `[exact]` has no node polynomial, and its entries are expressions

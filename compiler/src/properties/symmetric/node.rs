@@ -96,11 +96,16 @@ fn permutation(
         }
         powers
     };
-    let rows: Vec<Vec<BigRational>> = powers(u)
-        .iter()
-        .map(|p| (0..size).map(|k| p.coefficient(k)).collect())
-        .collect();
-    let inverse = matrix::inverse(&rows).ok()?;
+    let rows = |powers: &[Polynomial]| -> Vec<Vec<BigRational>> {
+        let row = |p: &Polynomial| (0..size).map(|k| p.coefficient(k)).collect();
+        powers.iter().map(row).collect()
+    };
+    let inverse = matrix::inverse(&rows(&powers(u))).ok()?;
+    let images = powers(image);
+    if matrix::inverse(&rows(&images)).is_err() {
+        // A permutation would give the image as many values.
+        return Some(Err(()));
+    }
     // x = Σ_k w_k uᵏ, so g = Σ_k w_k imageᵏ.
     let x = algebra.variable();
     let weights = (0..size).map(|k| {
@@ -109,7 +114,7 @@ fn permutation(
             .sum::<BigRational>()
     });
     let map = weights
-        .zip(powers(image))
+        .zip(images)
         .fold(Polynomial::zero(), |sum, (w, p)| &sum + &p.scale(&w));
     Some(if compose(algebra, algebra.modulus(), &map).is_zero() {
         Ok(map)
