@@ -2,6 +2,7 @@
 //! integrate them with, and how results are measured ([`measure`], [`counting`], [`order`]).
 
 pub mod counting;
+pub mod drift;
 pub mod measure;
 pub mod methods;
 pub mod order;

@@ -20,6 +20,11 @@ symplectic::tableau! {
         basis: polynomial(4), nodes: gauss(4), require: [symplectic, symmetric, equal_matrices, order == 8, p_stable]
     }
 
+    /// Gauss with six stages, order 12.
+    pub Gauss6 {
+        basis: polynomial(6), nodes: gauss(6), require: [symplectic, symmetric, equal_matrices, order == 12]
+    }
+
     /// Gauss with eight stages, order 16: for references.
     pub Gauss8 {
         basis: polynomial(8), nodes: gauss(8), require: [symplectic, symmetric, equal_matrices, order == 16]

@@ -1,0 +1,132 @@
+//! Whether rounding errors make the energy drift: ensembles of 32 orbits over 4 194 304 steps.
+//!
+//! `cargo run --release --example drift`, some minutes; `-- --quick` for 65 536 steps.
+
+#![allow(clippy::print_stdout, reason = "an example prints")]
+
+use symplectic::nalgebra::SVector;
+use symplectic::{Compensated, Error, Method, Plain, SeparableHamiltonian, State, Summation};
+use symplectic_tests::drift::{ensemble, exponent};
+use symplectic_tests::methods::{Gauss6, Gauss8};
+use symplectic_tests::scenes::henon_heiles::{self, HenonHeiles};
+use symplectic_tests::scenes::kepler::{self, Kepler};
+
+const ORBITS: u32 = 32;
+
+type Start = State<SVector<f64, 2>>;
+
+fn main() -> Result<(), Error> {
+    let quick = std::env::args().any(|argument| argument == "--quick");
+    let most = if quick { 16 } else { 22 };
+    let steps: Vec<u64> = (most - 8..=most).step_by(2).map(|k| 1 << k).collect();
+    println!("Relative energy errors of {ORBITS} orbits after 2^{most} steps.");
+    println!(
+        "ratio: the mean in units of its standard error; growth: exponents of the number of steps.\n"
+    );
+    println!(
+        "| problem | method | sums | mean | spread | ratio | growth of the mean | of the spread |"
+    );
+    println!("|---|---|---|---:|---:|---:|---:|---:|");
+    let orbits = |start: fn(f64) -> Start| -> Vec<Start> {
+        (0..ORBITS).map(|k| start(f64::from(k))).collect()
+    };
+    // Neighbouring orbits: their rounding errors are independent.
+    let ellipses = orbits(|k| kepler::start(0.6 - 1e-3 * k));
+    let stars = orbits(|k| {
+        let mut start = henon_heiles::start();
+        start.q[0] += 1e-3 * k;
+        start
+    });
+    // The step sizes are such that the errors of the methods themselves are below those of rounding.
+    row(
+        "Kepler, e ≈ 0.6",
+        Gauss6,
+        "Gauss 6",
+        Kepler,
+        &ellipses,
+        1.0 / 32.0,
+        &steps,
+    )?;
+    row(
+        "Kepler, e ≈ 0.6",
+        Gauss8,
+        "Gauss 8",
+        Kepler,
+        &ellipses,
+        1.0 / 16.0,
+        &steps,
+    )?;
+    row(
+        "Hénon–Heiles",
+        Gauss6,
+        "Gauss 6",
+        HenonHeiles,
+        &stars,
+        1.0 / 16.0,
+        &steps,
+    )?;
+    row(
+        "Hénon–Heiles",
+        Gauss8,
+        "Gauss 8",
+        HenonHeiles,
+        &stars,
+        1.0 / 8.0,
+        &steps,
+    )
+}
+
+fn row<M: Method, S: SeparableHamiltonian<SVector<f64, 2>> + Copy>(
+    problem: &str,
+    method: M,
+    name: &str,
+    system: S,
+    starts: &[Start],
+    step_size: f64,
+    steps: &[u64],
+) -> Result<(), Error> {
+    fn one<M, S, R>(
+        row: (&str, &str, &str),
+        method: M,
+        system: S,
+        starts: &[Start],
+        step_size: f64,
+        steps: &[u64],
+    ) -> Result<(), Error>
+    where
+        M: Method,
+        S: SeparableHamiltonian<SVector<f64, 2>> + Copy,
+        R: Summation,
+    {
+        let samples = ensemble::<M, S, R>(method, system, starts, step_size, steps)?;
+        let Some(last) = samples.last() else {
+            return Ok(());
+        };
+        let (problem, name, sums) = row;
+        println!(
+            "| {problem} | {name} | {sums} | {:.1e} | {:.1e} | {:.1} | {:.2} | {:.2} |",
+            last.mean,
+            last.spread,
+            last.significance,
+            exponent(&samples, |sample| sample.mean),
+            exponent(&samples, |sample| sample.spread),
+        );
+        Ok(())
+    }
+    one::<M, S, Compensated>(
+        (problem, name, "compensated"),
+        method,
+        system,
+        starts,
+        step_size,
+        steps,
+    )?;
+    one::<M, S, Plain>(
+        (problem, name, "plain"),
+        method,
+        system,
+        starts,
+        step_size,
+        steps,
+    )
+}

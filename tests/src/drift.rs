@@ -1,0 +1,113 @@
+//! What rounding errors do to the energy in the long run, as a statistic over many orbits.
+//!
+//! With an ideal integrator the energy error of an orbit is a random walk: its mean over an ensemble is zero, and its
+//! spread grows like the square root of the number of steps (Brouwer's law). A drift is a mean that is many of its own
+//! standard errors away from zero, and that grows with the number of steps itself.
+
+use symplectic::nalgebra::SVector;
+use symplectic::{Error, Integrator, Method, SeparableHamiltonian, State, Summation};
+
+/// The relative energy errors of an ensemble after a number of steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Steps taken.
+    pub steps: u64,
+    /// The mean.
+    pub mean: f64,
+    /// The standard deviation.
+    pub spread: f64,
+    /// The mean in units of its standard error, `spread/√orbits`.
+    pub significance: f64,
+}
+
+/// Integrates every orbit, and takes a sample after each of the numbers of steps, which ascend.
+///
+/// # Errors
+///
+/// Those of a step.
+pub fn ensemble<M, S, R>(
+    method: M,
+    system: S,
+    starts: &[State<SVector<f64, 2>>],
+    step_size: f64,
+    steps: &[u64],
+) -> Result<Vec<Sample>, Error>
+where
+    M: Method,
+    S: SeparableHamiltonian<SVector<f64, 2>> + Copy,
+    R: Summation,
+{
+    let mut errors = vec![Vec::new(); steps.len()];
+    for start in starts {
+        let mut orbit =
+            Integrator::<M, S, _, R>::with_summation(method, system, start.clone(), step_size)?;
+        let energy = orbit.energy().unwrap_or(f64::NAN);
+        for (&steps, errors) in steps.iter().zip(&mut errors) {
+            while orbit.steps() < steps {
+                orbit.step()?;
+            }
+            let change = orbit.energy().unwrap_or(f64::NAN) - energy;
+            errors.push(change / energy.abs());
+        }
+    }
+    let samples = steps.iter().zip(&errors);
+    Ok(samples
+        .map(|(&steps, errors)| sample(steps, errors))
+        .collect())
+}
+
+fn sample(steps: u64, errors: &[f64]) -> Sample {
+    let count = errors.len() as f64;
+    let mean = errors.iter().sum::<f64>() / count;
+    let squares = errors.iter().map(|error| (error - mean) * (error - mean));
+    let spread = (squares.sum::<f64>() / (count - 1.0)).sqrt();
+    Sample {
+        steps,
+        mean,
+        spread,
+        significance: mean / (spread / count.sqrt()),
+    }
+}
+
+/// The exponent `k` of a quantity that grows like `stepsᵏ`, from the slope of the line of least squares through its
+/// logarithms.
+pub fn exponent(samples: &[Sample], quantity: impl Fn(&Sample) -> f64) -> f64 {
+    let points = samples
+        .iter()
+        .map(|sample| ((sample.steps as f64).ln(), quantity(sample).abs().ln()));
+    let points: Vec<(f64, f64)> = points.collect();
+    let count = points.len() as f64;
+    let (x, y) = points
+        .iter()
+        .fold((0.0, 0.0), |(x, y), point| (x + point.0, y + point.1));
+    let (x, y) = (x / count, y / count);
+    let covariance: f64 = points
+        .iter()
+        .map(|point| (point.0 - x) * (point.1 - y))
+        .sum();
+    let variance: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
+    covariance / variance
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn statistics_of_known_numbers() {
+        let found = sample(4, &[1.0, 3.0]);
+        assert_eq!((found.mean, found.spread), (2.0, 2.0_f64.sqrt()));
+        assert!((found.significance - 2.0).abs() < 1e-15);
+        let samples: Vec<Sample> = [1_u64, 4, 16, 64]
+            .iter()
+            .map(|&steps| Sample {
+                steps,
+                mean: steps as f64,
+                spread: (steps as f64).sqrt(),
+                significance: 0.0,
+            })
+            .collect();
+        assert!((exponent(&samples, |sample| sample.mean) - 1.0).abs() < 1e-14);
+        assert!((exponent(&samples, |sample| sample.spread) - 0.5).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,42 @@
+//! The Hénon–Heiles system, `H = (|p|² + |q|²)/2 + q_1² q_2 − q_2³/3`: a star in a galaxy.
+//!
+//! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff; orbits are bounded up to the energy 1/6, and
+//! many are chaotic from 1/12 on.
+//! *Source:* Hénon & Heiles, 1964; Hairer, Lubich & Wanner, Geometric Numerical Integration (GNI), §I.3.
+
+use symplectic::nalgebra::SVector;
+use symplectic::{Scalar, SeparableHamiltonian, State};
+
+/// The system.
+#[derive(Clone, Copy, Debug)]
+pub struct HenonHeiles;
+
+impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for HenonHeiles {
+    #[inline]
+    fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+        *velocity = *p;
+    }
+
+    #[inline]
+    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+        let product = q[0] * q[1];
+        force[0] = -(q[0] + product + product);
+        force[1] = q[1] * q[1] - q[0] * q[0] - q[1];
+    }
+
+    fn energy(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
+        let third = q[1] * q[1] * q[1] / T::from_f64(3.0);
+        let harmonic = (p.dot(p) + q.dot(q)) * T::from_f64(0.5);
+        Some(harmonic + q[0] * q[0] * q[1] - third)
+    }
+}
+
+/// From the origin with the momentum (0.3, 0.4), of energy 1/8.
+pub fn start<T: Scalar>() -> State<SVector<T, 2>> {
+    let [first, second] = [0.3, 0.4].map(T::from_f64);
+    State::new(
+        0.0,
+        SVector::from([T::zero(), T::zero()]),
+        SVector::from([first, second]),
+    )
+}
