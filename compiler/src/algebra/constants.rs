@@ -2,6 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 use std::num::NonZeroU32;
+use std::sync::OnceLock;
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -9,7 +10,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero as _};
 
 use super::field::{ConstantField, Extension, FieldElement, Notation, NumberField, Transcendental};
-use super::{Field, Number, Zero};
+use super::{Field, Image, Number, Zero};
 use crate::arithmetic::algebraic_number::AlgebraicNumber;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::ratio;
@@ -27,7 +28,12 @@ pub struct Constants {
     cosine: Option<(u32, Polynomial)>,
     /// The constants that the field was made for.
     known: HashMap<Constant, FieldElement>,
+    /// Homomorphisms to finite fields, once they were needed.
+    images: OnceLock<Vec<Image>>,
 }
+
+/// One that takes something to zero that is not zero is met once in millions of times.
+const IMAGES: usize = 3;
 
 /// Longer texts help nobody to read a number, and would not be read again.
 const LONGEST_TEXT: usize = 2000;
@@ -154,6 +160,7 @@ impl Constants {
             algebraic: HashMap::new(),
             cosine: None,
             known: HashMap::new(),
+            images: OnceLock::new(),
         };
         if let Some(n) = parts.angles.filter(|&n| n > 1) {
             let extension = result.field.algebraic().cosine(n)?;
@@ -365,5 +372,30 @@ impl Field for Constants {
     fn exact(&self, x: &FieldElement) -> Option<String> {
         let text = self.field.display(x);
         (text.len() <= LONGEST_TEXT).then_some(text)
+    }
+
+    fn images(&self) -> &[Image] {
+        self.images
+            .get_or_init(|| Image::several(&self.field, IMAGES))
+    }
+
+    fn image(&self, x: &FieldElement, image: &Image) -> Option<u64> {
+        image.of(x)
+    }
+
+    fn is_costly(&self) -> bool {
+        self.field.generator().is_some()
+    }
+
+    fn length(&self, x: &FieldElement) -> u64 {
+        if !self.is_costly() {
+            return 0;
+        }
+        let lists = [x.numerator(), x.denominator()];
+        let words = |c: &Polynomial| -> u64 {
+            let bits: u64 = c.numerators().iter().map(BigInt::bits).sum();
+            (bits + c.denominator().bits()) / 64 + c.numerators().len() as u64
+        };
+        lists.into_iter().flatten().map(words).sum()
     }
 }

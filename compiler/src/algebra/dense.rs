@@ -6,7 +6,7 @@ use std::fmt::Debug;
 use num_rational::BigRational;
 
 use super::stage_algebra::group_by;
-use super::{Number, StageAlgebra, Zero};
+use super::{Ball, Image, Number, StageAlgebra, Zero};
 use crate::symbolic::Constant;
 
 /// A field of real numbers.
@@ -48,6 +48,28 @@ pub trait Field: Debug + PartialEq {
     fn number(&self, x: &Self::Element) -> Number<'_>;
     /// A readable exact form, where there is one.
     fn exact(&self, x: &Self::Element) -> Option<String>;
+    /// An enclosure with this many bits.
+    fn enclose(&self, x: &Self::Element, bits: u32) -> Ball {
+        Ball::of(&self.number(x), bits)
+    }
+    /// Homomorphisms to finite fields, where there are any.
+    fn images(&self) -> &[Image] {
+        &[]
+    }
+    /// What a homomorphism takes an element to; `None` if a denominator goes to zero.
+    fn image(&self, _x: &Self::Element, _image: &Image) -> Option<u64> {
+        None
+    }
+    /// Whether arithmetic brings long elements to lowest terms, so that its cost has to be bounded.
+    fn is_costly(&self) -> bool {
+        false
+    }
+    /// About how many machine words an element has, where arithmetic is costly.
+    fn length(&self, _x: &Self::Element) -> u64 {
+        0
+    }
+    /// Takes note that a question was left undecided.
+    fn doubt(&self) {}
 }
 
 /// The algebra of functions of `stages` stages with values in a field, value by value.

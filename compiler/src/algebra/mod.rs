@@ -9,18 +9,22 @@
 //! | 2 | [`Dense`] over [`Constants`] | numbers in `Q(α)(X)`, `X` one transcendental |
 //! | 3 | [`Dense`] over [`Reals`] | expressions that are enclosed as narrowly as needed |
 
+mod ball;
 mod constants;
 mod dense;
 pub mod field;
+mod images;
 pub mod node;
 mod number;
 mod rationals;
 mod real;
 mod stage_algebra;
 
+pub use ball::{Ball, Balls};
 pub use constants::Constants;
 pub use dense::{Dense, Field};
 pub use field::{ConstantField, FieldElement};
+pub use images::Image;
 pub use node::{ClosedForm, NodeAlgebra, Tensor};
 pub use number::{Number, Zero};
 pub use rationals::Rationals;

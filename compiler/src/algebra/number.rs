@@ -7,7 +7,7 @@ use num_traits::{Signed, Zero as _};
 
 use super::node::{NodeNumber, short_rational};
 use super::real::ROUNDING_BITS;
-use super::{ConstantField, FieldElement, Real, ZERO_BITS};
+use super::{Ball, ConstantField, FieldElement, Real, ZERO_BITS};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::{self, Decimal, exact};
@@ -41,13 +41,16 @@ pub enum Number<'a> {
     Field(&'a ConstantField, FieldElement),
     /// An expression.
     Real(Real),
+    /// An enclosure with a limited number of bits.
+    Enclosed(Ball),
 }
 
 /// The fewest binary places of enclosures.
 const FIRST_BITS: u32 = 192;
 
 impl Number<'_> {
-    /// An enclosure with this many binary places, 192 at least; its width tends to zero as `bits` grows.
+    /// An enclosure with this many binary places, 192 at least; its width tends to zero as `bits` grows, but
+    /// for a number that is only known by one enclosure.
     pub fn enclose(&self, bits: u32) -> Interval {
         let bits = bits.max(FIRST_BITS);
         let enclosure = match self {
@@ -55,6 +58,7 @@ impl Number<'_> {
             Number::Node(number) => number.enclose(bits),
             Number::Field(field, element) => field.enclose(element, bits),
             Number::Real(number) => number.enclose(bits),
+            Number::Enclosed(ball) => ball.interval(bits),
         };
         enclosure.with_bits(bits)
     }
@@ -66,6 +70,7 @@ impl Number<'_> {
             Number::Node(number) => number.equals(value),
             Number::Field(_, element) => element.as_rational().as_ref() == Some(value),
             Number::Real(number) => return number.difference(value, ZERO_BITS),
+            Number::Enclosed(ball) => return ball.difference(value),
         };
         if equal { Zero::Yes } else { Zero::No }
     }
@@ -75,6 +80,7 @@ impl Number<'_> {
     fn is_surely(&self, value: &BigRational) -> bool {
         match self {
             Number::Real(number) => number.difference(value, ROUNDING_BITS).may_be(),
+            Number::Enclosed(ball) => ball.difference(value).may_be(),
             _ => self.difference(value) == Zero::Yes,
         }
     }

@@ -1,15 +1,17 @@
 //! Polynomials over the field of constants of an algebra, with Sturm's theorem.
 
 use std::cmp::Ordering;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Zero};
+use num_traits::One;
 
 use super::Coefficient;
+use super::budget::Budget;
+use super::isolation::monotonic;
 use super::polynomial::{RealPolynomial, SHORT};
-use crate::algebra::{Field, Scalar, StageAlgebra};
+use crate::algebra::{Ball, Field, Image, Scalar, StageAlgebra};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::ratio;
@@ -22,38 +24,107 @@ use crate::arithmetic::roots::Root;
 #[derive(Debug)]
 pub(super) struct FieldPolynomial<A: StageAlgebra> {
     algebra: Arc<A>,
+    budget: Arc<Budget>,
     /// The constant first; the last one is not zero.
     coefficients: Vec<Scalar<A>>,
+    /// Enclosures of the coefficients, for each of [`PRECISIONS`], once they were needed.
+    enclosures: [OnceLock<Vec<Ball>>; PRECISIONS.len()],
 }
+
+/// Bits of enclosures. The signs of numbers that the last ones do not tell are found exactly.
+const PRECISIONS: [u32; 3] = [256, 1024, 4096];
 
 impl<A: StageAlgebra> Clone for FieldPolynomial<A> {
     fn clone(&self) -> Self {
-        self.with(self.coefficients.clone())
+        FieldPolynomial {
+            enclosures: self.enclosures.clone(),
+            ..self.with(self.coefficients.clone())
+        }
     }
 }
 
 impl<A: StageAlgebra> FieldPolynomial<A> {
     /// The polynomial with these coefficients, the constant first.
-    pub(super) fn new(algebra: &Arc<A>, mut coefficients: Vec<Scalar<A>>) -> Self {
+    pub(super) fn new(
+        algebra: &Arc<A>,
+        budget: &Arc<Budget>,
+        mut coefficients: Vec<Scalar<A>>,
+    ) -> Self {
         let field = algebra.constants();
         while coefficients.last().is_some_and(|x| field.zero(x).may_be()) {
             coefficients.pop();
         }
         FieldPolynomial {
             algebra: Arc::clone(algebra),
+            budget: Arc::clone(budget),
             coefficients,
+            enclosures: Default::default(),
         }
     }
 
     fn with(&self, coefficients: Vec<Scalar<A>>) -> Self {
         FieldPolynomial {
             algebra: Arc::clone(&self.algebra),
+            budget: Arc::clone(&self.budget),
             coefficients,
+            enclosures: Default::default(),
         }
     }
 
     fn trimmed(&self, coefficients: Vec<Scalar<A>>) -> Self {
-        FieldPolynomial::new(&self.algebra, coefficients)
+        FieldPolynomial::new(&self.algebra, &self.budget, coefficients)
+    }
+
+    /// Enclosures of the coefficients, and their bits.
+    fn enclosed(&self, precision: usize) -> (&[Ball], u32) {
+        let bits = PRECISIONS[precision];
+        let enclose = |x| self.field().enclose(x, bits);
+        let all = || self.coefficients.iter().map(enclose).collect();
+        (self.enclosures[precision].get_or_init(all), bits)
+    }
+
+    /// The value at a rational point, enclosed.
+    fn value_at(&self, point: &BigRational, precision: usize) -> Option<Ball> {
+        let (list, bits) = self.enclosed(precision);
+        let point = Ball::quotient(point, bits);
+        let list = list.iter().rev().cloned();
+        list.reduce(|value, c| value.multiply(&point, bits).add(&c, bits))
+    }
+
+    /// Whether the arithmetic of the field decides what is zero.
+    fn is_exact(&self) -> bool {
+        self.field().verified_bits().is_none()
+    }
+
+    /// The product of elements, paid for.
+    fn product(&self, x: &Scalar<A>, y: &Scalar<A>) -> Scalar<A> {
+        let field = self.field();
+        self.budget.spend(field.length(x) * field.length(y));
+        if self.budget.is_spent() {
+            return self.integer(0);
+        }
+        field.multiply(x, y)
+    }
+
+    /// The coefficients in a finite field, if none of them is undefined there and the leading one is not
+    /// zero.
+    fn image(&self, image: &Image) -> Option<Vec<u64>> {
+        let list: Option<Vec<u64>> = self
+            .coefficients
+            .iter()
+            .map(|x| self.field().image(x, image))
+            .collect();
+        list.filter(|list| list.last().is_some_and(|&c| c != 0))
+    }
+
+    /// A bound on the degree of a greatest common divisor: its degree in a finite field, where the leading
+    /// coefficients stay. `None` if there is no image.
+    fn degree_of_gcd(&self, other: &Self) -> Option<usize> {
+        let degree = |image: &Image| {
+            let (a, b) = (self.image(image)?, other.image(image)?);
+            image.field.gcd(&a, &b).len().checked_sub(1)
+        };
+        self.field().images().iter().filter_map(degree).min()
     }
 
     fn field(&self) -> &A::Constants {
@@ -78,7 +149,7 @@ impl<A: StageAlgebra> FieldPolynomial<A> {
     }
 
     fn times(&self, factor: &Scalar<A>) -> Self {
-        let product = |x| self.field().multiply(x, factor);
+        let product = |x| self.product(x, factor);
         self.trimmed(self.coefficients.iter().map(product).collect())
     }
 
@@ -91,7 +162,8 @@ impl<A: StageAlgebra> FieldPolynomial<A> {
         else {
             return self.clone();
         };
-        let negative = self.field().number(&inverse).sign().is_lt();
+        let leading = self.coefficients.last();
+        let negative = leading.is_some_and(|c| self.field().number(c).sign().is_lt());
         let size = if negative {
             self.field().subtract(&self.integer(0), &inverse)
         } else {
@@ -104,27 +176,6 @@ impl<A: StageAlgebra> FieldPolynomial<A> {
         let number = self.field().number(element);
         Coefficient::of(&number, self.field().exact(element))
     }
-}
-
-impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
-    /// Sturm's sequence of a squarefree polynomial.
-    fn sturm(&self) -> Vec<Self> {
-        let mut sequence = vec![self.signed_monic(), self.derivative().signed_monic()];
-        while let [.., a, b] = sequence.as_slice()
-            && !b.is_zero()
-        {
-            // Positive multiples do not change signs.
-            let next = a.remainder(b).scale(&ratio(-1, 1)).signed_monic();
-            sequence.push(next);
-        }
-        sequence
-    }
-}
-
-/// The number of sign changes, zeros left out.
-fn changes(signs: impl Iterator<Item = Ordering>) -> usize {
-    let signs: Vec<Ordering> = signs.filter(|sign| sign.is_ne()).collect();
-    signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
 impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
@@ -149,7 +200,7 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
         let mut product = vec![self.integer(0); length];
         for (i, x) in self.coefficients.iter().enumerate() {
             for (sum, y) in product[i..].iter_mut().zip(&other.coefficients) {
-                *sum = field.add(sum, &field.multiply(x, y));
+                *sum = field.add(sum, &self.product(x, y));
             }
         }
         self.trimmed(product)
@@ -187,11 +238,11 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
         let mut quotient = Vec::new();
         while rest.len() > degree {
             // The divisor times this takes the leading term away, exactly.
-            let factor = rest.pop().map(|top| field.multiply(&top, &inverse));
+            let factor = rest.pop().map(|top| self.product(&top, &inverse));
             let factor = factor.unwrap_or_else(|| self.integer(0));
             let shift = rest.len() - degree;
             for (x, d) in rest[shift..].iter_mut().zip(&divisor.coefficients) {
-                *x = field.subtract(x, &field.multiply(&factor, d));
+                *x = field.subtract(x, &self.product(&factor, d));
             }
             quotient.push(factor);
         }
@@ -200,12 +251,50 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
     }
 
     fn gcd(&self, other: &Self) -> Self {
+        if let (Some(m), Some(n)) = (self.degree(), other.degree()) {
+            let bound = if m.min(n) == 0 {
+                Some(0)
+            } else {
+                self.degree_of_gcd(other)
+            };
+            if bound == Some(0) {
+                return self.with(vec![self.integer(1)]);
+            }
+            let (long, short) = if m < n { (other, self) } else { (self, other) };
+            if bound == short.degree() && long.remainder(short).is_zero() {
+                return short.signed_monic();
+            }
+        }
         let (mut a, mut b) = (self.signed_monic(), other.signed_monic());
-        while !b.is_zero() {
+        while !b.is_zero() && !self.budget.is_spent() {
             let remainder = a.remainder(&b).signed_monic();
             (a, b) = (b, remainder);
         }
         a
+    }
+
+    /// From the lowest coefficients upwards, for which nothing but polynomials in the generators of the
+    /// field is needed.
+    fn quotient_from_below(&self, divisor: &Self) -> Self {
+        let length = (self.coefficients.len() + 1).saturating_sub(divisor.coefficients.len());
+        let mut rest = self.coefficients.clone();
+        for k in 0..length {
+            let (done, above) = rest.split_at_mut(k + 1);
+            for (x, d) in above.iter_mut().zip(divisor.coefficients.iter().skip(1)) {
+                *x = self.field().subtract(x, &self.product(&done[k], d));
+            }
+        }
+        rest.truncate(length);
+        self.trimmed(rest)
+    }
+
+    fn is_multiple_of(&self, divisor: &Self) -> bool {
+        let rest = |image: &Image| {
+            let (a, b) = (self.image(image)?, divisor.image(image)?);
+            Some(image.field.remainder(&a, &b))
+        };
+        let mut rests = self.field().images().iter().filter_map(rest);
+        !rests.any(|rest| !rest.is_empty()) && self.remainder(divisor).is_zero()
     }
 
     fn derivative(&self) -> Self {
@@ -251,6 +340,12 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
     }
 
     fn sign_at(&self, point: &BigRational) -> Ordering {
+        if self.is_exact() {
+            let enclosed = |k| self.value_at(point, k)?.sign();
+            if let Some(sign) = (0..PRECISIONS.len()).find_map(enclosed) {
+                return sign;
+            }
+        }
         let field = self.field();
         let point = field.rational(point);
         let value = self
@@ -258,46 +353,34 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
             .iter()
             .rev()
             .cloned()
-            .reduce(|value, c| field.add(&field.multiply(&value, &point), &c));
+            .reduce(|value, c| field.add(&self.product(&value, &point), &c));
         value.map_or(Ordering::Equal, |value| field.number(&value).sign())
     }
 
-    /// By Sturm's theorem, which holds over every ordered field.
+    /// From enclosures of the coefficients: the polynomial is squarefree, so that narrow ones tell its roots
+    /// apart.
     fn positive_roots(&self) -> Vec<Root> {
-        if self.degree().unwrap_or(0) == 0 {
+        if self.degree().unwrap_or(0) == 0 || self.budget.is_spent() {
             return Vec::new();
         }
-        let sequence = self.sturm();
-        let dyadic =
-            |value: &BigInt, bits: u32| BigRational::new(value.clone(), BigInt::one() << bits);
-        let count = |value: &BigInt, bits: u32| {
-            let point = dyadic(value, bits);
-            changes(sequence.iter().map(|p| p.sign_at(&point)))
+        let intervals = (0..PRECISIONS.len()).find_map(|k| {
+            let (list, bits) = self.enclosed(k);
+            monotonic(list, bits)
+        });
+        let Some(intervals) = intervals else {
+            self.budget.exhaust();
+            self.field().doubt();
+            return Vec::new();
         };
-        let beyond = changes(sequence.iter().map(Self::leading_sign));
-        let mut bound = BigInt::one();
-        while count(&bound, 0) != beyond {
-            bound <<= 1;
-        }
         let mut roots = Vec::new();
-        // Half-open intervals (low, high]·2⁻ᵇⁱᵗˢ, the leftmost on top.
-        let mut pending = vec![(BigInt::zero(), bound, 0u32)];
-        while let Some((low, high, bits)) = pending.pop() {
-            let inside = count(&low, bits).saturating_sub(count(&high, bits));
-            let ends = [&low, &high].map(|end| self.sign_at(&dyadic(end, bits)));
-            match (inside, ends) {
-                (0, _) => {}
-                (1, [_, Ordering::Equal]) => roots.push(Root::Rational(dyadic(&high, bits))),
-                // A lower end that is another root has to be left behind.
-                (1, [sign, _]) if sign.is_ne() => {
-                    roots.push(Root::Irrational(Interval { low, high, bits }))
-                }
-                _ => {
-                    let (low, high) = (low << 1, high << 1);
-                    let middle: BigInt = (&low + &high) >> 1;
-                    pending.push((middle.clone(), high, bits + 1));
-                    pending.push((low, middle, bits + 1));
-                }
+        for interval in intervals {
+            let signs = [interval.low(), interval.high()].map(|end| self.sign_at(&end));
+            match signs {
+                // The other end of another interval, or zero.
+                [Ordering::Equal, _] => {}
+                [_, Ordering::Equal] => roots.push(Root::Rational(interval.high())),
+                [low, high] if low == high => {}
+                _ => roots.push(Root::Irrational(interval)),
             }
         }
         roots

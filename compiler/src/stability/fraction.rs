@@ -88,15 +88,18 @@ impl Coefficient {
         }
     }
 
-    /// Whether it is zero, as far as is known.
+    /// Whether it is zero, as far as is known. What is zero is rational; the double of what is not may be
+    /// zero.
     pub(super) fn is_zero(&self) -> bool {
-        let rational = self.rational.as_ref();
-        rational.map_or(self.value == 0.0, |value| value.is_zero())
+        self.rational.as_ref().is_some_and(|value| value.is_zero())
     }
 
     pub(super) fn of(number: &Number<'_>, exact: Option<String>) -> Self {
         if let Number::Rational(value) = number {
             return Coefficient::rational(value.clone());
+        }
+        if number.is_zero() {
+            return Coefficient::rational(BigRational::default());
         }
         Coefficient {
             text: exact.unwrap_or_else(|| format!("{}…", number.decimal(16))),

@@ -60,8 +60,7 @@ impl<P: RealPolynomial> At for Signed<'_, P> {
     /// The sign at the root, if there is one, which the sample lies next to; at the sample otherwise.
     fn sign(&self) -> Ordering {
         let Signed(fraction, sample, root) = self;
-        let vanishes =
-            |root: &PositiveRoot<P>| fraction.numerator.remainder(&root.polynomial).is_zero();
+        let vanishes = |root: &PositiveRoot<P>| fraction.numerator.is_multiple_of(&root.polynomial);
         if root.is_some_and(vanishes) {
             return Ordering::Equal;
         }
@@ -86,11 +85,15 @@ pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Vec<StabilityInterval
             cuts.push(condition.numerator.gcd(&scalar));
         }
     }
+    let [area, _, one, minus_one] = [0, 1, 2, 3].map(|k| conditions[k].numerator.is_zero());
+    if area && (one || minus_one) {
+        // The eigenvalue is double everywhere, and semisimple at the roots of this one.
+        cuts.push(scalar.clone());
+    }
     let cells = Cells::new(&cuts);
     let bounded = |sample: &BigRational, root: Option<&PositiveRoot<P>>| {
-        let on_root = |polynomial: &P| {
-            root.is_some_and(|root| polynomial.remainder(&root.polynomial).is_zero())
-        };
+        let on_root =
+            |polynomial: &P| root.is_some_and(|root| polynomial.is_multiple_of(&root.polynomial));
         if on_root(&step.stages) {
             return false;
         }

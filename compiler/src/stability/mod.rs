@@ -6,12 +6,14 @@
 //! signs by Sturm's theorem, equalities by arithmetic. Over the node algebra all of it is rational, for the
 //! coefficients of the functions are traces.
 
+mod budget;
 mod cells;
 mod dispersion;
 mod end_point;
 mod field_polynomial;
 mod fraction;
 mod intervals;
+mod isolation;
 mod oscillator;
 mod polynomial;
 mod resolvent;
@@ -20,16 +22,18 @@ mod runge_kutta;
 mod tests;
 
 use std::fmt;
+use std::sync::Arc;
 
 use num_rational::BigRational;
 use num_traits::Signed;
 use serde::Serialize;
 
+use self::budget::Budget;
 use self::field_polynomial::FieldPolynomial;
 use self::fraction::Fraction;
 use self::oscillator::{Parts, Step};
 use self::polynomial::RealPolynomial;
-use crate::algebra::{Field, Number, Scalar, StageAlgebra};
+use crate::algebra::{Ball, Balls, Dense, Field, Number, Scalar, StageAlgebra, ZERO_BITS};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::pair::Pair;
 use crate::properties::Evidence;
@@ -66,32 +70,92 @@ pub struct Stability {
 
 impl Stability {
     /// Decides the linear stability of a pair.
+    ///
+    /// Where the exact arithmetic takes more than some number of operations, or there is none, from
+    /// enclosures of the coefficients; what is taken for zero then is verified only.
     pub(crate) fn of_pair<A: StageAlgebra + 'static>(pair: &Pair<A>) -> Self {
+        Stability::within(pair, PRODUCTS)
+    }
+
+    fn within<A: StageAlgebra + 'static>(pair: &Pair<A>, products: u64) -> Self {
         let field = pair.algebra.constants();
-        let parts = oscillator::parts(pair);
-        let function = (pair.equal_halves() == (true, true)).then(|| runge_kutta::parts(pair));
-        let rational = |list: &Vec<Scalar<A>>| rational_polynomial(field, list);
-        let evidence = match field.verified_bits() {
-            Some(bits) => Evidence::Verified { bits },
-            None => Evidence::Proved,
-        };
-        // Over the rationals the arithmetic of polynomials is much faster.
-        let lists = function.as_ref();
-        let rational_function = lists.map(|[d, n]| Some([rational(d)?, rational(n)?]));
-        if let (Some(parts), None | Some(Some(_))) = (parts.map(rational), &rational_function) {
-            return Stability::decide(&parts, rational_function.flatten(), evidence);
+        let exact = field.verified_bits().is_none();
+        let equal = pair.equal_halves() == (true, true);
+        let budget = Arc::new(Budget::new(products));
+        budget.spend(oscillator::cost(pair));
+        if exact && !budget.is_spent() {
+            let parts = oscillator::parts(pair);
+            let function = equal.then(|| runge_kutta::parts(pair));
+            let rational = |list: &Vec<Scalar<A>>| rational_polynomial(field, list);
+            // Over the rationals the arithmetic of polynomials is much faster.
+            let lists = function.as_ref();
+            let rational_function = lists.map(|[d, n]| Some([rational(d)?, rational(n)?]));
+            if let (Some(parts), None | Some(Some(_))) = (parts.map(rational), &rational_function) {
+                return Stability::decide(&parts, rational_function.flatten(), Evidence::Proved);
+            }
+            let stability = Stability::over(&pair.algebra, &budget, &parts, lists);
+            if !budget.is_spent() {
+                return stability;
+            }
         }
-        let over_field = |list: &Vec<Scalar<A>>| FieldPolynomial::new(&pair.algebra, list.clone());
-        let function = lists.map(|[d, n]| [over_field(d), over_field(n)]);
+        Stability::enclosed(pair, equal)
+    }
+
+    /// From the coefficients of polynomials over a field.
+    fn over<A: StageAlgebra + 'static>(
+        algebra: &Arc<A>,
+        budget: &Arc<Budget>,
+        parts: &Parts<Vec<Scalar<A>>>,
+        function: Option<&[Vec<Scalar<A>>; 2]>,
+    ) -> Self {
+        let make = |list: &Vec<Scalar<A>>| FieldPolynomial::new(algebra, budget, list.clone());
+        let function = function.map(|[d, n]| [make(d), make(n)]);
         let parts = Parts {
-            determinant: over_field(&parts.determinant),
-            b_one: over_field(&parts.b_one),
-            b_c: over_field(&parts.b_c),
-            ab_one: over_field(&parts.ab_one),
-            ab_c: over_field(&parts.ab_c),
-            b_sum: over_field(&parts.b_sum),
+            determinant: make(&parts.determinant),
+            b_one: make(&parts.b_one),
+            b_c: make(&parts.b_c),
+            ab_one: make(&parts.ab_one),
+            ab_c: make(&parts.ab_c),
+            b_sum: make(&parts.b_sum),
         };
-        Stability::decide(&parts, function, evidence)
+        Stability::decide(&parts, function, Evidence::Proved)
+    }
+
+    /// From enclosures of the coefficients with so many bits that what is taken for zero is very small.
+    fn enclosed<A: StageAlgebra>(pair: &Pair<A>, equal: bool) -> Self {
+        let algebra = &pair.algebra;
+        let mut bits = FEWEST_BITS;
+        loop {
+            let vector = |f: &A::Vector| -> Vec<Ball> {
+                let values = algebra.values(std::borrow::Cow::Borrowed(f));
+                values.iter().map(|x| Ball::of(x, bits)).collect()
+            };
+            let matrix = |m: &A::Matrix| -> Vec<Vec<Ball>> {
+                let row = |row: &Vec<Number<'_>>| row.iter().map(|x| Ball::of(x, bits)).collect();
+                algebra.entries(m).iter().map(row).collect()
+            };
+            let balls = Arc::new(Dense::new(Balls::new(bits), algebra.stages()));
+            let pair = Pair {
+                algebra: Arc::clone(&balls),
+                a: matrix(&pair.a),
+                a_tilde: matrix(&pair.a_tilde),
+                b: vector(&pair.b),
+                b_tilde: vector(&pair.b_tilde),
+            };
+            let parts = oscillator::parts(&pair);
+            let function = equal.then(|| runge_kutta::parts(&pair));
+            let budget = Arc::new(Budget::unlimited());
+            let stability = Stability::over(&balls, &budget, &parts, function.as_ref());
+            let verified = balls.field().zero_bits();
+            if verified >= ZERO_BITS || bits >= MOST_BITS {
+                let bits = verified.min(ZERO_BITS);
+                return Stability {
+                    evidence: Evidence::Verified { bits },
+                    ..stability
+                };
+            }
+            bits *= 2;
+        }
     }
 
     fn decide<P: RealPolynomial>(
@@ -171,6 +235,13 @@ impl Stability {
     }
 }
 
+/// Products of machine words beyond which stability is decided from enclosures: about a second, with all
+/// that goes with a product in a field.
+const PRODUCTS: u64 = 2_500_000;
+/// The bits of enclosures, at first and at most.
+const FEWEST_BITS: u32 = 4096;
+const MOST_BITS: u32 = 1 << 15;
+
 /// A polynomial whose coefficients are known to be rational.
 fn rational_polynomial<F: Field>(field: &F, list: &[F::Element]) -> Option<Polynomial> {
     let values = list.iter().map(|x| match field.number(x) {
@@ -203,6 +274,11 @@ impl fmt::Display for Stability {
             self.intervals_text()
         )?;
         if let Some(Dispersion { order, coefficient }) = &self.dispersion {
+            // A sum is in brackets, as in the trace.
+            let coefficient = match coefficient.text.contains(' ') {
+                true => format!("({coefficient})"),
+                false => coefficient.to_string(),
+            };
             write!(
                 f,
                 "\nphase: order {order}, error {coefficient} ν^{}",

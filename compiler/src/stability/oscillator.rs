@@ -6,7 +6,7 @@ use num_traits::{One, Zero};
 use super::fraction::Fraction;
 use super::polynomial::RealPolynomial;
 use super::resolvent::{Resolvent, apply, apply_left, dot};
-use crate::algebra::{Scalar, StageAlgebra};
+use crate::algebra::{Field, Scalar, StageAlgebra};
 use crate::pair::Pair;
 
 /// What the matrix of one step is made of: polynomials in `x`, the constant first.
@@ -47,6 +47,25 @@ impl<T> Parts<T> {
             b_sum: each(&self.b_sum)?,
         })
     }
+}
+
+/// About how many products of machine words [`parts`] takes: `s⁴` products of matrix entries, each of which
+/// is brought to lowest terms.
+pub(super) fn cost<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
+    let algebra = &*pair.algebra;
+    if !algebra.constants().is_costly() {
+        return 0;
+    }
+    let sum = |m: &A::Matrix| -> u64 {
+        let rows = algebra.operator(m);
+        let entries = rows.iter().flatten();
+        entries.map(|x| algebra.constants().length(x)).sum()
+    };
+    let stages = algebra.stages().max(1) as u64;
+    // The mean length of a product of entries.
+    let entry = (sum(&pair.a) + sum(&pair.a_tilde)) / (stages * stages);
+    let reduced = entry.saturating_mul(entry).saturating_mul(8);
+    stages.pow(4).saturating_mul(reduced)
 }
 
 /// The parts over the field of constants.
@@ -97,16 +116,16 @@ impl<P: RealPolynomial> Step<P> {
         let m22 = d.subtract(&parts.ab_one.shift());
         let m12 = parts.b_one.clone();
         let m21 = parts.ab_c.shift().subtract(&d.multiply(&parts.b_sum));
-        // The determinant of a matrix with a resolvent is a quotient by D, but that only shows after
-        // reduction.
+        // D² det M is a multiple of D, for D det M is det(1 + xÃ*A*) of the adjoint method.
         let determinant = m11.multiply(&m22).subtract(&m12.multiply(&m21).shift());
-        let square = d.multiply(d);
-        let determinant = match determinant.subtract(&square).is_zero() {
-            true => Fraction::new(
-                &d.constant(&BigRational::one()),
-                &d.constant(&BigRational::one()),
-            ),
-            false => Fraction::new(&determinant, &square),
+        let one = d.constant(&BigRational::one());
+        let quotient = determinant.quotient_from_below(d);
+        let determinant = if quotient.subtract(d).is_zero() {
+            Fraction::new(&one, &one)
+        } else if quotient.multiply(d).subtract(&determinant).is_zero() {
+            Fraction::new(&quotient, d)
+        } else {
+            Fraction::new(&determinant, &d.multiply(d))
         };
         Step {
             stages: d.clone(),
@@ -122,16 +141,14 @@ impl<P: RealPolynomial> Step<P> {
     /// A polynomial that vanishes where the matrix is a multiple of the identity, and, as far as `x > 0`
     /// is no pole, nowhere else.
     pub(super) fn scalar(&self) -> P {
-        let difference = Fraction::new(
-            &self
-                .m11
-                .numerator
-                .multiply(&self.m22.denominator)
-                .subtract(&self.m22.numerator.multiply(&self.m11.denominator)),
-            &self.m11.denominator.multiply(&self.m22.denominator),
-        );
+        let [(n11, d11), (n22, d22)] =
+            [&self.m11, &self.m22].map(|f| (&f.numerator, &f.denominator));
+        let difference = match d11.subtract(d22).is_zero() {
+            true => n11.subtract(n22),
+            false => n11.multiply(d22).subtract(&n22.multiply(d11)),
+        };
         let off = self.m12.numerator.gcd(&self.m21.numerator);
-        off.gcd(&difference.numerator)
+        off.gcd(&difference)
     }
 
     /// Whether `det M = 1`.
@@ -152,6 +169,11 @@ impl<P: RealPolynomial> Step<P> {
         let zero = BigRational::zero();
         let condition = |determinant: &BigRational, trace: &BigRational| {
             // 1 + a det + b tr
+            if d.denominator.subtract(&t.denominator).is_zero() {
+                let det = d.numerator.scale(determinant);
+                let sum = d.denominator.add(&det).add(&t.numerator.scale(trace));
+                return Fraction::new(&sum, &d.denominator);
+            }
             let both = d.denominator.multiply(&t.denominator);
             let det = d.numerator.multiply(&t.denominator).scale(determinant);
             let trace = t.numerator.multiply(&d.denominator).scale(trace);

@@ -69,6 +69,17 @@ pub(super) trait RealPolynomial: Clone + Debug + 'static {
         self.divide(divisor).1
     }
 
+    /// The quotient of a division without remainder by a polynomial that is 1 at zero. What it is where
+    /// there is a remainder is left open.
+    fn quotient_from_below(&self, divisor: &Self) -> Self {
+        self.divide(divisor).0
+    }
+
+    /// Whether a polynomial that is not zero divides this one.
+    fn is_multiple_of(&self, divisor: &Self) -> bool {
+        self.remainder(divisor).is_zero()
+    }
+
     /// The polynomial with the same roots, each once.
     fn squarefree(&self) -> Self {
         if self.degree().unwrap_or(0) < 2 {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::*;
-use crate::algebra::{Dense, NodeAlgebra, Rationals, Zero};
+use crate::algebra::{Constants, Dense, NodeAlgebra, Rationals, Real, Reals, Zero};
 use crate::arithmetic::rational::{parse, ratio};
 use crate::arithmetic::rounding::to_f64;
 use crate::catalogue;
@@ -253,7 +253,9 @@ fn methods_over_a_field() {
 
 /// The same by the arithmetic for any field, whether the polynomials are rational or not.
 fn over_field<A: StageAlgebra + 'static>(pair: &Pair<A>) -> Stability {
-    let make = |list: &Vec<Scalar<A>>| FieldPolynomial::new(&pair.algebra, list.clone());
+    let make = |list: &Vec<Scalar<A>>| {
+        FieldPolynomial::new(&pair.algebra, &Arc::new(Budget::unlimited()), list.clone())
+    };
     let parts = oscillator::parts(pair).map(|list| Some(make(list)));
     let equal = pair.equal_halves() == (true, true);
     let function = equal.then(|| runge_kutta::parts(pair).map(|list| make(&list)));
@@ -289,6 +291,110 @@ fn both_kinds_of_polynomials_agree() {
     let rk = pair(&[&["5/12", "-1/12"], &["3/4", "1/4"]], &["3/4", "1/4"]);
     let radau = over_field(&rk).runge_kutta.expect("one tableau");
     assert!(radau.a_stable && radau.l_stable);
+}
+
+/// Enough operations for the exact arithmetic, and too few.
+#[test]
+fn the_budget_decides_the_evidence_and_nothing_else() {
+    for (basis, nodes) in [
+        ("1, exp(t), exp(2*t), t", "0, 1/3, 2/3, 1"),
+        ("1, cos(pi*t), sin(pi*t), t, t^2", "0, 1/4, 1/2, 3/4, 1"),
+        ("1, cos(t), sin(t)", "0, 1/2, 1"),
+        ("1, cos(pi*t), sin(pi*t)", "0, 1/2, 1"),
+    ] {
+        let tableau = crate::derive(basis, nodes).expect("derived");
+        let within = |products| over_algebra!(&tableau, pair => Stability::within(pair, products));
+        let exact = within(PRODUCTS);
+        assert_eq!(exact.evidence, Evidence::Proved, "{basis}");
+        assert!(exact.preserves_area && exact.dispersion.is_some());
+        let limited = within(1000);
+        assert_eq!(limited.evidence, Evidence::Verified { bits: ZERO_BITS });
+        assert!(limited.preserves_area);
+        for (x, y) in exact.intervals.iter().zip(&limited.intervals) {
+            assert_eq!(x.low.decimal(40), y.low.decimal(40));
+            assert_eq!(x.high.decimal(40), y.high.decimal(40));
+            assert_eq!((x.low_closed, x.high_closed), (y.low_closed, y.high_closed));
+        }
+        assert_eq!(exact.intervals.len(), limited.intervals.len(), "{basis}");
+        let order = |s: &Stability| {
+            s.dispersion
+                .as_ref()
+                .map(|d| (d.order, d.coefficient.value))
+        };
+        assert_eq!(order(&exact), order(&limited));
+    }
+    // Six stages with exponentials cost more than is spent.
+    let basis = "1, exp(t), exp(2*t), exp(3*t), exp(-t), t";
+    let tableau = crate::derive(basis, "0, 1/5, 2/5, 3/5, 4/5, 1").expect("derived");
+    assert_eq!(tableau.tier(), crate::Tier::ConstantField);
+    let stability = tableau.stability();
+    assert_eq!(stability.evidence, Evidence::Verified { bits: ZERO_BITS });
+    // The same end point from exact arithmetic without a bound.
+    assert_eq!(stability.intervals[0].high.decimal(12), "2.31069986965");
+}
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(24))]
+
+    /// The step `1 − Kz` divides, and a rational number for `K`: the same set, however large or small `K` is.
+    #[test]
+    fn enclosures_do_not_depend_on_the_scale(n in 1i64..50, exponent in -400i32..400, second in -40i32..40) {
+        let ten = ratio(10, 1);
+        let power = |k: i32| if k < 0 { ten.pow(-k).recip() } else { ten.pow(k) };
+        let pi = Real::constant(Constant::pi());
+        let [first, other] = [power(exponent) * ratio(n, 7), power(second)];
+        let real = |x: &BigRational| Reals.multiply(&pi, &Reals.rational(x));
+        let near = pi.enclose(2000).low();
+        let rational = |x: &BigRational| x * &near;
+        let half = ratio(1, 2);
+        let zero = BigRational::default();
+        let reals = Pair::equal(
+            Arc::new(Dense::new(Reals, 2)),
+            vec![vec![real(&first), Real::rational(zero.clone())], vec![real(&other), Real::rational(zero.clone())]],
+            vec![Real::rational(half.clone()); 2],
+        );
+        let rationals = Pair::equal(
+            Arc::new(Dense::new(Rationals, 2)),
+            vec![vec![rational(&first), zero.clone()], vec![rational(&other), zero]],
+            vec![half; 2],
+        );
+        let (enclosed, exact) = (Stability::of_pair(&reals), Stability::of_pair(&rationals));
+        proptest::prop_assert_eq!(enclosed.evidence, Evidence::Verified { bits: ZERO_BITS });
+        proptest::prop_assert_eq!(enclosed.intervals.len(), exact.intervals.len());
+        for (x, y) in enclosed.intervals.iter().zip(&exact.intervals) {
+            proptest::prop_assert_eq!(x.low.decimal(30), y.low.decimal(30));
+            proptest::prop_assert_eq!(x.high.decimal(30), y.high.decimal(30));
+            proptest::prop_assert_eq!((x.low_closed, x.high_closed), (y.low_closed, y.high_closed));
+        }
+        let degrees = |s: &Stability| {
+            let function = s.runge_kutta.as_ref().map(|rk| &rk.function);
+            let all = [Some(&s.trace), Some(&s.determinant), function];
+            all.map(|f| f.map(|f| (f.numerator.len(), f.denominator.len())))
+        };
+        proptest::prop_assert_eq!(degrees(&enclosed), degrees(&exact));
+    }
+}
+
+/// `R(z) = (1 + z/2 …)/(1 − Kz)` with a `K` whose double is zero.
+#[test]
+fn a_number_whose_double_is_zero_is_not_zero() {
+    let field = Constants::containing([&Constant::pi()]).expect("small");
+    let pi = field.constant(&Constant::pi()).expect("an element");
+    let tiny = field.multiply(&pi, &field.rational(&ratio(10, 1).pow(400).recip()));
+    let [zero, one, half] = [ratio(0, 1), ratio(1, 1), ratio(1, 2)].map(|x| field.rational(&x));
+    let a = vec![vec![tiny, zero.clone()], vec![one, zero]];
+    let stability = Stability::of_pair(&Pair::equal(
+        Arc::new(Dense::new(field, 2)),
+        a,
+        vec![half; 2],
+    ));
+    let function = stability.runge_kutta.expect("one tableau").function;
+    let slope = &function.denominator[1];
+    assert!(slope.value == 0.0 && !slope.is_zero());
+    assert!(function.to_string().contains("z)"), "{function}");
+    assert_eq!(stability.evidence, Evidence::Proved);
+    // √(4K), from K = π·10⁻⁴⁰⁰.
+    assert_eq!(stability.intervals[0].high.decimal(9), "3.54490770e-200");
 }
 
 /// A pair that is not symplectic, with `det M = 1 − x²/4` and `tr M = 2 − x + x²/4`, and one whose step is not
@@ -352,6 +458,21 @@ fn a_touching_trace_does_not_split_an_interval_if_the_matrix_is_scalar() {
     assert_eq!(stability.intervals_text(), "(0, 4)");
     let error = stability.dispersion.expect("consistent");
     assert_eq!(error.coefficient.text, "1/96");
+}
+
+/// `M = ((1, 0), (−ν(1 − ν²/2), 1))`: the trace is 2 everywhere, and the powers are bounded where `M = 1` only.
+#[test]
+fn a_constant_trace_leaves_the_points_where_the_matrix_is_scalar() {
+    let kick = Pair {
+        algebra: Arc::new(Dense::new(Rationals, 2)),
+        a: matrix(&[&["0", "0"], &["1", "-1"]]),
+        a_tilde: matrix(&[&["1", "0"], &["0", "0"]]),
+        b: matrix(&[&["0", "0"]]).remove(0),
+        b_tilde: matrix(&[&["1/2", "1/2"]]).remove(0),
+    };
+    let stability = Stability::of_pair(&kick);
+    assert_eq!(stability.trace.to_string(), "2");
+    assert_eq!(stability.intervals_text(), "[sqrt(2), sqrt(2)]");
 }
 
 /// The trace and the spectral radius of one step from the coefficients in floating-point arithmetic.

@@ -1,0 +1,398 @@
+//! Real numbers as floating-point enclosures of one length.
+
+use std::cmp::Ordering;
+use std::sync::atomic::{AtomicI64, Ordering as Memory};
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero as _};
+
+use super::{Field, Number, Zero};
+use crate::arithmetic::interval::Interval;
+use crate::symbolic::Constant;
+
+/// All numbers `(m + δ)·2ᵉ` with `|δ| ≤ r`.
+///
+/// Unlike an [`Interval`], whose places are absolute, it is as narrow for tiny and for huge numbers, compared
+/// with their size.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ball {
+    middle: BigInt,
+    radius: BigInt,
+    exponent: i64,
+    /// The binary logarithm of the largest terms of the sum that this is, rounded up: what is meant by
+    /// small.
+    scale: i64,
+}
+
+/// Binary places of radii.
+const RADIUS_BITS: u64 = 32;
+
+impl Ball {
+    fn zero() -> Self {
+        Ball {
+            middle: BigInt::zero(),
+            radius: BigInt::zero(),
+            exponent: 0,
+            scale: i64::MIN / 4,
+        }
+    }
+
+    /// Rounds the middle to a number of bits, and the radius up.
+    fn rounded(middle: BigInt, radius: BigInt, exponent: i64, bits: u32) -> Self {
+        let excess = middle.bits().saturating_sub(u64::from(bits));
+        let excess = excess.max(radius.bits().saturating_sub(RADIUS_BITS));
+        let mut ball = Ball {
+            middle,
+            radius,
+            exponent,
+            scale: 0,
+        };
+        if excess > 0 {
+            ball.middle >>= excess;
+            ball.radius = (ball.radius >> excess) + 2;
+            ball.exponent += excess as i64;
+        }
+        ball.scale = ball.magnitude();
+        ball
+    }
+
+    /// A whole number.
+    pub fn whole(value: usize) -> Self {
+        Ball::dyadic(BigInt::from(value), 0, u32::MAX)
+    }
+
+    /// The number `n·2ᵉ`, rounded to this many bits.
+    pub fn dyadic(middle: BigInt, exponent: i64, bits: u32) -> Self {
+        if middle.is_zero() {
+            return Ball::zero();
+        }
+        Ball::rounded(middle, BigInt::zero(), exponent, bits)
+    }
+
+    /// A rational number, rounded to this many bits.
+    pub fn quotient(value: &BigRational, bits: u32) -> Self {
+        if value.is_zero() {
+            return Ball::zero();
+        }
+        let shift = i64::from(bits) + 2 + value.denom().bits() as i64 - value.numer().bits() as i64;
+        let up = shift.max(0) as u64;
+        let middle = (value.numer() << up) / value.denom();
+        Ball::rounded(middle, BigInt::one(), -(up as i64), bits)
+    }
+
+    /// An enclosure of a number that is narrow compared with the number.
+    pub fn of(number: &Number<'_>, bits: u32) -> Self {
+        match number {
+            Number::Rational(value) => return Ball::quotient(value, bits),
+            Number::Enclosed(ball) => return ball.clone(),
+            _ => {}
+        }
+        if number.is_zero() {
+            return Ball::zero();
+        }
+        let mut places = bits + 64;
+        loop {
+            let interval = number.enclose(places);
+            if interval.sign().is_some() {
+                let wanted = interval.magnitude_bits() - i64::from(bits);
+                if interval.width_bits() <= wanted {
+                    return Ball::around(&interval, bits);
+                }
+            }
+            places *= 2;
+        }
+    }
+
+    fn around(interval: &Interval, bits: u32) -> Self {
+        let middle = &interval.low + &interval.high;
+        let radius = &interval.high - &interval.low;
+        Ball::rounded(middle, radius, -i64::from(interval.bits) - 1, bits)
+    }
+
+    /// An enclosure with absolute places, at most as narrow as this one.
+    pub fn interval(&self, bits: u32) -> Interval {
+        let shift = self.exponent + i64::from(bits);
+        let [low, high] = [&self.middle - &self.radius, &self.middle + &self.radius];
+        let (low, high) = if shift >= 0 {
+            (low << shift, high << shift)
+        } else {
+            (low >> -shift, -((-high) >> -shift))
+        };
+        Interval { low, high, bits }
+    }
+
+    /// What is known about whether the number equals a rational.
+    pub fn difference(&self, value: &BigRational) -> Zero {
+        // Both ends and the number as multiples of a power of two.
+        let up = (-self.exponent).max(0);
+        let down = self.exponent.max(0);
+        let middle = (&self.middle << down) * value.denom() - (value.numer() << up);
+        let radius = (&self.radius << down) * value.denom();
+        match (middle.abs() <= radius, radius.is_zero()) {
+            (false, _) => Zero::No,
+            (true, true) => Zero::Yes,
+            (true, false) => {
+                let bits = -(self.exponent + self.radius.bits() as i64);
+                Zero::Within(bits.clamp(0, i64::from(u32::MAX)) as u32)
+            }
+        }
+    }
+
+    /// The sign, if it is the same for all the numbers.
+    pub fn sign(&self) -> Option<Ordering> {
+        if self.middle.abs() > self.radius {
+            return Some(self.middle.cmp(&BigInt::zero()));
+        }
+        self.radius.is_zero().then_some(Ordering::Equal)
+    }
+
+    /// A number `n` with `|x| < 2ⁿ`.
+    pub fn magnitude(&self) -> i64 {
+        let size = self.middle.abs() + &self.radius;
+        match size.is_zero() {
+            true => i64::MIN / 4,
+            false => size.bits() as i64 + self.exponent,
+        }
+    }
+
+    /// A ball around zero with all these numbers.
+    #[must_use]
+    pub fn size(&self) -> Self {
+        Ball {
+            middle: self.middle.abs(),
+            ..self.clone()
+        }
+    }
+
+    /// The product with a power of two.
+    #[must_use]
+    pub fn shifted(&self, places: i64) -> Self {
+        Ball {
+            exponent: self.exponent + places,
+            scale: self.scale + places,
+            ..self.clone()
+        }
+    }
+
+    /// The sum, rounded to this many bits.
+    #[must_use]
+    pub fn add(&self, other: &Self, bits: u32) -> Self {
+        let exact = |x: &Self| x.middle.is_zero() && x.radius.is_zero();
+        if exact(self) {
+            return other.clone();
+        }
+        if exact(other) {
+            return self.clone();
+        }
+        let (high, low) = if self.exponent < other.exponent {
+            (other, self)
+        } else {
+            (self, other)
+        };
+        let distance = high.exponent - low.exponent;
+        let mut sum = if distance > 4 * i64::from(bits) && low.magnitude() < high.exponent {
+            Ball::rounded(high.middle.clone(), &high.radius + 1, high.exponent, bits)
+        } else {
+            let middle = (&high.middle << distance) + &low.middle;
+            let radius = (&high.radius << distance) + &low.radius;
+            Ball::rounded(middle, radius, low.exponent, bits)
+        };
+        sum.scale = self.scale.max(other.scale);
+        sum
+    }
+
+    /// The product, rounded to this many bits.
+    #[must_use]
+    pub fn multiply(&self, other: &Self, bits: u32) -> Self {
+        let middle = &self.middle * &other.middle;
+        let radius = self.middle.abs() * &other.radius
+            + other.middle.abs() * &self.radius
+            + &self.radius * &other.radius;
+        if middle.is_zero() && radius.is_zero() {
+            return Ball::zero();
+        }
+        let exponent = self.exponent + other.exponent;
+        let mut product = Ball::rounded(middle, radius, exponent, bits);
+        if self.sign().is_none() || other.sign().is_none() {
+            product.scale = self.scale + other.scale;
+        }
+        product
+    }
+
+    /// The inverse, rounded to this many bits; `None` if zero is in the ball.
+    pub fn inverse(&self, bits: u32) -> Option<Self> {
+        let size = self.middle.abs();
+        let least = &size - &self.radius;
+        if !least.is_positive() {
+            return None;
+        }
+        let places = size.bits() + u64::from(bits) + 4;
+        let unit = BigInt::one() << places;
+        let middle = &unit / &self.middle;
+        let radius = &unit * &self.radius / (size * least) + 2;
+        let exponent = -self.exponent - places as i64;
+        Some(Ball::rounded(middle, radius, exponent, bits))
+    }
+
+    /// The ball with the opposite numbers.
+    #[must_use]
+    pub fn negate(&self) -> Self {
+        Ball {
+            middle: -&self.middle,
+            ..self.clone()
+        }
+    }
+
+    /// The binary places to which a ball with zero in it is zero, compared with the terms of which it is
+    /// the sum.
+    fn zero_bits(&self) -> i64 {
+        self.scale - self.magnitude()
+    }
+}
+
+/// The real numbers, as enclosures with a number of bits.
+///
+/// A number is taken for zero if zero is in its ball. How small it is then, compared with the terms of the
+/// sum that it is, is kept for all such numbers together.
+#[derive(Debug)]
+pub struct Balls {
+    bits: u32,
+    verified: AtomicI64,
+}
+
+impl Balls {
+    /// Enclosures with this many bits.
+    pub fn new(bits: u32) -> Self {
+        Balls {
+            bits,
+            verified: AtomicI64::new(i64::from(bits)),
+        }
+    }
+
+    /// The binary places, at least, to which all numbers are zero that were taken for zero.
+    pub fn zero_bits(&self) -> u32 {
+        self.verified
+            .load(Memory::Relaxed)
+            .clamp(0, i64::from(u32::MAX)) as u32
+    }
+}
+
+impl PartialEq for Balls {
+    fn eq(&self, other: &Self) -> bool {
+        self.bits == other.bits
+    }
+}
+
+impl Field for Balls {
+    type Element = Ball;
+
+    fn rational(&self, value: &BigRational) -> Ball {
+        Ball::quotient(value, self.bits)
+    }
+
+    fn constant(&self, value: &Constant) -> Option<Ball> {
+        let number = super::Real::constant(value.clone());
+        Some(Ball::of(&Number::Real(number), self.bits))
+    }
+
+    fn add(&self, x: &Ball, y: &Ball) -> Ball {
+        x.add(y, self.bits)
+    }
+
+    fn subtract(&self, x: &Ball, y: &Ball) -> Ball {
+        x.add(&y.negate(), self.bits)
+    }
+
+    fn multiply(&self, x: &Ball, y: &Ball) -> Ball {
+        x.multiply(y, self.bits)
+    }
+
+    fn inverse(&self, x: &Ball) -> Option<Ball> {
+        x.inverse(self.bits)
+    }
+
+    fn verified_bits(&self) -> Option<u32> {
+        Some(self.zero_bits())
+    }
+
+    fn zero(&self, x: &Ball) -> Zero {
+        match x.sign() {
+            Some(Ordering::Equal) => Zero::Yes,
+            Some(_) => Zero::No,
+            None => {
+                let bits = x.zero_bits();
+                self.verified.fetch_min(bits, Memory::Relaxed);
+                Zero::Within(bits.clamp(0, i64::from(u32::MAX)) as u32)
+            }
+        }
+    }
+
+    fn pivot(&self, candidates: &[&Ball]) -> Option<usize> {
+        let nonzero = |x: &Ball| x.sign().is_some_and(Ordering::is_ne);
+        let found = candidates.iter().enumerate().filter(|(_, x)| nonzero(x));
+        found.max_by_key(|(_, x)| x.magnitude()).map(|(k, _)| k)
+    }
+
+    fn number(&self, x: &Ball) -> Number<'_> {
+        match self.zero(x) {
+            Zero::No => Number::Enclosed(x.clone()),
+            _ => Number::Rational(BigRational::zero()),
+        }
+    }
+
+    fn exact(&self, _x: &Ball) -> Option<String> {
+        None
+    }
+
+    fn enclose(&self, x: &Ball, _bits: u32) -> Ball {
+        x.clone()
+    }
+
+    fn doubt(&self) {
+        self.verified.store(0, Memory::Relaxed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::rational::ratio;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn operations_enclose(a in -99i64..99, b in 1i64..40, c in -99i64..99, d in 1i64..40, k in -90i64..90) {
+            let (x, y) = (ratio(a, b), ratio(c, d));
+            let scale = if k < 0 { ratio(1, 1) / ratio(2, 1).pow(-k as i32) } else { ratio(2, 1).pow(k as i32) };
+            let (i, j) = (Ball::quotient(&x, 40), Ball::quotient(&y, 40).shifted(k));
+            let y = y * scale;
+            prop_assert!(i.add(&j, 40).interval(200).contains(&(&x + &y)));
+            prop_assert!(i.multiply(&j, 40).interval(200).contains(&(&x * &y)));
+            prop_assert!(i.add(&i.negate(), 40).sign().is_none_or(Ordering::is_eq));
+            match j.inverse(40) {
+                None => prop_assert!(c == 0),
+                Some(inverse) => {
+                    let wide = inverse.interval(200).with_bits(20);
+                    prop_assert!(wide.contains(&y.recip()));
+                    prop_assert!(inverse.interval(200).contains(&y.recip()));
+                    prop_assert!(inverse.radius.bits() < 10 && inverse.middle.bits() >= 39);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn zero_is_relative_to_the_terms() {
+        let balls = Balls::new(200);
+        let tiny = ratio(1, 3) / BigRational::from_integer(BigInt::from(10).pow(300));
+        let x = balls.rational(&tiny);
+        assert_eq!(balls.zero(&x), Zero::No);
+        let difference = balls.subtract(&x, &x);
+        assert!(matches!(balls.zero(&difference), Zero::Within(bits) if bits > 190));
+        // The same difference, of numbers known to fewer places.
+        let coarse = Balls::new(40).rational(&tiny);
+        assert!(balls.zero(&balls.subtract(&coarse, &x)).may_be());
+        assert!((30..45).contains(&balls.zero_bits()));
+    }
+}

@@ -1,0 +1,144 @@
+//! Simple positive roots of polynomials whose coefficients are enclosed.
+
+use std::cmp::Ordering;
+
+use num_bigint::BigInt;
+use num_traits::{One, Zero};
+
+use crate::algebra::Ball;
+use crate::arithmetic::interval::Interval;
+
+/// Half-open intervals `(low, high]·2⁻ᵇⁱᵗˢ` in ascending order, in each of which a polynomial is monotonic, and
+/// outside of which it has no positive root.
+///
+/// With `f(m + ry) = Σ c_k yᵏ` there is no root for `|y| ≤ 1` if `|c_0| > Σ_{k>0} |c_k|`, and `f` is monotonic if
+/// `|c_1| > Σ_{k>1} k|c_k|`. `None` if the enclosures are too wide to tell.
+pub(super) fn monotonic(coefficients: &[Ball], precision: u32) -> Option<Vec<Interval>> {
+    let bound = root_bound(coefficients)?;
+    let (high, bits) = match bound {
+        0.. => (BigInt::one() << bound, 0),
+        _ => (BigInt::one(), u32::try_from(-bound).ok()?),
+    };
+    let deepest = i64::from(precision) - bound.min(0) + bound.abs();
+    let mut found = Vec::new();
+    // The leftmost on top.
+    let mut pending = vec![(BigInt::zero(), high, bits)];
+    while let Some((low, high, bits)) = pending.pop() {
+        let (shifted, bits_here) = (local(coefficients, &low, &high, bits, precision), bits);
+        let sum = |first: usize, weighted: bool| {
+            let terms = shifted.iter().enumerate().skip(first);
+            terms.fold(None, |sum: Option<Ball>, (k, c)| {
+                let size = match weighted {
+                    true => c.size().multiply(&Ball::whole(k), precision),
+                    false => c.size(),
+                };
+                Some(match sum {
+                    Some(sum) => sum.add(&size, precision),
+                    None => size,
+                })
+            })
+        };
+        let exceeds = |k: usize, rest: Option<Ball>| {
+            let size = shifted[k].size();
+            let difference = match rest {
+                Some(rest) => size.add(&rest.negate(), precision),
+                None => size,
+            };
+            difference.sign() == Some(Ordering::Greater)
+        };
+        if exceeds(0, sum(1, false)) {
+            continue;
+        }
+        if exceeds(1, sum(2, true)) {
+            found.push(Interval {
+                low,
+                high,
+                bits: bits_here,
+            });
+            continue;
+        }
+        if i64::from(bits) > deepest {
+            return None;
+        }
+        let (low, high) = (low << 1, high << 1);
+        let middle: BigInt = (&low + &high) >> 1;
+        pending.push((middle.clone(), high, bits + 1));
+        pending.push((low, middle, bits + 1));
+    }
+    Some(found)
+}
+
+/// The coefficients of `f(m + ry)` for the interval `m ± r`.
+fn local(
+    coefficients: &[Ball],
+    low: &BigInt,
+    high: &BigInt,
+    bits: u32,
+    precision: u32,
+) -> Vec<Ball> {
+    let half = |n: BigInt| Ball::dyadic(n, -i64::from(bits) - 1, precision);
+    let (middle, radius) = (half(low + high), half(high - low));
+    let mut list = coefficients.to_vec();
+    for first in 0..list.len() {
+        for k in (first..list.len() - 1).rev() {
+            list[k] = list[k].add(&list[k + 1].multiply(&middle, precision), precision);
+        }
+    }
+    let mut power = Ball::whole(1);
+    for c in &mut list {
+        *c = c.multiply(&power, precision);
+        power = power.multiply(&radius, precision);
+    }
+    list
+}
+
+/// An exponent `n` with all roots below `2ⁿ` in size (Fujiwara).
+fn root_bound(coefficients: &[Ball]) -> Option<i64> {
+    let (leading, rest) = coefficients.split_last()?;
+    leading.sign().filter(|sign| sign.is_ne())?;
+    let top = leading.magnitude() - 2;
+    let degrees = (1i64..).zip(rest.iter().rev());
+    let nonzero = degrees.filter(|(_, c)| c.sign() != Some(Ordering::Equal));
+    // Rounded up, and a factor of 2.
+    let bounds = nonzero.map(|(k, c)| (c.magnitude() - top).div_euclid(k) + 2);
+    Some(bounds.max().unwrap_or(0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::{Balls, Field};
+    use crate::arithmetic::rational::ratio;
+
+    fn found(coefficients: &[i64], shift: i64) -> Option<Vec<Interval>> {
+        let balls = Balls::new(200);
+        let list = (0..).zip(coefficients);
+        let ball = |(k, &c): (i64, &i64)| balls.rational(&ratio(c, 1)).shifted(shift * k);
+        monotonic(&list.map(ball).collect::<Vec<_>>(), 200)
+    }
+
+    #[test]
+    fn roots_are_in_different_intervals() {
+        // (x − 1)(x − 2)(x − 3)(x² + 1), and the same in 2ˢx
+        let product = [-6, 11, -12, 12, -6, 1];
+        for shift in [0, 500, -500] {
+            let intervals = found(&product, shift).expect("told apart");
+            let holds = |root: i64| {
+                let root = match shift {
+                    500 => ratio(root, 1) / ratio(2, 1).pow(500),
+                    -500 => ratio(root, 1) * ratio(2, 1).pow(500),
+                    _ => ratio(root, 1),
+                };
+                intervals.iter().position(|i| i.contains(&root))
+            };
+            let places: Vec<_> = (1..4).map(|k| holds(k).expect("somewhere")).collect();
+            assert!(places.is_sorted() && places[0] < places[1] && places[1] < places[2]);
+        }
+        assert_eq!(found(&[1, 0, 1], 0), Some(Vec::new()));
+    }
+
+    #[test]
+    fn double_roots_are_not_told_apart() {
+        assert_eq!(found(&[4, -4, 1], 0).map(|i| i.len()), None);
+    }
+}
