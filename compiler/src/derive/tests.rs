@@ -139,7 +139,9 @@ fn agree(exact: &Tableau, enclosed: &Tableau) {
         for bits in [200, 500] {
             let difference = x.enclose(bits).subtract(&y.enclose(bits));
             assert!(difference.contains(&ratio(0, 1)));
-            assert!(difference.width_bits() < 8 - i64::from(bits));
+            // Some units of the last place, times the coefficients of the polynomial that is evaluated at a node:
+            // 1/c⁴ at most for the nodes and functions here, that is 5⁴ < 2¹⁰.
+            assert!(difference.width_bits() < 18 - i64::from(bits));
         }
     }
 }
