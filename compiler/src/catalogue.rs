@@ -1,5 +1,7 @@
 //! The known methods, by name: one row a method or a family.
 
+mod splittings;
+
 use crate::definition::Definition;
 use crate::error::{Error, ErrorKind};
 use crate::limits::Limits;
@@ -246,23 +248,43 @@ const COINCIDENCES: &[&[&str]] = &[
         "newton-cotes-3",
         "galerkin-2-lobatto-3",
     ],
+    &["velocity-verlet", "sbab-1"],
+    &["position-verlet", "saba-1"],
 ];
 
 /// All methods, in the order of the catalogue.
 pub fn entries() -> impl Iterator<Item = Entry> {
     ROWS.iter()
+        .chain(splittings::ROWS)
         .flat_map(|row| row.stages.iter().map(move |&stages| row.entry(stages)))
 }
 
-/// The method of this name.
+/// The method of this name. Case, hyphens and how the ö of Störmer is written do not matter: `StoermerVerlet` and
+/// `stormer-verlet` are one name.
+///
+/// ```
+/// use symplectic_compiler::catalogue;
+///
+/// let name = |name| catalogue::find(name).map(|entry| entry.name);
+/// assert_eq!(name("StoermerVerlet").as_deref(), Some("stormer-verlet"));
+/// assert_eq!(name("stormerverlet2"), None);
+/// ```
 pub fn find(name: &str) -> Option<Entry> {
-    entries().find(|entry| entry.name == name)
+    let wanted = plain(name);
+    entries().find(|entry| plain(&entry.name) == wanted)
+}
+
+/// The letters and digits of a name.
+fn plain(name: &str) -> String {
+    let name = name.to_lowercase().replace('ö', "o").replace("oe", "o");
+    name.chars().filter(|c| c.is_ascii_alphanumeric()).collect()
 }
 
 /// The error for a name that is not in the catalogue, with the names that look most like it.
 pub fn unknown(name: &str) -> Error {
+    let written = plain(name);
     let mut near: Vec<(usize, String)> = entries()
-        .map(|entry| (distance(name, &entry.name), entry.name))
+        .map(|entry| (distance(&written, &plain(&entry.name)), entry.name))
         .filter(|(distance, known)| *distance <= 2.max(known.len() / 3))
         .collect();
     near.sort_by_key(|(distance, _)| *distance);

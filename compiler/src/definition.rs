@@ -18,7 +18,11 @@ pub enum Key {
     /// The nodes of the quadrature formula of the rectangular construction, as many as there are
     /// functions or more.
     Quadrature,
-    /// The weights of the quadrature formula, if they are not the interpolatory ones.
+    /// A method on which a composition is built: a name of the [`catalogue`](crate::catalogue), or a definition in
+    /// brackets. Without [`Key::Weights`] it is the method itself.
+    Base,
+    /// The weights of the quadrature formula, if they are not the interpolatory ones; beside a base the fractions of
+    /// the steps that a composition makes with it: `1/2, adjoint(1/2)`, `triple_jump(4)`, `suzuki(4)`.
     Weights,
     /// Given coefficients `a_ij`: `[[0, 0], [1/2, 1/2]]`.
     A,
@@ -28,9 +32,18 @@ pub enum Key {
     ATilde,
     /// Given weights `b̃_i`; `b` where they are not given.
     BTilde,
+    /// The kicks `p −= kick_i h ∂U/∂q` of a splitting: `1/2, 1/2`.
+    Kick,
+    /// The drifts `q += drift_i h ∂T/∂p` of a splitting, each after the kick of the same number: `1, 0`.
+    Drift,
+    /// `drift` where each drift of a splitting comes before the kick of the same number; `kick` otherwise.
+    First,
     /// Steps of other methods one after another, each with its fraction of the step and its own
     /// definition: `[[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]]`.
     Compose,
+    /// `true` where the parts of a splitting, or the weights of a composition, are the first half of a sequence that
+    /// reads the same from both ends. The last one that is written stands in the middle, once.
+    Symmetric,
     /// `true` where the coefficients for positions and momenta are exchanged in the end.
     Exchange,
     /// `true` for the adjoint of the method that the other parts give. It does not matter whether it is
@@ -40,16 +53,21 @@ pub enum Key {
 
 impl Key {
     /// All keys, in the order in which they are written.
-    pub const ALL: [Key; 11] = [
+    pub const ALL: [Key; 16] = [
         Key::Basis,
         Key::Nodes,
         Key::Quadrature,
+        Key::Base,
         Key::Weights,
         Key::A,
         Key::B,
         Key::ATilde,
         Key::BTilde,
+        Key::Kick,
+        Key::Drift,
+        Key::First,
         Key::Compose,
+        Key::Symmetric,
         Key::Exchange,
         Key::Adjoint,
     ];
@@ -60,12 +78,17 @@ impl Key {
             Key::Basis => "basis",
             Key::Nodes => "nodes",
             Key::Quadrature => "quadrature",
+            Key::Base => "base",
             Key::Weights => "weights",
             Key::A => "a",
             Key::B => "b",
             Key::ATilde => "a_tilde",
             Key::BTilde => "b_tilde",
+            Key::Kick => "kick",
+            Key::Drift => "drift",
+            Key::First => "first",
             Key::Compose => "compose",
+            Key::Symmetric => "symmetric",
             Key::Exchange => "exchange",
             Key::Adjoint => "adjoint",
         }
@@ -73,7 +96,7 @@ impl Key {
 
     /// Whether the value is `true` or `false`.
     pub fn is_switch(self) -> bool {
-        matches!(self, Key::Exchange | Key::Adjoint)
+        matches!(self, Key::Symmetric | Key::Exchange | Key::Adjoint)
     }
 
     /// The key of this name.
@@ -89,6 +112,8 @@ impl Key {
 /// | `basis`, `nodes` | square: as many functions as nodes (LZ §4.4) |
 /// | `basis`, `quadrature`, perhaps `weights` | rectangular Galerkin: at least as many nodes (T §2.2) |
 /// | `a`, `b`, perhaps `a_tilde`, `b_tilde` | given coefficients |
+/// | `kick`, `drift`, perhaps `first`, `symmetric` | a splitting `H = T(p) + U(q)`: kicks and drifts one after another (MW 2.6.4) |
+/// | `base`, perhaps `weights`, `symmetric` | a method of the catalogue, or steps of it one after another (GNI II.4) |
 /// | `compose` | `Φ_{γ_m h} ∘ … ∘ Φ_{γ_1 h}` (MW 2.5): a list of `[γ_k, definition of Φ_k]`, the first step first |
 ///
 /// Each may have `exchange: true` and `adjoint: true`. Every value is text in the grammar of

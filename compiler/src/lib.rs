@@ -24,6 +24,7 @@
 //! | what a user requires of a method | [`Requirement`], [`Tableau::require`], [`assert_order!`] |
 //! | text, JSON, TOML; reading and checking files | [`export`], [`check`] |
 //! | known methods | [`catalogue`] |
+//! | explicit methods from printed digits, with a proof that an exact method is near | [`certify`] |
 //! | Rust code | [`emit`], from the order of computation found in [`schedule`] |
 //!
 //! Statements about a tableau are decided in exact arithmetic where its coefficients are functions of the
@@ -34,10 +35,12 @@ pub mod algebra;
 pub mod arithmetic;
 mod basis;
 pub mod catalogue;
+pub mod certify;
 mod check;
 mod coefficients;
 mod definition;
 mod derive;
+mod efficiency;
 pub mod emit;
 mod error;
 pub mod export;
@@ -61,7 +64,7 @@ pub use definition::{Definition, Key};
 pub use derive::{derive, derive_from, derive_within};
 pub use error::{Error, ErrorKind, Place};
 pub use limits::Limits;
-pub use properties::{Evidence, Properties, Property};
+pub use properties::{Evidence, Properties, Property, SeparableProperties};
 pub use quadrature::{FAMILIES, Family, Nodes, QuadratureRule};
 pub use requirement::{Requirement, require};
 pub use tableau::{Provenance, Tableau, Tier};

@@ -8,7 +8,7 @@ use num_traits::Signed;
 use crate::error::{Error, ErrorKind};
 use crate::expression::{ExpressionKind, Input, parse_list, shown};
 use crate::order::{HamiltonianClass, OrderOptions};
-use crate::properties::{Evidence, Properties};
+use crate::properties::{Evidence, Properties, SeparableProperties};
 use crate::tableau::Tableau;
 
 /// A requirement, as it stands in `require: […]`.
@@ -16,6 +16,8 @@ use crate::tableau::Tableau;
 pub enum Requirement {
     /// A property of [`Properties::NAMES`].
     Property(String),
+    /// A property of [`SeparableProperties::NAMES`], for separable Hamiltonians: `symplectic(separable)`.
+    SeparableProperty(String),
     /// `order >= 4`, `order(separable) == 6`; without a class for every Hamiltonian.
     Order {
         /// The class of Hamiltonians.
@@ -32,7 +34,7 @@ pub enum Requirement {
 }
 
 /// The requirements beside the properties, as messages list them.
-const OTHERS: &str = "order >= 4, order(separable) == 6, p_stable, stable_to(2)";
+const OTHERS: &str = "symplectic(separable), symmetric(separable), order >= 4, order(separable) == 6, p_stable, stable_to(2)";
 
 impl Requirement {
     /// Reads a requirement.
@@ -121,6 +123,16 @@ impl Requirement {
                 }
                 Ok(Requirement::StableTo(bound))
             }
+            ExpressionKind::Call {
+                function,
+                arguments,
+                ..
+            } if SeparableProperties::NAMES.contains(&function.as_str())
+                && matches!(arguments.as_slice(), [class]
+                    if class.kind == ExpressionKind::Name(HamiltonianClass::Separable.to_string())) =>
+            {
+                Ok(Requirement::SeparableProperty(function.clone()))
+            }
             _ => Err(unknown()),
         }
     }
@@ -155,6 +167,9 @@ impl fmt::Display for Requirement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Requirement::Property(name) => f.write_str(name),
+            Requirement::SeparableProperty(name) => {
+                write!(f, "{name}({})", HamiltonianClass::Separable)
+            }
             Requirement::Order {
                 class,
                 exactly,
@@ -189,7 +204,22 @@ impl Tableau {
                     return Err(refuted(format!("there is no property `{name}`")));
                 };
                 let witness = property.witness.as_deref().unwrap_or("no witness");
-                let message = format!("the method is not `{name}`: {witness}");
+                let mut message = format!("the method is not `{name}`: {witness}");
+                let separable = self.separable_properties();
+                if !property.holds && separable.get(name).is_some_and(|found| found.holds) {
+                    message.push_str(&format!(
+                        "; for separable H it is: require `{name}(separable)`"
+                    ));
+                }
+                (property.holds, property.evidence, message)
+            }
+            Requirement::SeparableProperty(name) => {
+                let properties = self.separable_properties();
+                let Some(property) = properties.get(name) else {
+                    return Err(refuted(format!("there is no property `{name}(separable)`")));
+                };
+                let witness = property.witness.as_deref().unwrap_or("no witness");
+                let message = format!("the method is not `{name}(separable)`: {witness}");
                 (property.holds, property.evidence, message)
             }
             Requirement::Order {

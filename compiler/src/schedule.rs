@@ -1,5 +1,10 @@
 //! Which stages coincide, which need which, and in what order they can be computed.
 
+mod phases;
+mod unused;
+
+pub use phases::{Evaluations, Phases};
+
 use crate::algebra::{Number, StageAlgebra, group_by};
 use crate::coefficients::Coefficients;
 use crate::pair::Pair;
@@ -36,9 +41,9 @@ pub struct StageValue<'a> {
     pub coefficients: Vec<Number<'a>>,
     /// Whether the value is the result of the step: its coefficients are the weights.
     pub is_end: bool,
-    /// The evaluations that have been applied in full where the value is reached, if every coefficient is zero or
-    /// the weight of its evaluation, as in a splitting.
-    pub applied: Option<Vec<usize>>,
+    /// For each evaluation whether it has been applied where the value is reached, if every coefficient is either the
+    /// weight of its evaluation or zero, as in a splitting.
+    pub applied: Option<Vec<bool>>,
 }
 
 impl StageValue<'_> {
@@ -124,12 +129,18 @@ impl<'a> StepGraph<'a> {
                     _ => merged(matrix, row, group),
                 };
                 let coefficients: Vec<Number<'a>> = evaluations.iter().map(coefficient).collect();
-                let applied = coefficients.iter().zip(evaluations).enumerate();
-                let applied = applied.filter(|(_, (coefficient, _))| !coefficient.is_zero());
+                let applied = coefficients
+                    .iter()
+                    .zip(evaluations)
+                    .map(|(coefficient, group)| {
+                        if coefficient.is_zero() {
+                            Some(false)
+                        } else {
+                            vanishes(group).then_some(true)
+                        }
+                    });
                 StageValue {
-                    applied: applied
-                        .map(|(j, (_, group))| vanishes(group).then_some(j))
-                        .collect(),
+                    applied: applied.collect(),
                     is_end: evaluations.iter().all(vanishes),
                     coefficients,
                     stages: stages.clone(),
@@ -154,7 +165,7 @@ impl<'a> StepGraph<'a> {
         };
         let general = class == Class::General;
         let (velocities, forces) = (&groups.velocities, &groups.forces);
-        StepGraph {
+        let graph = StepGraph {
             class,
             velocities: evaluations(
                 velocities,
@@ -180,6 +191,11 @@ impl<'a> StepGraph<'a> {
                 (&pair.a_tilde, &numbers.a_tilde),
                 &adjoint.a_tilde,
             ),
+        };
+        match class {
+            // Each stage is seen by an evaluation of both kinds there.
+            Class::General => graph,
+            Class::Separable => graph.without_what_is_not_used(),
         }
     }
 
@@ -290,17 +306,17 @@ fn index_of(groups: &[Vec<usize>], stage: usize) -> usize {
 }
 
 /// Stages that coincide, as lists of the stages of the tableau.
-struct Groups {
-    positions: Vec<Vec<usize>>,
-    momenta: Vec<Vec<usize>>,
-    velocities: Vec<Vec<usize>>,
-    forces: Vec<Vec<usize>>,
+pub(crate) struct Groups {
+    pub positions: Vec<Vec<usize>>,
+    pub momenta: Vec<Vec<usize>>,
+    pub velocities: Vec<Vec<usize>>,
+    pub forces: Vec<Vec<usize>>,
 }
 
 impl Groups {
     /// Joins stages with equal rows, then evaluations at equal stages, then the stages whose rows have
     /// become equal by that, until nothing more coincides.
-    fn new<A: StageAlgebra>(class: Class, pair: &Pair<A>) -> Self {
+    pub fn new<A: StageAlgebra>(class: Class, pair: &Pair<A>) -> Self {
         let algebra = &*pair.algebra;
         let single: Vec<Vec<usize>> = (0..algebra.stages()).map(|stage| vec![stage]).collect();
         let mut groups = Groups {
@@ -401,13 +417,12 @@ mod tests {
                      23/6 - 1144/9*t + 3742/3*t^2 - 48896/9*t^3 + 104000/9*t^4 - 34816/3*t^5 + 39424/9*t^6, \
                      -155/6 + 6604/9*t - 18514/3*t^2 + 209216/9*t^3 - 392960/9*t^4 + 119296/3*t^5 - 125440/9*t^6";
         let tableau = crate::derive(basis, "1/4, 1/2, 3/4").expect("derived");
+        let groups = over_algebra!(&tableau, pair => Groups::new(Class::Separable, pair));
+        assert_eq!(groups.positions, [vec![0], vec![1, 2]]);
+        assert_eq!(groups.momenta, groups.positions);
+        // Their weights cancel, and no other stage needs them: they are not evaluated at all.
         let graph = StepGraph::new(Class::Separable, &tableau, &tableau.numbers());
-        assert_eq!((graph.positions.len(), graph.momenta.len()), (2, 2));
-        assert_eq!(
-            graph.order(),
-            Ok(["Q1", "P1", "Q2 = Q3", "P2 = P3"]
-                .map(String::from)
-                .to_vec())
-        );
+        assert_eq!((graph.positions.len(), graph.momenta.len()), (1, 1));
+        assert_eq!(graph.order(), Ok(["Q1", "P1"].map(String::from).to_vec()));
     }
 }

@@ -7,7 +7,7 @@ use crate::coefficients::Coefficients;
 use crate::definition::Definition;
 use crate::order::{OrderOptions, OrderReport};
 use crate::pair::Pair;
-use crate::properties::Properties;
+use crate::properties::{Properties, SeparableProperties};
 use crate::stability::Stability;
 
 /// Where a tableau comes from.
@@ -34,6 +34,7 @@ pub struct Tableau {
     pub(crate) provenance: Provenance,
     pub(crate) exact: Exact,
     properties: OnceLock<Properties>,
+    separable: OnceLock<SeparableProperties>,
     orders: OnceLock<OrderReport>,
     stability: OnceLock<Stability>,
 }
@@ -130,6 +131,7 @@ impl Tableau {
             },
             exact,
             properties: OnceLock::new(),
+            separable: OnceLock::new(),
             orders: OnceLock::new(),
             stability: OnceLock::new(),
         }
@@ -149,6 +151,23 @@ impl Tableau {
     pub fn properties(&self) -> Properties {
         let decided = || over_algebra!(self, pair => Properties::of_pair(pair));
         self.properties.get_or_init(decided).clone()
+    }
+
+    /// What the method is for separable Hamiltonians `H = T(p) + U(q)`, which may be more than what it is for all.
+    ///
+    /// ```
+    /// use symplectic_compiler::{Definition, Limits};
+    ///
+    /// let splitting = Definition::parse("kick: [1/2, 1/2], drift: [1, 0]")?.derive(&Limits::default())?;
+    /// assert!(!splitting.properties().symplectic.holds && !splitting.properties().symmetric.holds);
+    /// let separable = splitting.separable_properties();
+    /// assert!(separable.symplectic.holds && separable.symmetric.holds);
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    pub fn separable_properties(&self) -> SeparableProperties {
+        let symmetric = self.properties().symmetric;
+        let decided = || over_algebra!(self, pair => SeparableProperties::of_pair(pair, symmetric));
+        self.separable.get_or_init(decided).clone()
     }
 
     /// The order for each class of Hamiltonians with the default options, decided at the first call.

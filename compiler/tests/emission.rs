@@ -40,6 +40,22 @@ fn one_matrix_is_written_once() {
     expect_file!["emission/gauss_2.rs"].assert_eq(&code);
 }
 
+/// Three kicks and drifts a step after the merging, and a force that is carried to the next.
+#[test]
+fn a_splitting_is_straight_line_code() {
+    let ruth = catalogue::find("forest-ruth-1990").expect("known");
+    let tableau = ruth.derive().expect("derived");
+    let code = emitted(&tableau, "ForestRuth");
+    let separable = code.split("struct ForestRuthSeparable").nth(1);
+    let separable = separable.expect("the plan");
+    assert!(separable.contains("Coupling = ::symplectic::Explicit"));
+    assert!(separable.contains("::symplectic::Evaluations<V>"));
+    assert!(separable.contains("if !kept.evaluation {"), "{separable}");
+    // The last momentum stage has no drift after it, and no velocity is evaluated there.
+    assert_eq!(separable.matches("advance").count(), 7);
+    expect_file!["emission/forest_ruth.rs"].assert_eq(&code);
+}
+
 /// The numbers that the plans multiply by: all coefficients in them but the times.
 fn factors(code: &str) -> Vec<f64> {
     let plans = code.split_once("pub struct").expect("a method").1;

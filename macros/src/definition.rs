@@ -1,9 +1,11 @@
-//! What is written in `tableau! { … }`.
+//! What is written in `tableau! { … }` and the other macros.
 
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Token, Visibility, braced};
+
+use crate::form::Form;
 
 /// One or more definitions.
 pub struct Definitions(pub Vec<Definition>);
@@ -29,21 +31,22 @@ pub struct Field {
     pub value: TokenStream,
 }
 
-impl Parse for Definitions {
-    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        let mut definitions = vec![input.parse()?];
+impl Definitions {
+    /// Reads the definitions of a macro.
+    pub fn parse(input: ParseStream<'_>, form: Form) -> syn::Result<Self> {
+        let mut definitions = vec![Definition::parse(input, form)?];
         while !input.is_empty() {
-            definitions.push(input.parse()?);
+            definitions.push(Definition::parse(input, form)?);
         }
         Ok(Definitions(definitions))
     }
 }
 
-impl Parse for Definition {
-    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        const SHAPE: &str = "expected `pub Name { basis: polynomial(3), nodes: lobatto(3) }`";
+impl Definition {
+    fn parse(input: ParseStream<'_>, form: Form) -> syn::Result<Self> {
+        let shape = form.shape();
         if input.is_empty() {
-            return Err(input.error(SHAPE));
+            return Err(input.error(shape));
         }
         let content;
         Ok(Definition {
@@ -51,7 +54,7 @@ impl Parse for Definition {
             visibility: input.parse()?,
             name: input
                 .parse()
-                .map_err(|error| syn::Error::new(error.span(), SHAPE))?,
+                .map_err(|error| syn::Error::new(error.span(), shape))?,
             fields: {
                 braced!(content in input);
                 content.parse_terminated(Field::parse, Token![,])?

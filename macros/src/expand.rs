@@ -12,14 +12,15 @@ use syn::punctuated::Punctuated;
 use syn::{LitInt, LitStr, Token, bracketed, parenthesized};
 
 use crate::definition::{Definition, Definitions, Field};
+use crate::form::Form;
 use crate::source::Source;
 
 /// The code of all definitions, or all their errors.
-pub fn expand(definitions: &Definitions) -> syn::Result<TokenStream> {
+pub fn expand(definitions: &Definitions, form: Form) -> syn::Result<TokenStream> {
     let mut errors = Errors(None);
     let mut code = TokenStream::new();
     for definition in &definitions.0 {
-        code.extend(errors.note(expand_one(definition)));
+        code.extend(errors.note(expand_one(definition, form)));
     }
     errors.0.map_or(Ok(code), Err)
 }
@@ -41,19 +42,19 @@ impl Errors {
     }
 }
 
-/// The keys beside the parts of a definition.
-const KEYS: [&str; 4] = ["file", "require", "accept", "max_stages"];
-
-fn known_keys() -> Vec<&'static str> {
-    Key::ALL.map(Key::name).into_iter().chain(KEYS).collect()
-}
-
-fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
+fn expand_one(definition: &Definition, form: Form) -> syn::Result<TokenStream> {
     let mut errors = Errors(None);
-    let known = known_keys();
+    let keys = form.keys().iter().map(|key| key.name());
+    let known: Vec<&str> = keys.chain(form.others().iter().copied()).collect();
     for (index, Field { key, .. }) in definition.fields.iter().enumerate() {
         if !known.iter().any(|known| key == known) {
-            let message = format!("unknown key `{key}`; known here: {}", known.join(", "));
+            let part = Key::find(&key.to_string()).is_some();
+            let taken = part || Form::Tableau.others().iter().any(|other| key == other);
+            let hint = if taken { "; `tableau!` takes it" } else { "" };
+            let message = format!(
+                "unknown key `{key}`; known here: {}{hint}",
+                known.join(", ")
+            );
             errors.note::<()>(Err(syn::Error::new(key.span(), message)));
         } else if definition
             .fields
@@ -68,6 +69,7 @@ fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
         }
     }
     let field = |name: &str| definition.fields.iter().find(|field| field.key == name);
+    let complete = errors.note(missing(definition, form)).is_some();
     let limits = field("max_stages").map_or(Ok(Limits::default()), max_stages);
     let limits = errors.note(limits).unwrap_or_default();
     let requirements =
@@ -84,7 +86,8 @@ fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
         .filter(is_part)
         .map(|part| format!("`{}`", part.key))
         .collect();
-    let tableau = match (field("file"), parts.is_empty()) {
+    let file = field("file").filter(|_| form.others().contains(&"file"));
+    let tableau = match (file, parts.is_empty()) {
         (Some(file), true) => read(file, &limits).map(|(tableau, tracking)| {
             rebuild = tracking;
             tableau
@@ -96,9 +99,11 @@ fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
                 parts.join(" and ")
             ),
         )),
-        (None, _) => derive(definition, &limits),
+        (None, _) => derive(definition, form, &limits),
     };
-    if let Some(tableau) = errors.note(tableau) {
+    // What is missing is said already.
+    let tableau = if complete { errors.note(tableau) } else { None };
+    if let Some(tableau) = tableau {
         errors.note(prove(&tableau, &requirements, accepted));
         if errors.0.is_none() {
             let attributes = &definition.attributes;
@@ -114,6 +119,43 @@ fn expand_one(definition: &Definition) -> syn::Result<TokenStream> {
         }
     }
     errors.0.map_or(Ok(TokenStream::new()), Err)
+}
+
+/// The error where a definition has none of the sets of keys that it needs.
+fn missing(definition: &Definition, form: Form) -> syn::Result<()> {
+    let has = |key: &Key| {
+        definition
+            .fields
+            .iter()
+            .any(|field| field.key == key.name())
+    };
+    let needed = form.needed();
+    if needed.is_empty() || needed.iter().any(|set| set.iter().all(has)) {
+        return Ok(());
+    }
+    // The set of which most is there, the first of equal ones.
+    let there = |set: &&&[Key]| set.iter().filter(|key| has(key)).count();
+    let nearest = needed
+        .iter()
+        .rev()
+        .max_by_key(there)
+        .copied()
+        .unwrap_or(&[]);
+    let names = |keys: &[Key]| {
+        let names: Vec<String> = keys.iter().map(|key| format!("`{}`", key.name())).collect();
+        names.join(" and ")
+    };
+    let absent: Vec<Key> = nearest.iter().filter(|key| !has(key)).copied().collect();
+    let alternatives: Vec<String> = needed.iter().map(|set| names(set)).collect();
+    let message = format!(
+        "{} missing; this macro needs {}",
+        match absent.as_slice() {
+            [one] => format!("`{}` is", one.name()),
+            several => format!("{} are", names(several)),
+        },
+        alternatives.join(", or ")
+    );
+    Err(syn::Error::new(definition.name.span(), message))
 }
 
 /// A warning at the name of a method that is not consistent: a person hardly wants one.
@@ -135,13 +177,15 @@ fn inconsistent(tableau: &Tableau, name: &Ident) -> Option<TokenStream> {
 }
 
 /// Derives the tableau of the parts of a definition, with errors at the tokens of each.
-fn derive(definition: &Definition, limits: &Limits) -> syn::Result<Tableau> {
+fn derive(definition: &Definition, form: Form, limits: &Limits) -> syn::Result<Tableau> {
     let parts: Vec<(Key, Source)> = definition
         .fields
         .iter()
         .filter_map(|field| {
             let key = Key::find(&field.key.to_string())?;
-            Some((key, Source::new(field.value.clone())))
+            // The others are refused already.
+            let taken = form.keys().contains(&key);
+            taken.then(|| (key, Source::new(field.value.clone())))
         })
         .collect();
     let texts = parts.iter().map(|(key, source)| (*key, &*source.text));

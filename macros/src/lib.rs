@@ -1,19 +1,40 @@
-//! The macro `tableau!` of the crate `symplectic`, which re-exports and documents it.
+//! The macros `tableau!`, `splitting!` and `composition!` of the crate `symplectic`, which re-exports and documents them.
 //!
-//! It holds no mathematics: it reads the definition, calls the compiler, and hands back the generated
+//! They hold no mathematics: they read the definition, call the compiler, and hand back the generated
 //! code or errors at the offending tokens.
 
 mod definition;
 mod expand;
+mod form;
 mod source;
 
 use proc_macro::TokenStream;
 
-/// Derives, proves and emits the integrator of a basis and nodes.
+use self::form::Form;
+
+/// Derives, proves and emits the integrator of a basis and nodes, or of anything else that defines a method.
 #[proc_macro]
 pub fn tableau(input: TokenStream) -> TokenStream {
-    let definitions = syn::parse_macro_input!(input as definition::Definitions);
-    expand::expand(&definitions)
+    methods(input, Form::Tableau)
+}
+
+/// Proves and emits the integrator of drifts and kicks.
+#[proc_macro]
+pub fn splitting(input: TokenStream) -> TokenStream {
+    methods(input, Form::Splitting)
+}
+
+/// Proves and emits the integrator of steps of other methods.
+#[proc_macro]
+pub fn composition(input: TokenStream) -> TokenStream {
+    methods(input, Form::Composition)
+}
+
+/// The three macros are one; they differ in the keys that they expect.
+fn methods(input: TokenStream, form: Form) -> TokenStream {
+    let parse = |input: syn::parse::ParseStream<'_>| definition::Definitions::parse(input, form);
+    let definitions = syn::parse_macro_input!(input with parse);
+    expand::expand(&definitions, form)
         .unwrap_or_else(|errors| errors.to_compile_error())
         .into()
 }

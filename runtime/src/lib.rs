@@ -16,6 +16,7 @@
 //! |---|---|
 //! | The system: a trait, or two closures | [`Hamiltonian`], [`SeparableHamiltonian`], [`separable`], [`hamiltonian`] |
 //! | What it computes with | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors) |
+//! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`] |
 //! | Running it | [`State`], [`Integrator`], [`Error`] |
 //! | What generates a step | [`generating_function`], of Type II |
 //! | The method, as the macro emits it | [`Method`], [`Plan`], [`Stages`], [`Coefficient`], [`combine`], [`relax`] |
@@ -77,6 +78,7 @@ mod integrator;
 mod kernel;
 mod method;
 mod scalar;
+mod splitting_macros;
 mod stage;
 mod state;
 mod states;
@@ -105,6 +107,7 @@ pub use method::{Method, Plan};
 pub use nalgebra;
 pub use num_traits;
 pub use scalar::Scalar;
+pub use splitting_macros::{composition, splitting};
 pub use stage::{Evaluations, StageStorage, Stages};
 pub use state::State;
 pub use states::States;

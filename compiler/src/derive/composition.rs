@@ -11,6 +11,7 @@ use crate::quadrature::check_stages;
 use crate::symbolic::Constant;
 
 /// A step `Φ_{γh}` of a composition.
+#[derive(Clone)]
 pub struct Step {
     /// The fraction `γ` of the whole step.
     pub fraction: Constant,
@@ -84,7 +85,7 @@ fn is_one(text: &str, range: &Range<usize>) -> bool {
 }
 
 /// What stands between commas, white space around it left out.
-fn separated(text: &str, range: Range<usize>) -> Vec<Range<usize>> {
+pub(super) fn separated(text: &str, range: Range<usize>) -> Vec<Range<usize>> {
     let pieces = pieces(text, range).into_iter();
     let mut pieces: Vec<_> = pieces.map(|piece| trimmed(text, piece)).collect();
     if pieces.len() > 1 && pieces.last().is_some_and(Range::is_empty) {
@@ -94,7 +95,7 @@ fn separated(text: &str, range: Range<usize>) -> Vec<Range<usize>> {
 }
 
 /// What stands between brackets.
-fn inner(text: &str, range: &Range<usize>) -> Option<Range<usize>> {
+pub(super) fn inner(text: &str, range: &Range<usize>) -> Option<Range<usize>> {
     let part = &text[range.clone()];
     let bracketed = part.len() >= 2 && part.starts_with('[') && part.ends_with(']');
     bracketed.then(|| range.start + 1..range.end - 1)
@@ -124,7 +125,7 @@ fn read_step(input: Input<'_>, range: Range<usize>, limits: &Limits) -> Result<S
         .iter()
         .map(|(key, range)| (*key, &text[range.clone()]));
     let method = Problem::read(&Definition::new(definition), limits).map_err(|errors| {
-        let moved = |error| in_composition(input, &range, &parts, error);
+        let moved = |error| in_text(input, &range, &parts, error);
         errors.into_iter().map(moved).collect::<Vec<_>>()
     })?;
     Ok(Step { fraction, method })
@@ -149,17 +150,17 @@ fn read_fraction(input: Input<'_>, range: Range<usize>) -> Result<Constant, Erro
     read.map_err(|error| shifted(input, &range, error))
 }
 
-/// Moves the place of an error about a part of a step to the text of the composition.
-fn in_composition(
+/// Moves the place of an error about a part of a definition to the text that the definition stands in.
+pub(super) fn in_text(
     input: Input<'_>,
-    step: &Range<usize>,
+    definition: &Range<usize>,
     parts: &[(Key, Range<usize>)],
     error: Error,
 ) -> Error {
     let about = error.place.as_ref().map(|place| place.input.as_str());
     match parts.iter().find(|(key, _)| Some(key.name()) == about) {
         Some((_, range)) => shifted(input, range, error),
-        None => input.error(step, *error.kind),
+        None => input.error(definition, *error.kind),
     }
 }
 

@@ -2,14 +2,21 @@
 //!
 //! The tier follows from the definition: polynomial bases at all roots of one polynomial are derived in
 //! the node algebra; anything else in a constant field, if one holds all values and integrals of the
-//! basis, and as certified enclosures otherwise. What [operations](crate::Tableau::concatenate) on tableaux give
+//! basis, and as certified enclosures otherwise. A splitting, and what is made of splittings only, is in the field of
+//! its fractions. What [operations](crate::Tableau::concatenate) on tableaux give
 //! is derived from the definitions of the operands by the same operations.
 
+mod based;
 mod composition;
 mod dense;
+mod kind;
 mod linear;
 mod node;
 mod problem;
+mod scheme;
+mod sequence;
+mod splitting;
+mod sum;
 mod tiers;
 
 pub(crate) use self::composition::check_depth;
@@ -19,7 +26,7 @@ use crate::definition::{Definition, Key, trimmed};
 use crate::error::{Error, ErrorKind, Place};
 use crate::limits::Limits;
 use crate::quadrature::{Nodes, QuadratureRule};
-use crate::tableau::Tableau;
+use crate::tableau::{Exact, Tableau};
 
 /// Derives the tableau of a basis at nodes, both given as text, within the default [`Limits`].
 ///
@@ -53,15 +60,7 @@ impl Definition {
     /// # Errors
     /// The first of [`Definition::derive_or_all_errors`].
     pub fn derive(&self, limits: &Limits) -> Result<Tableau, Error> {
-        self.derive_or_all_errors(limits).map_err(|mut errors| {
-            let first = ErrorKind::Definition {
-                message: "this definition cannot be derived".to_owned(),
-            };
-            if errors.is_empty() {
-                return first.into();
-            }
-            errors.swap_remove(0)
-        })
+        self.derive_or_all_errors(limits).map_err(first)
     }
 
     /// Derives the tableau, or says everything that is wrong with the parts.
@@ -83,7 +82,14 @@ impl Definition {
         } else if kind.is_about_weight() {
             &[Key::Nodes, Key::Weights, Key::Quadrature, Key::B]
         } else {
-            &[Key::Nodes, Key::Quadrature, Key::A, Key::Compose]
+            &[
+                Key::Nodes,
+                Key::Quadrature,
+                Key::A,
+                Key::Kick,
+                Key::Base,
+                Key::Compose,
+            ]
         };
         let part = keys.iter().find_map(|&key| Some((key, self.get(key)?)));
         match part {
@@ -114,6 +120,26 @@ pub fn derive_from(basis: &Basis, rule: &QuadratureRule) -> Result<Tableau, Erro
         adjoint: false,
     };
     problem.derive()
+}
+
+/// The coefficients of a definition of drifts and kicks one after another; `None` for one of anything else.
+///
+/// # Errors
+/// As [`Definition::derive`], without places.
+pub(crate) fn splitting(definition: &Definition) -> Result<Option<Exact>, ErrorKind> {
+    let unlimited = Limits { stages: usize::MAX };
+    let problem = Problem::read(definition, &unlimited).map_err(|errors| *first(errors).kind)?;
+    let sequence = problem.sequence();
+    sequence.map(|sequence| sequence.exact()).transpose()
+}
+
+/// The first of some errors.
+fn first(mut errors: Vec<Error>) -> Error {
+    if errors.is_empty() {
+        let message = "this definition cannot be derived".to_owned();
+        return ErrorKind::Definition { message }.into();
+    }
+    errors.swap_remove(0)
 }
 
 #[cfg(test)]

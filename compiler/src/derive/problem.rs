@@ -1,6 +1,10 @@
 //! The parts of a definition, read: what is to be derived.
 
+use super::based::Based;
 use super::composition::{self, Step};
+use super::kind::Kind;
+use super::sequence::Sequence;
+use super::splitting::Splitting;
 use crate::basis::Basis;
 use crate::definition::{Definition, Key};
 use crate::error::{Error, ErrorKind};
@@ -10,6 +14,7 @@ use crate::quadrature::{Nodes, check_stages};
 use crate::symbolic::Constant;
 
 /// A definition whose texts are read.
+#[derive(Clone)]
 pub struct Problem {
     pub construction: Construction,
     /// Whether positions and momenta are exchanged in the end.
@@ -18,7 +23,8 @@ pub struct Problem {
     pub adjoint: bool,
 }
 
-/// The constructions of [`super`], and coefficients that are given.
+/// The constructions of [`super`], coefficients that are given, and what is made of other methods.
+#[derive(Clone)]
 pub enum Construction {
     /// As many functions as nodes.
     Collocation { basis: Basis, nodes: Nodes },
@@ -35,11 +41,34 @@ pub enum Construction {
         b: Vec<Constant>,
         momenta: Momenta,
     },
+    /// Drifts and kicks one after another.
+    Splitting(Splitting),
+    /// Steps of one base method one after another.
+    Based(Box<Based>),
     /// Steps of other methods one after another.
     Composition { steps: Vec<Step> },
 }
 
+impl Construction {
+    /// What the step does, if it makes kicks and drifts.
+    pub fn sequence(&self) -> Option<Sequence> {
+        match self {
+            Construction::Splitting(splitting) => Some(splitting.sequence()),
+            Construction::Based(based) => based.sequence(),
+            Construction::Composition { steps } => Sequence::joined(
+                steps
+                    .iter()
+                    .map(|step| (&step.fraction, step.method.sequence())),
+            ),
+            Construction::Collocation { .. }
+            | Construction::Galerkin { .. }
+            | Construction::Given { .. } => None,
+        }
+    }
+}
+
 /// The coefficients for momenta beside given ones for positions.
+#[derive(Clone)]
 pub enum Momenta {
     /// `ã = a`, `b̃ = b`.
     Equal,
@@ -62,34 +91,28 @@ impl Problem {
     /// Everything that is wrong with them, one error a part at most.
     pub fn read(definition: &Definition, limits: &Limits) -> Result<Self, Vec<Error>> {
         let mut errors = Errors(Vec::new());
-        let has = |key| definition.get(key).is_some();
-        let derived = [Key::Basis, Key::Nodes, Key::Quadrature, Key::Weights];
-        let given = [Key::A, Key::B, Key::ATilde, Key::BTilde];
         let exchange = errors
             .note(switch(definition, Key::Exchange))
             .unwrap_or_default();
         let adjoint = errors
             .note(switch(definition, Key::Adjoint))
             .unwrap_or_default();
-        let construction = if let Some(text) = definition.get(Key::Compose) {
-            if let Some(other) = derived.into_iter().chain(given).find(|&key| has(key)) {
-                errors.0.push(misfit(format!(
-                    "`compose` has the definitions of its methods in it: leave out `{}`, or `compose`",
-                    other.name()
-                )));
+        let kind = Kind::of(definition);
+        if let Some((key, _)) = definition.parts().find(|&(key, _)| !kind.takes(key)) {
+            errors.push(misfit(kind.refuses(key)));
+        }
+        let construction = match kind {
+            Kind::Composition => {
+                let text = definition.get(Key::Compose).unwrap_or_default();
+                let steps = composition::read(text, limits).map_err(|all| errors.extend(all));
+                steps.ok().map(|steps| Construction::Composition { steps })
             }
-            let steps = composition::read(text, limits).map_err(|all| errors.0.extend(all));
-            steps.ok().map(|steps| Construction::Composition { steps })
-        } else if given.into_iter().any(has) {
-            if let Some(other) = derived.into_iter().find(|&key| has(key)) {
-                errors.0.push(misfit(format!(
-                    "coefficients are given by `a` and `b`: leave out `{}`, or them",
-                    other.name()
-                )));
+            Kind::Based => Based::read(definition, limits, &mut errors).map(Construction::from),
+            Kind::Splitting => {
+                Splitting::read(definition, limits, &mut errors).map(Construction::Splitting)
             }
-            read_given(definition, limits, &mut errors)
-        } else {
-            read_derived(definition, limits, &mut errors)
+            Kind::Given => read_given(definition, limits, &mut errors),
+            Kind::Derived => read_derived(definition, limits, &mut errors),
         };
         match construction {
             Some(construction) if errors.0.is_empty() => Ok(Problem {
@@ -152,6 +175,8 @@ impl Problem {
                 let parts = composition.parts();
                 parts.map(|(key, text)| (key, text.to_owned())).collect()
             }
+            Construction::Splitting(splitting) => splitting.parts(),
+            Construction::Based(based) => based.parts(),
         };
         for (key, on) in [(Key::Exchange, self.exchange), (Key::Adjoint, self.adjoint)] {
             if on {
@@ -161,36 +186,61 @@ impl Problem {
         Definition::new(parts)
     }
 
-    /// The number of stages of the method.
+    /// What the step does, if it makes kicks and drifts one after another: a splitting, or what is made of
+    /// splittings only.
+    pub fn sequence(&self) -> Option<Sequence> {
+        let mut sequence = self.construction.sequence()?;
+        if self.exchange {
+            sequence = sequence.exchanged();
+        }
+        Some(if self.adjoint {
+            sequence.reversed()
+        } else {
+            sequence
+        })
+    }
+
+    /// The number of stages of the method, or a bound for it.
     pub fn stages(&self) -> usize {
         match &self.construction {
             Construction::Collocation { nodes, .. } | Construction::Galerkin { nodes, .. } => {
                 nodes.len()
             }
             Construction::Given { b, .. } => b.len(),
-            Construction::Composition { steps } => {
-                steps.iter().map(|step| step.method.stages()).sum()
-            }
+            Construction::Splitting(splitting) => splitting.sequence().stages(),
+            Construction::Based(based) => based.stages(),
+            Construction::Composition { steps } => match self.construction.sequence() {
+                Some(sequence) => sequence.stages(),
+                None => steps.iter().map(|step| step.method.stages()).sum(),
+            },
         }
     }
 }
 
 /// Errors that are reported together.
-struct Errors(Vec<Error>);
+pub(super) struct Errors(Vec<Error>);
 
 impl Errors {
-    fn note<T>(&mut self, result: Result<T, Error>) -> Option<T> {
-        result.map_err(|error| self.0.push(error)).ok()
+    pub fn note<T>(&mut self, result: Result<T, Error>) -> Option<T> {
+        result.map_err(|error| self.push(error)).ok()
+    }
+
+    pub fn push(&mut self, error: Error) {
+        self.0.push(error);
+    }
+
+    pub fn extend(&mut self, errors: Vec<Error>) {
+        self.0.extend(errors);
     }
 }
 
 /// An error about the parts together.
-fn misfit(message: String) -> Error {
+pub(super) fn misfit(message: String) -> Error {
     ErrorKind::Definition { message }.into()
 }
 
 /// An error about one part.
-fn misfit_at(definition: &Definition, key: Key, message: String) -> Error {
+pub(super) fn misfit_at(definition: &Definition, key: Key, message: String) -> Error {
     let text = definition.get(key).unwrap_or_default();
     let input = Input {
         name: key.name(),
@@ -199,7 +249,7 @@ fn misfit_at(definition: &Definition, key: Key, message: String) -> Error {
     input.error(&(0..text.len()), ErrorKind::Definition { message })
 }
 
-fn switch(definition: &Definition, key: Key) -> Result<bool, Error> {
+pub(super) fn switch(definition: &Definition, key: Key) -> Result<bool, Error> {
     match definition.get(key) {
         None | Some("false") => Ok(false),
         Some("true") => Ok(true),
@@ -233,7 +283,7 @@ fn read_derived(
     let weights = weights.map(|text| errors.note(read_vector(Key::Weights, text)));
     let missing = |what: &str| {
         misfit(format!(
-            "{what}a method needs `basis` with `nodes` or `quadrature`, or `a` and `b`, or `compose`, or a file"
+            "{what}a method needs `basis` with `nodes` or `quadrature`, or `a` and `b`, or `kick` and `drift`, or a `base`, or `compose`, or a file"
         ))
     };
     match (basis, square, rectangular, weights) {
@@ -254,7 +304,7 @@ fn read_derived(
                     weights.len(),
                     nodes.len()
                 );
-                errors.0.push(misfit_at(definition, Key::Weights, message));
+                errors.push(misfit_at(definition, Key::Weights, message));
                 return None;
             }
             // The nodes stand in ascending order now, and the weights go with them.
@@ -266,7 +316,7 @@ fn read_derived(
             })
         }
         (_, Some(_), Some(_), _) => {
-            errors.0.push(misfit(
+            errors.push(misfit(
                 "`nodes` are those of the square construction and `quadrature` of the rectangular one: leave out one of them"
                     .to_owned(),
             ));
@@ -274,19 +324,19 @@ fn read_derived(
         }
         (_, _, None, Some(_)) => {
             let message = "`weights` go with `quadrature`; with `nodes` they follow from the basis";
-            errors.0.push(misfit(message.to_owned()));
+            errors.push(misfit(message.to_owned()));
             None
         }
         (None, None, None, None) => {
-            errors.0.push(missing(""));
+            errors.push(missing(""));
             None
         }
         (None, ..) => {
-            errors.0.push(missing("`basis` is missing; "));
+            errors.push(missing("`basis` is missing; "));
             None
         }
         (Some(_), None, None, None) => {
-            errors.0.push(missing("`nodes` are missing; "));
+            errors.push(missing("`nodes` are missing; "));
             None
         }
     }
@@ -300,7 +350,7 @@ fn read_given(
     let (Some(a), Some(b)) = (definition.get(Key::A), definition.get(Key::B)) else {
         let message =
             "given coefficients need both `a` and `b`; `a_tilde` and `b_tilde` may be left out";
-        errors.0.push(misfit(message.to_owned()));
+        errors.push(misfit(message.to_owned()));
         return None;
     };
     let a = errors.note(read_matrix(Key::A, a, limits));
@@ -326,7 +376,7 @@ fn read_given(
         },
         (None | Some(None), Some(_)) => {
             let message = "`b_tilde` goes with a given `a_tilde`";
-            errors.0.push(misfit(message.to_owned()));
+            errors.push(misfit(message.to_owned()));
             return None;
         }
     };
@@ -337,7 +387,7 @@ fn read_given(
                 "`{}` has {found} entries or rows where `a` has {stages} rows",
                 key.name()
             );
-            errors.0.push(misfit_at(definition, key, message));
+            errors.push(misfit_at(definition, key, message));
         }
     };
     check(Key::B, b.len());
@@ -352,7 +402,7 @@ fn constants(input: Input<'_>, items: &[Expression]) -> Result<Vec<Constant>, Er
     items.iter().map(|item| item.constant(input)).collect()
 }
 
-fn read_vector(key: Key, text: &str) -> Result<Vec<Constant>, Error> {
+pub(super) fn read_vector(key: Key, text: &str) -> Result<Vec<Constant>, Error> {
     let input = Input {
         name: key.name(),
         text,

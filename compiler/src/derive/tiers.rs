@@ -29,26 +29,37 @@ impl Problem {
     }
 
     /// Derives the coefficients.
-    fn exact(&self) -> Result<Exact, ErrorKind> {
-        let mut exact = match &self.construction {
-            Construction::Collocation { basis, nodes } => collocation(basis, nodes)?,
-            Construction::Galerkin {
-                basis,
-                nodes,
-                weights,
-            } => galerkin(basis, nodes, weights.as_deref())?,
-            Construction::Given { a, b, momenta } => given(a, b, momenta)?,
-            Construction::Composition { steps } => {
-                let methods = steps.iter().map(|step| step.method.exact());
-                let methods: Vec<Exact> = methods.collect::<Result<_, _>>()?;
-                let fractions = steps.iter().map(|step| &step.fraction);
-                concatenate(&fractions.zip(&methods).collect::<Vec<_>>())?
-            }
-        };
+    pub fn exact(&self) -> Result<Exact, ErrorKind> {
+        let mut exact = self.construction.exact()?;
         if self.exchange {
             exact = exact.exchanged();
         }
         Ok(if self.adjoint { exact.adjoint() } else { exact })
+    }
+}
+
+impl Construction {
+    fn exact(&self) -> Result<Exact, ErrorKind> {
+        match self {
+            Construction::Collocation { basis, nodes } => collocation(basis, nodes),
+            Construction::Galerkin {
+                basis,
+                nodes,
+                weights,
+            } => galerkin(basis, nodes, weights.as_deref()),
+            Construction::Given { a, b, momenta } => given(a, b, momenta),
+            Construction::Splitting(splitting) => splitting.sequence().exact(),
+            Construction::Based(based) => based.exact(),
+            Construction::Composition { steps } => {
+                if let Some(sequence) = self.sequence() {
+                    return sequence.exact();
+                }
+                let methods = steps.iter().map(|step| step.method.exact());
+                let methods: Vec<Exact> = methods.collect::<Result<_, _>>()?;
+                let fractions = steps.iter().map(|step| &step.fraction);
+                concatenate(&fractions.zip(&methods).collect::<Vec<_>>())
+            }
+        }
     }
 }
 
@@ -220,7 +231,7 @@ fn elements<F: Field>(
 }
 
 /// A constant that the field that was made for it does not hold; there are none.
-fn outside() -> ErrorKind {
+pub(super) fn outside() -> ErrorKind {
     ErrorKind::Definition {
         message: "a constant lies outside the field of the coefficients".to_owned(),
     }

@@ -2,7 +2,7 @@
 
 use super::json::evidence;
 use crate::order::{ClassOrder, HamiltonianClass, SymplecticityOrder};
-use crate::properties::Evidence;
+use crate::properties::{Evidence, Property};
 use crate::stability::{EndPoint, RungeKuttaStability, Stability};
 use crate::tableau::Tableau;
 
@@ -76,6 +76,12 @@ pub(super) fn sections(
         .map(|class| (class.name(), class_order(report.class(class))))
         .into();
     order.push(("symplecticity", symplecticity(tableau)));
+    for (name, _, property) in separable_only(tableau) {
+        let (found, bits) = evidence(property.evidence);
+        let bits = bits.map_or(Absent, |bits| Literal(bits.to_string()));
+        let entries = vec![("evidence", Text(found.to_owned())), ("bits", bits)];
+        order.push((name, Table(entries)));
+    }
     let stability = if tableau.stages() > STABILITY_STAGES {
         vec![("omitted", Text(omitted()))]
     } else {
@@ -87,6 +93,32 @@ pub(super) fn sections(
 /// Stability of methods with more stages is left out of files: the real roots of polynomials of twice that
 /// degree take seconds and more. [`Tableau::stability`] has no such bound.
 pub const STABILITY_STAGES: usize = 12;
+
+/// What a method is for separable Hamiltonians and is not known to be for all: its names in files and for people.
+pub(super) fn separable_only(tableau: &Tableau) -> Vec<(&'static str, &'static str, Property)> {
+    let properties = tableau.properties();
+    if properties.symplectic.holds && properties.symmetric.holds {
+        return Vec::new();
+    }
+    let separable = tableau.separable_properties();
+    let both = [
+        (
+            ("symplectic_separable", "symplectic(separable)"),
+            &properties.symplectic,
+            separable.symplectic,
+        ),
+        (
+            ("symmetric_separable", "symmetric(separable)"),
+            &properties.symmetric,
+            separable.symmetric,
+        ),
+    ];
+    let only = both
+        .into_iter()
+        .filter(|(_, general, found)| !general.holds && found.holds);
+    only.map(|((key, words), _, found)| (key, words, found))
+        .collect()
+}
 
 fn omitted() -> String {
     format!("more than {STABILITY_STAGES} stages")

@@ -1,8 +1,9 @@
 //! The table for people: the partitioned Butcher tableau of LZ §4.4 and the properties.
 
+use super::facts::separable_only;
 use super::layout::{left, right, width, widths};
 use crate::coefficients::Coefficients;
-use crate::properties::{Evidence, Properties};
+use crate::properties::Evidence;
 use crate::tableau::Tableau;
 
 /// Exact forms that are longer than this give way to decimals.
@@ -75,7 +76,7 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
         ));
     }
     text.push_str("\nproperties\n");
-    push_lines(&mut text, &property_lines(&tableau.properties()));
+    push_lines(&mut text, &property_lines(tableau));
     text
 }
 
@@ -153,10 +154,16 @@ fn table(
     lines
 }
 
-fn property_lines(properties: &Properties) -> Vec<String> {
+fn property_lines(tableau: &Tableau) -> Vec<String> {
+    let properties = tableau.properties();
+    let separable = separable_only(tableau);
+    let separable = separable
+        .iter()
+        .map(|(_, name, property)| (*name, property));
     let rows: Vec<Vec<String>> = properties
         .all()
         .into_iter()
+        .chain(separable)
         .map(|(name, property)| {
             let evidence = match property.evidence {
                 Evidence::Proved => "proved".to_owned(),

@@ -9,7 +9,7 @@ mod concatenate;
 pub(crate) use concatenate::concatenate;
 
 use crate::definition::Definition;
-use crate::derive::check_depth;
+use crate::derive::{check_depth, splitting};
 use crate::error::ErrorKind;
 use crate::symbolic::Constant;
 use crate::tableau::Tableau;
@@ -102,6 +102,9 @@ impl Tableau {
     /// and so with tildes for `P_i`, with the sign of the forces. No methods at all make the step that does nothing,
     /// which has no stages and is refused.
     ///
+    /// Where all methods are splittings, so is the result: neighbouring drifts and kicks are one there, so that it has
+    /// fewer stages than the methods together.
+    ///
     /// The coefficients are in the field that the nodes or coefficients of all methods and the `γ_k` generate,
     /// where it is a constant field, and otherwise certified enclosures. The result has no name and no source; its
     /// definition is made of the definitions of the methods, and derives it again.
@@ -130,6 +133,11 @@ impl Tableau {
         let definition = Definition::composition(parts);
         for (_, text) in definition.parts() {
             check_depth(text)?;
+        }
+        if !methods.is_empty()
+            && let Some(exact) = splitting(&definition)?
+        {
+            return Ok(Tableau::new(definition, exact));
         }
         let parts: Vec<_> = methods
             .iter()

@@ -8,12 +8,14 @@ mod end_stages;
 mod equal_matrices;
 mod explicit;
 mod positive_weights;
+mod separable;
 mod symmetric;
 mod symplectic;
 
 use std::borrow::Cow;
 use std::fmt;
 
+pub use self::separable::SeparableProperties;
 pub(crate) use self::symmetric::Symmetry;
 use crate::algebra::{Number, StageAlgebra, Zero};
 use crate::coefficients::{Coefficients, subscript};

@@ -11,6 +11,20 @@ pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
         Ok(evidence) => evidence,
         Err((i, value)) => return Property::refuted(format!("b_{i} − b̃_{i} = {value}")),
     };
+    match decide_matrices(examined) {
+        Property {
+            holds: true,
+            evidence,
+            ..
+        } => Property::holding(evidence.and(weights), None),
+        refuted => refuted,
+    }
+}
+
+/// Decides `b_i ã_ij + b̃_j a_ji = b_i b̃_j`, which is enough for separable Hamiltonians.
+pub(super) fn decide_matrices<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
+    let pair = examined.pair;
+    let algebra = &*pair.algebra;
     let momenta = algebra.scale_rows(&pair.a_tilde, &pair.b);
     let positions = algebra.transpose(&algebra.scale_rows(&pair.a, &pair.b_tilde));
     let residual = algebra.subtract_matrices(
@@ -18,7 +32,7 @@ pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
         &algebra.outer(&pair.b, &pair.b_tilde),
     );
     match vanishing_matrix(algebra, &residual) {
-        Ok(evidence) => Property::holding(evidence.and(weights), None),
+        Ok(evidence) => Property::holding(evidence, None),
         Err(Entry {
             index,
             transposed,

@@ -9,14 +9,14 @@ use symplectic_compiler::{Definition, Error, Key, check, export};
 use crate::output::{self, OutputOptions};
 
 /// Derive a tableau, with proofs: from a basis at nodes, from a basis and a quadrature formula, from given
-/// coefficients, or as a composition of methods.
+/// coefficients, from kicks and drifts, or as a composition of methods.
 ///
 /// Expressions have numbers, t, pi, e, + - * / ^, sqrt, cbrt, sin, cos, tan, exp, cosh, sinh and root(p, k), the
 /// k-th real root of a polynomial p in t.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// A TOML file with the definition instead of the options below.
-    #[arg(value_name = "FILE", conflicts_with_all = ["basis", "nodes", "quadrature", "weights", "a", "b", "a_tilde", "b_tilde", "compose", "exchange", "adjoint"])]
+    #[arg(value_name = "FILE", conflicts_with_all = ["basis", "nodes", "quadrature", "base", "weights", "a", "b", "a_tilde", "b_tilde", "kick", "drift", "first", "compose", "symmetric", "exchange", "adjoint"])]
     file: Option<PathBuf>,
     /// `polynomial(s)`, `legendre(s)`, or a list of functions of t: "1, cos(pi*t), sin(pi*t)".
     #[arg(long, allow_hyphen_values = true)]
@@ -27,7 +27,12 @@ pub(crate) struct Arguments {
     /// Nodes of the rectangular construction, at least as many as there are functions.
     #[arg(long, allow_hyphen_values = true)]
     quadrature: Option<String>,
-    /// The weights of the quadrature, if not the interpolatory ones: "1/6, 2/3, 1/6".
+    /// A method to compose with `--weights`: a name of `symplectic list`, or a definition in brackets:
+    /// "[kick: [1/2, 1/2], drift: [1, 0]]".
+    #[arg(long, allow_hyphen_values = true, value_name = "METHOD")]
+    base: Option<String>,
+    /// The weights of the quadrature, if not the interpolatory ones: "1/6, 2/3, 1/6". Beside a base the fractions of
+    /// its steps: "1/2, adjoint(1/2)", "triple_jump(4)", "suzuki(4)".
     #[arg(long, allow_hyphen_values = true)]
     weights: Option<String>,
     /// Given coefficients of the position stages, row by row: "[[0, 0], [1/2, 1/2]]".
@@ -42,10 +47,22 @@ pub(crate) struct Arguments {
     /// Given weights of the forces [default: b].
     #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
     b_tilde: Option<String>,
+    /// The kicks of a splitting, p -= kick_i h dU/dq: "1/2, 1/2".
+    #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
+    kick: Option<String>,
+    /// The drifts of a splitting, q += drift_i h dT/dp, each after the kick of the same number: "1, 0".
+    #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
+    drift: Option<String>,
+    /// Which of the two comes first: kick or drift [default: kick].
+    #[arg(long, value_name = "FLOW")]
+    first: Option<String>,
     /// Steps of other methods one after another, each with its fraction of the step:
     /// "[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]".
     #[arg(long, allow_hyphen_values = true, value_name = "STEPS")]
     compose: Option<String>,
+    /// Mirror a splitting, or the weights of a base: what is written last stands in the middle, once.
+    #[arg(long)]
+    symmetric: bool,
     /// Exchange the coefficients of positions and momenta.
     #[arg(long)]
     exchange: bool,
@@ -79,17 +96,23 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
 impl Arguments {
     fn definition(&self) -> Definition {
         let switch = |on: bool| on.then(|| "true".to_owned());
+        let symmetric = switch(self.symmetric);
         let (exchange, adjoint) = (switch(self.exchange), switch(self.adjoint));
         let parts = [
             (Key::Basis, &self.basis),
             (Key::Nodes, &self.nodes),
             (Key::Quadrature, &self.quadrature),
+            (Key::Base, &self.base),
             (Key::Weights, &self.weights),
             (Key::A, &self.a),
             (Key::B, &self.b),
             (Key::ATilde, &self.a_tilde),
             (Key::BTilde, &self.b_tilde),
+            (Key::Kick, &self.kick),
+            (Key::Drift, &self.drift),
+            (Key::First, &self.first),
             (Key::Compose, &self.compose),
+            (Key::Symmetric, &symmetric),
             (Key::Exchange, &exchange),
             (Key::Adjoint, &adjoint),
         ];

@@ -3,9 +3,11 @@
 use std::process::ExitCode;
 
 use clap::Args;
+use symplectic_compiler::export::STABILITY_STAGES;
 use symplectic_compiler::order::HamiltonianClass;
-use symplectic_compiler::{Error, FAMILIES, Tier, catalogue};
+use symplectic_compiler::{Error, FAMILIES, Tableau, Tier, catalogue};
 
+use crate::choice::{self, Choice};
 use crate::output;
 
 /// List the methods of the catalogue and the quadrature rules.
@@ -14,11 +16,16 @@ pub(crate) struct Arguments {
     /// What is proved of every method: order per class, properties, stability, as a table in Markdown.
     #[arg(long)]
     facts: bool,
+    #[command(flatten)]
+    choice: Choice,
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     if arguments.facts {
         return output::print(&facts()?);
+    }
+    if arguments.choice.is_made() {
+        return output::print(&choice::table(&arguments.choice)?);
     }
     let mut methods = vec![["name", "stages", "definition", "title"].map(str::to_owned)];
     methods.extend(catalogue::entries().map(|entry| {
@@ -70,22 +77,24 @@ fn facts() -> Result<String, Error> {
             format!("{at_least}{}", found.order)
         });
         let properties = tableau.properties();
+        let separable = tableau.separable_properties();
         let held: Vec<&str> = [
-            ("symmetric", &properties.symmetric),
+            ("symmetric", &separable.symmetric),
             ("explicit", &properties.explicit),
             ("ã = a", &properties.equal_matrices),
         ]
         .into_iter()
         .filter_map(|(word, property)| property.holds.then_some(word))
+        .chain((!properties.symplectic.holds).then_some("separable H only"))
         .chain((tableau.tier() == Tier::Enclosure).then_some("verified"))
         .collect();
-        let intervals = tableau.stability().intervals;
-        let first = intervals
-            .first()
-            .map_or("∅".to_owned(), ToString::to_string);
-        let more = if intervals.len() > 1 { " ∪ …" } else { "" };
+        let stable = if tableau.stages() > STABILITY_STAGES {
+            "not computed".to_owned()
+        } else {
+            first_interval(&tableau)
+        };
         text.push_str(&format!(
-            "| {} | {} | {} | {first}{more} |\n",
+            "| {} | {} | {} | {stable} |\n",
             entry.name,
             orders.join(", "),
             held.join(", "),
@@ -94,8 +103,18 @@ fn facts() -> Result<String, Error> {
     Ok(text)
 }
 
+/// The first interval of stable steps.
+fn first_interval(tableau: &Tableau) -> String {
+    let intervals = tableau.stability().intervals;
+    let first = intervals
+        .first()
+        .map_or("∅".to_owned(), ToString::to_string);
+    let more = if intervals.len() > 1 { " ∪ …" } else { "" };
+    format!("{first}{more}")
+}
+
 /// A table with its columns aligned.
-fn aligned<const N: usize>(rows: &[[String; N]]) -> String {
+pub(crate) fn aligned<const N: usize>(rows: &[[String; N]]) -> String {
     let length = |cell: &String| cell.chars().count();
     let mut widths = [0; N];
     for row in rows {

@@ -3,6 +3,7 @@
 //! Exit status: 0; 1 where a file's entries do not fit; 2 for bad input.
 
 mod check;
+mod choice;
 mod derive;
 mod list;
 mod output;

@@ -6,7 +6,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::{Bodies, base, evaluation, evaluation_name, literal};
+use super::{Bodies, base, evaluation_name, literal};
 use crate::arithmetic::rational::ratio;
 use crate::schedule::{Class, Node, StageValue, StepGraph};
 
@@ -26,7 +26,7 @@ impl<'g, 'a> Chain<'g, 'a> {
         let velocities = (0..graph.velocities.len()).map(Node::Velocity);
         let nodes = forces.chain(velocities);
         let mut rest: Vec<Node> = nodes
-            .filter(|&node| !evaluation(graph, node).weight.is_zero())
+            .filter(|&node| !graph.evaluation(node).weight.is_zero())
             .collect();
         let mut chain = Chain {
             graph,
@@ -48,20 +48,18 @@ impl<'g, 'a> Chain<'g, 'a> {
 
     /// Whether exactly those evaluations have been applied that an evaluation waits for.
     fn is_ready(&self, node: Node) -> Option<bool> {
-        let argument = self.argument(node)?.applied.as_ref()?;
-        let is_velocity = |node: &&Node| matches!(node, Node::Velocity(_));
-        let wants_velocities = matches!(node, Node::Force(_));
-        let applied = self.evaluations.iter();
-        let applied: Vec<usize> = applied
-            .filter(|node| is_velocity(node) == wants_velocities)
-            .map(|&node| super::index(node))
-            .collect();
-        Some(applied.len() == argument.len() && applied.iter().all(|j| argument.contains(j)))
+        let argument = self.argument(node)?.applied.as_deref()?;
+        let term = match node {
+            Node::Force(_) => Node::Velocity,
+            _ => Node::Force,
+        };
+        let mut applied = argument.iter().enumerate();
+        Some(applied.all(|(j, applied)| self.evaluations.contains(&term(j)) == *applied))
     }
 
     /// The value that an evaluation sees.
     fn argument(&self, node: Node) -> Option<&'g StageValue<'a>> {
-        let evaluation = evaluation(self.graph, node);
+        let evaluation = self.graph.evaluation(node);
         match node {
             Node::Force(_) => self.graph.positions.get(evaluation.position?),
             _ => self.graph.momenta.get(evaluation.momentum?),
@@ -74,7 +72,7 @@ impl<'g, 'a> Chain<'g, 'a> {
         else {
             return false;
         };
-        let at = |node, time| evaluation(self.graph, node).time.equals(&ratio(time, 1));
+        let at = |node, time| self.graph.evaluation(node).time.equals(&ratio(time, 1));
         first != last
             && evaluation_name(first) == evaluation_name(last)
             && self.argument(last).is_some_and(|value| value.is_end)
@@ -94,7 +92,7 @@ impl<'g, 'a> Chain<'g, 'a> {
             };
             let q = value(moved[0], quote!(q1), quote!(step.q));
             let p = value(moved[1], quote!(p1), quote!(step.p));
-            let evaluation = evaluation(self.graph, node);
+            let evaluation = self.graph.evaluation(node);
             let time = literal::coefficient(&evaluation.time);
             let weight = literal::coefficient(&evaluation.weight);
             let function = evaluation_name(node);

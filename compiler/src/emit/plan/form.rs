@@ -27,7 +27,7 @@ impl Form {
     /// The factors and terms of a stage value as two arguments: `weights, [terms]`.
     pub(super) fn sum(&self, graph: &StepGraph<'_>, node: Node) -> TokenStream {
         let term = terms_of(node);
-        let value = super::value(graph, node);
+        let value = graph.value(node);
         let coefficients = value.map_or(&[][..], |value| &value.coefficients);
         let nonzero = (0..coefficients.len()).filter(|&j| !coefficients[j].is_zero());
         let nonzero: Vec<usize> = nonzero.collect();

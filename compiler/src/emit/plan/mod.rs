@@ -2,7 +2,7 @@
 
 mod chain;
 mod form;
-mod phases;
+mod stored;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -10,11 +10,11 @@ use quote::quote;
 use super::{extrapolation, literal, literal::identifier, relative};
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
-use crate::schedule::{Class, Evaluation, Node, StageValue, StepGraph};
+use crate::schedule::{Class, Node, StepGraph};
 use crate::tableau::Tableau;
 use chain::Chain;
 use form::Form;
-use phases::Phases;
+use stored::Stored;
 
 /// What the functions of a plan consist of.
 struct Bodies {
@@ -42,7 +42,7 @@ pub(super) fn implementation(
     let graph = StepGraph::new(class, tableau, numbers);
     let bodies = match Chain::new(&graph) {
         Some(chain) => chain.bodies(),
-        None => Phases::new(&graph, Form::new(&graph)).bodies(),
+        None => Stored::new(&graph, Form::new(&graph)).bodies(),
     };
     let Bodies {
         stages,
@@ -106,21 +106,6 @@ pub(super) fn implementation(
                 #carry
             }
         }
-    }
-}
-
-fn value<'g, 'a>(graph: &'g StepGraph<'a>, node: Node) -> Option<&'g StageValue<'a>> {
-    match node {
-        Node::Position(i) => graph.positions.get(i),
-        Node::Momentum(i) => graph.momenta.get(i),
-        Node::Force(_) | Node::Velocity(_) => None,
-    }
-}
-
-fn evaluation<'g, 'a>(graph: &'g StepGraph<'a>, node: Node) -> &'g Evaluation<'a> {
-    match node {
-        Node::Position(i) | Node::Force(i) => &graph.forces[i],
-        Node::Momentum(i) | Node::Velocity(i) => &graph.velocities[i],
     }
 }
 

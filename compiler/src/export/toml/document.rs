@@ -58,12 +58,17 @@ struct ProvenanceTable {
     basis: Option<Spanned<String>>,
     nodes: Option<Spanned<String>>,
     quadrature: Option<Spanned<String>>,
+    base: Option<Spanned<String>>,
     weights: Option<Spanned<String>>,
     a: Option<Spanned<String>>,
     b: Option<Spanned<String>>,
     a_tilde: Option<Spanned<String>>,
     b_tilde: Option<Spanned<String>>,
+    kick: Option<Spanned<String>>,
+    drift: Option<Spanned<String>>,
+    first: Option<Spanned<String>>,
     compose: Option<Spanned<String>>,
+    symmetric: Option<Spanned<bool>>,
     exchange: Option<Spanned<bool>>,
     adjoint: Option<Spanned<bool>>,
     tier: Option<Spanned<String>>,
@@ -76,17 +81,23 @@ impl ProvenanceTable {
             let value = value.as_ref()?;
             Some(Spanned::new(value.span(), value.get_ref().to_string()))
         };
+        let symmetric = switch(&self.symmetric);
         let (exchange, adjoint) = (switch(&self.exchange), switch(&self.adjoint));
         let texts = [
             (Key::Basis, &self.basis),
             (Key::Nodes, &self.nodes),
             (Key::Quadrature, &self.quadrature),
+            (Key::Base, &self.base),
             (Key::Weights, &self.weights),
             (Key::A, &self.a),
             (Key::B, &self.b),
             (Key::ATilde, &self.a_tilde),
             (Key::BTilde, &self.b_tilde),
+            (Key::Kick, &self.kick),
+            (Key::Drift, &self.drift),
+            (Key::First, &self.first),
             (Key::Compose, &self.compose),
+            (Key::Symmetric, &symmetric),
             (Key::Exchange, &exchange),
             (Key::Adjoint, &adjoint),
         ];

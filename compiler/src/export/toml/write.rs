@@ -12,6 +12,10 @@ use crate::tableau::{Exact, Tableau};
 /// Rows that are wider than this have one entry a line.
 const WIDEST: usize = 110;
 
+/// Exact forms that are longer together than this are left out: the definition, of which they are derived, is as exact
+/// and shorter.
+const LONGEST_EXPRESSIONS: usize = 50_000;
+
 const HEAD: &str = "\
 # A symplectic partitioned Runge–Kutta method, written by `symplectic`.
 # `symplectic check` derives it anew, proves its properties and compares every entry.
@@ -116,6 +120,9 @@ fn write_expressions(text: &mut String, tableau: &Tableau) {
         let form = form.as_deref().unwrap_or_default();
         quoted(form)
     });
+    if forms.iter().map(String::len).sum::<usize>() > LONGEST_EXPRESSIONS {
+        return;
+    }
     text.push_str("\n[exact]\n");
     write_vector(text, "b", &forms.b);
     write_vector(text, "b_tilde", &forms.b_tilde);

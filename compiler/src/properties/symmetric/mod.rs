@@ -3,6 +3,8 @@
 mod dense;
 mod node;
 
+use num_rational::BigRational;
+
 use super::{Evidence, Examined, Property};
 use crate::algebra::{Number, StageAlgebra};
 use crate::arithmetic::interval::Interval;
@@ -57,8 +59,20 @@ fn search(numbers: &Coefficients<Number<'_>>) -> Result<Permutation, Property> {
         let residual = b[l].subtract(&b[j]);
         residual.sign().is_none_or(std::cmp::Ordering::is_eq)
     };
+    // Summed over j: c_i + c_σ(i) = Σ b, which leaves few stages to choose from.
+    let total = |b: &[Interval]| {
+        let zero = Interval::enclosing(&BigRational::default(), bits);
+        b.iter().fold(zero, |sum, weight| sum.add(weight))
+    };
+    let totals = [total(&enclosed.b), total(&enclosed.b_tilde)];
+    let mirrored = |c: &[Interval], total: &Interval, i: usize, k: usize| {
+        let residual = c[i].add(&c[k]).subtract(total);
+        residual.sign().is_none_or(std::cmp::Ordering::is_eq)
+    };
     let agrees = |from: (usize, usize), to: (usize, usize)| {
-        fits(&enclosed.a, &enclosed.b, from, to)
+        mirrored(&enclosed.c, &totals[0], from.0, to.0)
+            && mirrored(&enclosed.c_tilde, &totals[1], from.0, to.0)
+            && fits(&enclosed.a, &enclosed.b, from, to)
             && fits(&enclosed.a_tilde, &enclosed.b_tilde, from, to)
             && equal(&enclosed.b, from.1, to.1)
             && equal(&enclosed.b_tilde, from.1, to.1)
@@ -118,7 +132,6 @@ mod tests {
     use crate::arithmetic::rational::ratio;
     use crate::properties::Evidence;
     use crate::tableau::{Exact, Tableau};
-    use num_rational::BigRational;
 
     /// Two stages that nothing tells apart: all entries of both matrices are the same number.
     fn twins(entry: BigRational) -> Tableau {

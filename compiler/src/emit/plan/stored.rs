@@ -4,49 +4,27 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::form::Form;
-use super::{
-    Bodies, base, evaluation, evaluation_name, extrapolation, index, literal, slot, start, value,
-};
-use crate::arithmetic::rational::ratio;
-use crate::schedule::{Class, Node, Schedule, StageValue, StepGraph};
+use super::{Bodies, base, evaluation_name, extrapolation, index, literal, slot, start};
+use crate::schedule::{Class, Node, Phases, StageValue, StepGraph};
 
-/// The nodes of a step by the function in which they are computed.
-pub(super) struct Phases<'g, 'a> {
+/// A step that stores its stages.
+pub(super) struct Stored<'g, 'a> {
     graph: &'g StepGraph<'a>,
     form: Form,
-    begin: Vec<Node>,
-    coupled: Vec<Node>,
-    finish: Vec<Node>,
+    phases: Phases<'g, 'a>,
     /// Evaluations at the start of the step that are the same as one at the end of the step before.
     carried: Vec<(Node, Node)>,
 }
 
-impl<'g, 'a> Phases<'g, 'a> {
+impl<'g, 'a> Stored<'g, 'a> {
     pub(super) fn new(graph: &'g StepGraph<'a>, form: Form) -> Self {
-        let Schedule {
-            before,
-            coupled,
-            after,
-        } = graph.schedule();
-        let mut begin = before;
-        let mut finish = after;
-        if coupled.is_empty() {
-            // From the first stage on that is the result itself, everything is computed where the
-            // result is written.
-            let is_end = |node: &Node| value(graph, *node).is_some_and(|value| value.is_end);
-            let split = begin.iter().position(is_end).unwrap_or(begin.len());
-            finish.splice(0..0, begin.drain(split..));
-        }
-        let mut phases = Phases {
+        let phases = Phases::new(graph);
+        Stored {
             graph,
             form,
-            begin,
-            coupled,
-            finish,
-            carried: Vec::new(),
-        };
-        phases.carried = phases.carried();
-        phases
+            carried: phases.carried(),
+            phases,
+        }
     }
 
     /// The code of the step.
@@ -58,12 +36,12 @@ impl<'g, 'a> Phases<'g, 'a> {
         let evaluations = |nodes: &[Node]| {
             nodes
                 .iter()
-                .filter(|&&node| value(self.graph, node).is_none())
+                .filter(|&&node| self.graph.value(node).is_none())
                 .count()
         };
         let starts = usize::from(!self.coupled_of_kind(Node::Velocity(0)).is_empty());
         Bodies {
-            coupling: if self.coupled.is_empty() {
+            coupling: if self.phases.coupled.is_empty() {
                 "Explicit"
             } else {
                 "Coupled"
@@ -74,10 +52,10 @@ impl<'g, 'a> Phases<'g, 'a> {
             finish: quote!(#slots #finish),
             carry: self.carry(),
             counts: [
-                evaluations(&self.begin),
+                evaluations(&self.phases.begin),
                 starts,
-                evaluations(&self.coupled),
-                evaluations(&self.finish),
+                evaluations(&self.phases.coupled),
+                evaluations(&self.phases.finish),
             ],
             carried: self.carried.len(),
         }
@@ -86,11 +64,11 @@ impl<'g, 'a> Phases<'g, 'a> {
     /// The coupled nodes of the kind of a node.
     fn coupled_of_kind(&self, kind: Node) -> Vec<Node> {
         let same = |node: &&Node| std::mem::discriminant(*node) == std::mem::discriminant(&kind);
-        self.coupled.iter().filter(same).copied().collect()
+        self.phases.coupled.iter().filter(same).copied().collect()
     }
 
     fn begin(&self) -> TokenStream {
-        let explicit = self.begin.iter().map(|&node| self.compute(node));
+        let explicit = self.phases.begin.iter().map(|&node| self.compute(node));
         let (extrapolated, initial) = (self.extrapolated(), self.initial());
         let start = match extrapolated {
             Some(extrapolated) => quote!(if kept.stages { #extrapolated } else { #initial }),
@@ -101,9 +79,13 @@ impl<'g, 'a> Phases<'g, 'a> {
 
     /// Starting values from the start of the step alone: the coupled stages there, and one velocity for all.
     fn initial(&self) -> TokenStream {
-        let stages = self.coupled.iter();
+        let stages = self.phases.coupled.iter();
         let stages = stages
-            .filter(|&&node| value(self.graph, node).is_some_and(|value| !value.is_start()))
+            .filter(|&&node| {
+                self.graph
+                    .value(node)
+                    .is_some_and(|value| !value.is_start())
+            })
             .map(|&node| Form::reset(node));
         let velocities = self.coupled_of_kind(Node::Velocity(0));
         let Some((&first, others)) = velocities.split_first() else {
@@ -143,7 +125,7 @@ impl<'g, 'a> Phases<'g, 'a> {
         }
         let evaluations: Vec<_> = nodes
             .iter()
-            .map(|&node| evaluation(self.graph, node))
+            .map(|&node| self.graph.evaluation(node))
             .collect();
         let matrix = extrapolation::matrix(&evaluations)?;
         let rows = matrix.iter().map(|row| literal::array(row));
@@ -153,7 +135,7 @@ impl<'g, 'a> Phases<'g, 'a> {
     }
 
     fn sweep(&self) -> TokenStream {
-        if self.coupled.is_empty() {
+        if self.phases.coupled.is_empty() {
             return quote!(::symplectic::Change::default());
         }
         // Each kind sees the newest of the kind before it, which converges in fewer sweeps than all
@@ -164,9 +146,9 @@ impl<'g, 'a> Phases<'g, 'a> {
             Node::Momentum(_) => 2,
             Node::Velocity(_) => 3,
         };
-        let mut nodes = self.coupled.clone();
+        let mut nodes = self.phases.coupled.clone();
         nodes.sort_by_key(rank);
-        let lines = nodes.iter().map(|&node| match value(self.graph, node) {
+        let lines = nodes.iter().map(|&node| match self.graph.value(node) {
             Some(value) if !value.is_start() => {
                 let (stage, base) = (slot(node), base(node));
                 let sum = self.form.sum(self.graph, node);
@@ -188,8 +170,8 @@ impl<'g, 'a> Phases<'g, 'a> {
     fn finish(&self) -> TokenStream {
         let mut lines: Vec<TokenStream> = Vec::new();
         // A stage that is the result is computed as the result, once.
-        for &node in &self.finish {
-            lines.push(if self.is_aliased(node) {
+        for &node in &self.phases.finish {
+            lines.push(if self.phases.is_aliased(node) {
                 self.result(node)
             } else {
                 self.compute(node)
@@ -197,8 +179,10 @@ impl<'g, 'a> Phases<'g, 'a> {
         }
         for result in [Node::Position(0), Node::Momentum(0)] {
             let same = std::mem::discriminant(&result);
-            let mut stages = self.finish.iter();
-            if !stages.any(|node| std::mem::discriminant(node) == same && self.is_aliased(*node)) {
+            let mut stages = self.phases.finish.iter();
+            if !stages
+                .any(|node| std::mem::discriminant(node) == same && self.phases.is_aliased(*node))
+            {
                 lines.push(self.result(result));
             }
         }
@@ -219,15 +203,9 @@ impl<'g, 'a> Phases<'g, 'a> {
         quote!(#total #(#late)*)
     }
 
-    /// Whether a stage value is never stored because it is the result of the step.
-    fn is_aliased(&self, node: Node) -> bool {
-        self.finish.contains(&node)
-            && value(self.graph, node).is_some_and(|value| value.is_end && !value.is_start())
-    }
-
     /// The line that computes a stage value or an evaluation.
     fn compute(&self, node: Node) -> TokenStream {
-        match value(self.graph, node) {
+        match self.graph.value(node) {
             Some(value) if value.is_start() => TokenStream::new(),
             Some(_) => {
                 let (stage, base) = (slot(node), base(node));
@@ -240,7 +218,7 @@ impl<'g, 'a> Phases<'g, 'a> {
 
     /// The lines that make an evaluation and its increment.
     fn evaluation(&self, node: Node) -> TokenStream {
-        let evaluation = evaluation(self.graph, node);
+        let evaluation = self.graph.evaluation(node);
         let argument = |index: Option<usize>, kind: fn(usize) -> Node| match index {
             Some(index) => self.argument(kind(index)),
             // Separable: this argument is not read.
@@ -266,7 +244,7 @@ impl<'g, 'a> Phases<'g, 'a> {
     }
 
     fn increment(&self, node: Node) -> TokenStream {
-        self.form.increment(evaluation(self.graph, node), node)
+        self.form.increment(self.graph.evaluation(node), node)
     }
 
     fn evaluate(&self, node: Node, q: &TokenStream, p: &TokenStream) -> TokenStream {
@@ -283,58 +261,22 @@ impl<'g, 'a> Phases<'g, 'a> {
     ) -> TokenStream {
         let function = evaluation_name(node);
         let out = slot(place);
-        let time = literal::coefficient(&evaluation(self.graph, node).time);
+        let time = literal::coefficient(&self.graph.evaluation(node).time);
         quote!(system.#function(step.at(#time), #q, #p, &mut #out);)
     }
 
     /// A stage value as an argument: the start of the step, its result, or where it is stored.
     fn argument(&self, node: Node) -> TokenStream {
-        let is_start = value(self.graph, node).is_some_and(StageValue::is_start);
+        let is_start = self.graph.value(node).is_some_and(StageValue::is_start);
         match node {
             _ if is_start => start(node),
-            Node::Position(_) if self.is_aliased(node) => quote!(&*q1),
-            Node::Momentum(_) if self.is_aliased(node) => quote!(&*p1),
+            Node::Position(_) if self.phases.is_aliased(node) => quote!(&*q1),
+            Node::Momentum(_) if self.phases.is_aliased(node) => quote!(&*p1),
             _ => {
                 let stage = slot(node);
                 quote!(&#stage)
             }
         }
-    }
-
-    /// Evaluations at the start of the step that are the same as one at the end of the previous step.
-    fn carried(&self) -> Vec<(Node, Node)> {
-        let forces = (0..self.graph.forces.len()).map(Node::Force);
-        let velocities = (0..self.graph.velocities.len()).map(Node::Velocity);
-        let nodes: Vec<Node> = forces.chain(velocities).collect();
-        let sees_only = |node: Node, accept: &dyn Fn(Node) -> bool, time: i64| {
-            let evaluation = evaluation(self.graph, node);
-            let arguments = evaluation
-                .position
-                .map(Node::Position)
-                .into_iter()
-                .chain(evaluation.momentum.map(Node::Momentum));
-            arguments.into_iter().all(accept) && evaluation.time.equals(&ratio(time, 1))
-        };
-        let at_start = |node: Node| value(self.graph, node).is_some_and(StageValue::is_start);
-        let first = nodes
-            .iter()
-            .filter(|&&node| self.begin.contains(&node) && sees_only(node, &at_start, 0));
-        let mut carried: Vec<(Node, Node)> = Vec::new();
-        for &first in first {
-            let is_last = |node: &&Node| {
-                evaluation_name(**node) == evaluation_name(first)
-                    && self.finish.contains(node)
-                    && sees_only(**node, &|n| self.is_aliased(n), 1)
-                    // Nothing but the result is made of it.
-                    && self.graph.nodes().all(|other| value(self.graph, other).is_none() || !self.graph.needs(other).contains(node))
-                    // An evaluation can take the place of one other only.
-                    && carried.iter().all(|(_, taken)| taken != *node)
-            };
-            if let Some(&last) = nodes.iter().find(is_last) {
-                carried.push((first, last));
-            }
-        }
-        carried
     }
 
     /// Whether an evaluation stays as it is, for the next step.

@@ -1,0 +1,315 @@
+//! What is known of the exact method behind printed digits.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::CertifyError;
+use super::conditions::Claim;
+use super::linear::magnitude;
+use super::printed::MAX_DIGITS;
+use super::proof::{LOST_BITS, Proof};
+use super::structure::{Coefficient, Structure, Target};
+use crate::arithmetic::interval::Interval;
+use crate::arithmetic::rational::simplest_between;
+use crate::arithmetic::rounding::Decimal;
+
+/// A proof that an exact method has the claimed order, with all its digits.
+///
+/// Copies share the digits that have been computed. Whatever was asked for before, the same question has the
+/// same answer.
+#[derive(Debug, Clone)]
+pub struct Certificate(Arc<Facts>);
+
+#[derive(Debug)]
+pub(super) struct Facts {
+    pub claim: Claim,
+    pub structure: Structure,
+    pub conditions: usize,
+    pub unknowns: usize,
+    pub fixed: Vec<Fixed>,
+    pub targets: Vec<Target>,
+    pub sharp: Option<bool>,
+    pub distance: BigRational,
+    /// The binary places with which digits are compared.
+    pub digit_bits: u32,
+    pub uniqueness: Option<BigRational>,
+    pub solution: Solution,
+}
+
+/// A coefficient that the conditions leave free, and its exact value in the certified method.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fixed {
+    /// The first of the coefficients that are equal to it by symmetry or structure.
+    pub coefficient: Coefficient,
+    /// The exact value.
+    pub value: BigRational,
+    /// Whether the value is that of the printed text, and not a simpler fraction which the text rounds.
+    pub as_printed: bool,
+}
+
+/// The unknowns.
+#[derive(Debug)]
+pub(super) enum Solution {
+    /// Rational numbers for which all conditions hold exactly.
+    Exact(Vec<BigRational>),
+    /// The only zero in a cube.
+    Enclosed(Box<Enclosed>),
+}
+
+/// Enclosures of the unknowns with more and more binary places.
+#[derive(Debug)]
+pub(super) struct Enclosed {
+    proof: Proof,
+    levels: Mutex<Vec<Level>>,
+}
+
+#[derive(Debug, Clone)]
+struct Level {
+    bits: u32,
+    at: Vec<BigInt>,
+    solution: Arc<Vec<Interval>>,
+}
+
+impl Enclosed {
+    pub fn new(proof: Proof) -> Self {
+        let solution = proof.solution(&proof.center, proof.bits);
+        let first = Level {
+            bits: proof.bits,
+            at: proof.center.clone(),
+            solution: Arc::new(solution),
+        };
+        Enclosed {
+            proof,
+            levels: Mutex::new(vec![first]),
+        }
+    }
+
+    /// Enclosures of the free unknowns with a width of at most `2^(−bits)`.
+    ///
+    /// The binary places that are computed grow by half from level to level, so that the answer depends on
+    /// `bits` only.
+    fn free(&self, bits: u32) -> Arc<Vec<Interval>> {
+        let needed = bits.saturating_add(LOST_BITS);
+        let mut levels = self.levels.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut index = 0;
+        loop {
+            let level = levels[index].clone();
+            if level.bits >= needed {
+                return level.solution;
+            }
+            index += 1;
+            if index == levels.len() {
+                let bits = level.bits.saturating_add(level.bits / 2);
+                let (at, solution) = self.proof.refine(&level.at, level.bits, bits);
+                levels.push(Level {
+                    bits,
+                    at,
+                    solution: Arc::new(solution),
+                });
+            }
+        }
+    }
+}
+
+impl Solution {
+    /// Enclosures of all unknowns.
+    pub fn unknowns(&self, bits: u32) -> Vec<Interval> {
+        match self {
+            Solution::Exact(values) => values
+                .iter()
+                .map(|x| Interval::enclosing(x, bits))
+                .collect(),
+            Solution::Enclosed(enclosed) => {
+                let free = enclosed.free(bits);
+                let places = free.first().map_or(bits, Interval::bits);
+                let all = enclosed.proof.square.arguments(&free, places);
+                all.iter().map(|x| x.with_bits(bits)).collect()
+            }
+        }
+    }
+}
+
+impl Target {
+    pub(super) fn enclosed(&self, unknowns: &[Interval], bits: u32) -> Interval {
+        let zero = Interval::enclosing(&BigRational::zero(), bits);
+        self.terms.iter().fold(zero, |sum, (index, factor)| {
+            sum.add(&unknowns[*index].scale(factor))
+        })
+    }
+}
+
+impl Certificate {
+    pub(super) fn new(facts: Facts) -> Self {
+        Certificate(Arc::new(facts))
+    }
+
+    /// What is proved.
+    pub fn claim(&self) -> &Claim {
+        &self.0.claim
+    }
+
+    /// How the coefficients of the exact method hang together.
+    pub fn structure(&self) -> Structure {
+        self.0.structure
+    }
+
+    /// The number of order conditions that were solved.
+    pub fn conditions(&self) -> usize {
+        self.0.conditions
+    }
+
+    /// The number of unknowns: coefficients that are different, up to structure.
+    pub fn unknowns(&self) -> usize {
+        self.0.unknowns
+    }
+
+    /// The coefficients that the conditions leave free, with the exact values at which they are fixed.
+    pub fn fixed(&self) -> &[Fixed] {
+        &self.0.fixed
+    }
+
+    /// Whether the conditions of the next order are refuted; `None` where that is not one class.
+    pub fn sharp(&self) -> Option<bool> {
+        self.0.sharp
+    }
+
+    /// An upper bound on the distance of any printed coefficient from that of the exact method.
+    pub fn distance(&self) -> &BigRational {
+        &self.0.distance
+    }
+
+    /// [`Certificate::distance`] with two digits.
+    pub fn distance_text(&self) -> String {
+        Decimal::round(&self.0.distance, 2).to_string()
+    }
+
+    /// The coefficients that are more than a unit of their last printed place away from the print, with upper
+    /// bounds on how far.
+    pub fn wrong_digits(&self) -> Vec<(Coefficient, BigRational)> {
+        let distances = distances(&self.0.targets, &self.0.solution, self.0.digit_bits);
+        let pairs = self.0.targets.iter().zip(distances);
+        let mut wrong: Vec<(Coefficient, BigRational)> = pairs
+            .filter(|(target, distance)| *distance > target.unit)
+            .map(|(target, distance)| (target.name, distance))
+            .collect();
+        wrong.sort_unstable();
+        wrong
+    }
+
+    /// How far around the printed values of the free unknowns the solution is the only one, with the others
+    /// fixed; `None` if the method is exact, or if the digits are too far away for a proof.
+    pub fn uniqueness_radius(&self) -> Option<&BigRational> {
+        self.0.uniqueness.as_ref()
+    }
+
+    /// Whether all coefficients are known rational numbers.
+    pub fn is_exact(&self) -> bool {
+        matches!(self.0.solution, Solution::Exact(_))
+    }
+
+    /// The coefficients of the method: the kicks, the drifts, or the weights.
+    pub fn coefficients(&self) -> impl Iterator<Item = Coefficient> {
+        let mut names: Vec<Coefficient> = self.0.targets.iter().map(|t| t.name).collect();
+        names.sort_unstable();
+        names.into_iter()
+    }
+
+    fn target(&self, coefficient: Coefficient) -> Option<&Target> {
+        self.0.targets.iter().find(|t| t.name == coefficient)
+    }
+
+    /// The value of a coefficient, if it is known to be a rational number: one that is fixed, or any of a
+    /// method all of whose coefficients are.
+    pub fn rational(&self, coefficient: Coefficient) -> Option<BigRational> {
+        let target = self.target(coefficient)?;
+        let known = |index: usize| match &self.0.solution {
+            Solution::Exact(values) => values.get(index).cloned(),
+            Solution::Enclosed(enclosed) => enclosed.proof.square.fixed.get(index).cloned()?,
+        };
+        target
+            .terms
+            .iter()
+            .try_fold(BigRational::zero(), |sum, (index, factor)| {
+                Some(sum + known(*index)? * factor)
+            })
+    }
+
+    /// A coefficient of the exact method, enclosed with `bits` binary places; `None` if there is none of that
+    /// name.
+    ///
+    /// The width is at most a few units of the last place. The time grows with `bits`, of which the caller
+    /// has to take care.
+    pub fn enclose(&self, coefficient: Coefficient, bits: u32) -> Option<Interval> {
+        let target = self.target(coefficient)?;
+        let fine = bits.saturating_add(8);
+        let unknowns = self.0.solution.unknowns(fine);
+        Some(target.enclosed(&unknowns, fine).with_bits(bits))
+    }
+
+    /// A coefficient, correctly rounded to some significant digits; `None` if there is none of that name.
+    ///
+    /// # Errors
+    /// [`CertifyError::Digits`] for more than [`MAX_DIGITS`].
+    pub fn decimal(
+        &self,
+        coefficient: Coefficient,
+        digits: usize,
+    ) -> Result<Option<Decimal>, CertifyError> {
+        if digits > MAX_DIGITS {
+            return Err(CertifyError::Digits {
+                digits,
+                limit: MAX_DIGITS,
+            });
+        }
+        if let Some(value) = self.rational(coefficient) {
+            return Ok(Some(Decimal::round(&value, digits)));
+        }
+        // log₂ 10 < 10/3 + 1/100; 64 for the size of the number and its distance from a tie.
+        let places = u32::try_from(digits * 334 / 100).unwrap_or(u32::MAX);
+        let mut bits = places.saturating_add(64);
+        for _ in 0..4 {
+            let Some(interval) = self.enclose(coefficient, bits) else {
+                return Ok(None);
+            };
+            let [low, high] = [interval.low(), interval.high()];
+            let rounded = Decimal::round(&low, digits);
+            if rounded == Decimal::round(&high, digits) {
+                return Ok(Some(rounded));
+            }
+            bits = bits.saturating_add(bits / 2);
+        }
+        // A tie as far as can be told: the simplest number in the enclosure is the middle of two decimals.
+        let interval = self.enclose(coefficient, bits);
+        Ok(interval.map(|x| Decimal::round(&simplest_between(&x.low(), &x.high()), digits)))
+    }
+}
+
+/// Upper bounds on the distances of the targets from what is printed.
+fn distances(targets: &[Target], solution: &Solution, bits: u32) -> Vec<BigRational> {
+    if let Solution::Exact(values) = solution {
+        let distance = |target: &Target| {
+            let terms = target.terms.iter();
+            let value: BigRational = terms.map(|(index, factor)| &values[*index] * factor).sum();
+            (value - &target.printed).abs()
+        };
+        return targets.iter().map(distance).collect();
+    }
+    let unknowns = solution.unknowns(bits);
+    let distance = |target: &Target| {
+        let printed = Interval::enclosing(&target.printed, bits);
+        let difference = target.enclosed(&unknowns, bits).subtract(&printed);
+        BigRational::new(magnitude(&difference), BigInt::one() << bits)
+    };
+    targets.iter().map(distance).collect()
+}
+
+/// An upper bound on the distance of any target from what is printed.
+pub(super) fn distance(targets: &[Target], solution: &Solution, bits: u32) -> BigRational {
+    let zero = BigRational::zero();
+    distances(targets, solution, bits)
+        .into_iter()
+        .fold(zero, BigRational::max)
+}

@@ -1,0 +1,128 @@
+//! Why a method is not certified.
+
+use super::certificate::Certificate;
+use super::conditions::Claim;
+use super::structure::Structure;
+
+/// Why there is no certificate.
+#[derive(Debug, Clone, thiserror::Error)]
+#[non_exhaustive]
+pub enum CertifyError {
+    /// A coefficient that is not a number.
+    #[error("`{text}` is not a decimal or a fraction of two, with at most 10000 characters")]
+    NotANumber {
+        /// The beginning of the text.
+        text: String,
+    },
+    /// Lists of different length.
+    #[error(
+        "{kicks} kicks and {drifts} drifts: the lists of a splitting have the same length; a method that ends with a kick has a last drift 0, one that begins with a drift has a first kick 0"
+    )]
+    Lengths {
+        /// The number of kicks.
+        kicks: usize,
+        /// The number of drifts.
+        drifts: usize,
+    },
+    /// No coefficients, or more than can be dealt with.
+    #[error("{count} stages; between 1 and {limit} are certified")]
+    Stages {
+        /// Their number.
+        count: usize,
+        /// The most that are certified.
+        limit: usize,
+    },
+    /// A coefficient that is too large to be one of a method in use.
+    #[error("{coefficient} = {value} is larger than {limit}")]
+    TooLarge {
+        /// Which one.
+        coefficient: String,
+        /// Its value.
+        value: String,
+        /// The bound.
+        limit: u32,
+    },
+    /// An order that no claim can have.
+    #[error(
+        "the order {order} cannot be claimed: orders are from 1 to {limit}, and those for perturbed systems do not increase"
+    )]
+    Order {
+        /// The order.
+        order: usize,
+        /// The highest order.
+        limit: usize,
+    },
+    /// Weights that do not sum to 1, by more than their digits explain.
+    #[error("the {what} sum to {sum}, not to 1{}", nearest.as_ref().map_or(String::new(), |found| format!("; the nearest certified solution is {} away", found.distance_text())))]
+    WeightSum {
+        /// `kicks`, `drifts` or `weights`.
+        what: &'static str,
+        /// Their sum.
+        sum: String,
+        /// The exact method to which Newton's iteration leads from the digits, if it leads to any.
+        nearest: Option<Box<Certificate>>,
+    },
+    /// An order for any symmetric basic method is claimed of what is no composition of one.
+    #[error(
+        "these are not the coefficients of a composition of Störmer–Verlet: then the outer ones were half sums of neighbouring inner ones"
+    )]
+    NotAComposition,
+    /// Fewer coefficients than conditions.
+    #[error(
+        "{claim} takes {conditions} conditions, and a {structure} with these coefficients has {unknowns} unknown{}: too few to certify a solution", if *unknowns == 1 {""} else {"s"}
+    )]
+    TooFewCoefficients {
+        /// What is claimed.
+        claim: Claim,
+        /// How the method was read.
+        structure: Structure,
+        /// The number of order conditions.
+        conditions: usize,
+        /// The number of free coefficients.
+        unknowns: usize,
+    },
+    /// Conditions whose derivatives are dependent near the digits.
+    #[error(
+        "the {conditions} conditions of {claim} are dependent at these digits (rank {rank} as a {structure}), so that no solution near them can be proved by their derivatives"
+    )]
+    Dependent {
+        /// What is claimed.
+        claim: Claim,
+        /// How the method was read.
+        structure: Structure,
+        /// The number of order conditions.
+        conditions: usize,
+        /// The numerical rank of their derivatives.
+        rank: usize,
+    },
+    /// The digits are not those of the exact method in their neighbourhood.
+    #[error(
+        "the nearest certified solution of {} is {} away from the digits, and they allow for {allowed}", certificate.claim(), certificate.distance_text()
+    )]
+    DifferentSolution {
+        /// The largest distance that would have been accepted.
+        allowed: String,
+        /// The exact method that was found.
+        certificate: Box<Certificate>,
+    },
+    /// Newton's iteration leads nowhere from the digits.
+    #[error(
+        "{claim} is not certified: no solution was found from these digits, whose largest residual is {residual}, in a condition of degree {degree}"
+    )]
+    NotFound {
+        /// What is claimed.
+        claim: Claim,
+        /// The largest residual of an order condition for the digits.
+        residual: String,
+        /// The degree of that condition.
+        degree: usize,
+    },
+    /// More digits than are computed.
+    #[error("{digits} digits; at most {limit} are computed")]
+    Digits {
+        /// How many were asked for.
+        digits: usize,
+        /// The most.
+        limit: usize,
+    },
+}

@@ -1,0 +1,60 @@
+//! Certified coefficients of explicit methods: a proof that an exact method lies behind printed digits.
+//!
+//! The decimals of a paper satisfy the order conditions only up to their last digits. [`certify()`] solves the
+//! conditions exactly: it proves that near the digits there is a method with real coefficients which has the
+//! claimed order, tells how far it is from the digits and within which distance it is the only one, and
+//! computes its coefficients to any number of digits.
+//!
+//! ```
+//! use symplectic_compiler::certify::{Claim, Coefficient, Splitting, certify};
+//!
+//! // The triple jump of Störmer–Verlet, to eight digits.
+//! let kick = ["0.67560360", "-0.17560360", "-0.17560360", "0.67560360"];
+//! let drift = ["1.35120719", "-1.70241438", "1.35120719", "0"];
+//! let exact = certify(&Splitting::parse(&kick, &drift)?, &Claim::Separable(4))?;
+//! let digits = exact.decimal(Coefficient::Drift(0), 30)?.map(|d| d.to_string());
+//! // 1/(2 − ∛2)
+//! assert_eq!(digits.as_deref(), Some("1.35120719195965763404768780897"));
+//! assert_eq!(exact.distance_text(), "4.0e-9");
+//! # Ok::<(), symplectic_compiler::certify::CertifyError>(())
+//! ```
+//!
+//! 1. The structure is read off the digits: symmetric sequences, compositions of Störmer–Verlet, equal
+//!    coefficients ([`Structure`]); what has more structure is tried first.
+//! 2. Each structure has a sufficient set of order conditions ([`Conditions`], where they are derived), which
+//!    are polynomials in the unknowns with rational coefficients.
+//! 3. If there are more unknowns than conditions, as in methods whose authors minimised an error norm, the right
+//!    number of them is fixed at exact values ([`Certificate::fixed`]): first those that look exact in print, as
+//!    `0.28` or `0.5454…5455 = 6/11`, then those on which the conditions depend least.
+//! 4. Newton's iteration leads from the digits to a point of which interval arithmetic proves by Krawczyk's
+//!    test that it is near an exact solution (Krawczyk 1969).
+//!
+//! What is proved depends on none of the guesses: whatever structure was read and whatever was fixed, the
+//! method in the certificate has real coefficients that satisfy every order condition of the claim.
+
+mod certificate;
+mod conditions;
+mod error;
+mod linear;
+mod newton;
+mod nystrom;
+mod printed;
+mod proof;
+mod search;
+mod selection;
+mod splitting;
+mod structure;
+mod system;
+mod words;
+
+pub use certificate::{Certificate, Fixed};
+pub use conditions::{Claim, Condition, Conditions, MAX_ORDER, MAX_PERTURBED_ORDER};
+pub use error::CertifyError;
+pub use printed::{MAX_DIGITS, Printed};
+pub use search::{certify, certify_composition};
+pub use splitting::{MAX_STAGES, Splitting};
+pub use structure::{Coefficient, Structure};
+pub use words::{Alphabet, Word};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,132 @@
+//! Newton's iteration for as many conditions as unknowns, in dyadic arithmetic that is only approximate.
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{Signed, Zero};
+
+use super::linear::{Dyadics, inverse, magnitude, middle, point, rescaled};
+use super::system::System;
+use crate::arithmetic::interval::Interval;
+
+/// The most iterations from the printed digits; a handful suffices near a regular solution, and one that is
+/// reached after wandering about has nothing to do with the digits.
+const MAX_ITERATIONS: usize = 24;
+/// The iteration is given up when an unknown exceeds `2^12`.
+const MAX_MAGNITUDE_BITS: u64 = 12;
+
+/// Conditions with as many unknowns: the other arguments are fixed.
+#[derive(Debug, Clone)]
+pub struct Square {
+    pub system: System,
+    /// The values of the arguments that are fixed.
+    pub fixed: Vec<Option<BigRational>>,
+    /// The others.
+    pub free: Vec<usize>,
+}
+
+impl Square {
+    /// All arguments, from those that are free.
+    pub fn arguments(&self, free: &[Interval], bits: u32) -> Vec<Interval> {
+        let mut next = free.iter();
+        let value = |fixed: &Option<BigRational>| match fixed {
+            Some(value) => Interval::enclosing(value, bits),
+            None => next
+                .next()
+                .map_or_else(|| point(&BigInt::zero(), bits), Interval::clone),
+        };
+        self.fixed.iter().map(value).collect()
+    }
+
+    /// Enclosures of the residuals for free arguments in a box.
+    pub fn residuals(&self, free: &[Interval], bits: u32) -> Vec<Interval> {
+        self.system.residuals(&self.arguments(free, bits))
+    }
+
+    /// Enclosures of the derivatives by the free arguments in a box.
+    pub fn derivatives(&self, free: &[Interval], bits: u32) -> Vec<Vec<Interval>> {
+        self.system
+            .derivatives(&self.arguments(free, bits), &self.free)
+    }
+
+    /// The inverse of the derivative at a point, rounded.
+    pub fn inverse_derivative(&self, at: &[BigInt], bits: u32) -> Option<Dyadics> {
+        inverse(&self.derivatives(&points(at, bits), bits), bits)
+    }
+
+    /// `x − C F(x)`, rounded, with a matrix of `matrix_bits` binary places, and the largest correction.
+    pub fn corrected(
+        &self,
+        at: &[BigInt],
+        bits: u32,
+        matrix: &Dyadics,
+        matrix_bits: u32,
+    ) -> (Vec<BigInt>, BigInt) {
+        let residuals: Vec<BigInt> = {
+            let residuals = self.residuals(&points(at, bits), bits);
+            residuals.iter().map(middle).collect()
+        };
+        let mut largest = BigInt::zero();
+        let mut moved = Vec::with_capacity(at.len());
+        for (x, row) in at.iter().zip(matrix) {
+            let sum: BigInt = row.iter().zip(&residuals).map(|(c, r)| c * r).sum();
+            let correction = sum >> matrix_bits;
+            largest = largest.max(correction.abs());
+            moved.push(x - correction);
+        }
+        (moved, largest)
+    }
+
+    /// The limit of Newton's iteration, to all but some of the last binary places.
+    pub fn solve(&self, start: &[BigRational], bits: u32) -> Option<Vec<BigInt>> {
+        let enclosed = start.iter().map(|x| middle(&Interval::enclosing(x, bits)));
+        let mut at: Vec<BigInt> = enclosed.collect();
+        for _ in 0..MAX_ITERATIONS {
+            let matrix = self.inverse_derivative(&at, bits)?;
+            let (moved, largest) = self.corrected(&at, bits, &matrix, bits);
+            at = moved;
+            let too_large = |x: &BigInt| x.bits() > u64::from(bits) + MAX_MAGNITUDE_BITS;
+            if at.iter().any(too_large) {
+                return None;
+            }
+            if largest.bits() <= u64::from(bits / 4) {
+                return Some(at);
+            }
+        }
+        None
+    }
+
+    /// Refines an approximation with `from` correct binary places to `bits` ones, as far as the doubling of
+    /// Newton's iteration goes.
+    pub fn polish(&self, at: &[BigInt], from: u32, bits: u32) -> Vec<BigInt> {
+        let mut at: Vec<BigInt> = at.iter().map(|x| rescaled(x, from, bits)).collect();
+        // The derivative is needed to as many places as each iteration adds.
+        let coarse = from.min(bits);
+        let rounded: Vec<BigInt> = at.iter().map(|x| rescaled(x, bits, coarse)).collect();
+        let Some(matrix) = self.inverse_derivative(&rounded, coarse) else {
+            return at;
+        };
+        for _ in 0..3 {
+            let (moved, largest) = self.corrected(&at, bits, &matrix, coarse);
+            at = moved;
+            // What is left after this correction is its product with the error of the inverse.
+            if largest.bits() <= u64::from(coarse / 2) {
+                break;
+            }
+        }
+        at
+    }
+}
+
+/// Intervals with one number each.
+pub fn points(at: &[BigInt], bits: u32) -> Vec<Interval> {
+    at.iter().map(|x| point(x, bits)).collect()
+}
+
+/// The largest absolute value in some intervals.
+pub fn largest(intervals: &[Interval]) -> BigInt {
+    intervals
+        .iter()
+        .map(magnitude)
+        .max()
+        .unwrap_or_else(BigInt::zero)
+}

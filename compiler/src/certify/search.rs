@@ -1,0 +1,345 @@
+//! From printed digits to a certificate: each structure in turn, until one has a solution near the digits.
+
+use num_rational::BigRational;
+use num_traits::{Signed, Zero};
+
+use super::certificate::{Certificate, Enclosed, Facts, Fixed, Solution, distance};
+use super::conditions::{Claim, Conditions};
+use super::error::CertifyError;
+use super::newton::Square;
+use super::printed::Printed;
+use super::proof::Proof;
+use super::selection::free_unknowns;
+use super::splitting::{Splitting, check, tolerance, wrong_sum};
+use super::structure::{Coefficient, Reading, Target, composition_readings, readings};
+use super::system::{Kind, Step, System};
+use super::words::{DRIFT, KICK};
+use crate::arithmetic::interval::Interval;
+use crate::arithmetic::rational::simplest_between;
+use crate::arithmetic::rounding::Decimal;
+
+/// Proves that a splitting with exact coefficients and the claimed order exists near the printed digits.
+///
+/// # Errors
+/// * [`CertifyError::Lengths`], [`CertifyError::Stages`], [`CertifyError::TooLarge`], [`CertifyError::Order`] for
+///   what cannot be a splitting or a claim,
+/// * [`CertifyError::WeightSum`] if kicks or drifts do not sum to 1, by more than their digits explain,
+/// * [`CertifyError::TooFewCoefficients`] if there are more conditions than unknowns,
+/// * [`CertifyError::DifferentSolution`], with its certificate, if the nearest exact method that was found is
+///   farther away than `10^−10` and ten units of the last printed place,
+/// * [`CertifyError::Dependent`] and [`CertifyError::NotFound`] if none was found.
+pub fn certify(splitting: &Splitting, claim: &Claim) -> Result<Certificate, CertifyError> {
+    splitting.check()?;
+    claim.check()?;
+    let all = || splitting.kick.iter().chain(&splitting.drift);
+    let tolerance = tolerance(all());
+    let bits = digit_bits(all());
+    let mut readings = readings(splitting);
+    if let Claim::SymmetricBase(_) = claim {
+        readings.retain(|reading| reading.structure.composition());
+    }
+    let found = first_certified(&readings, claim, &tolerance, bits);
+    for (what, list) in [("kicks", &splitting.kick), ("drifts", &splitting.drift)] {
+        check_sum(what, list, &tolerance, &found)?;
+    }
+    found
+}
+
+/// Proves that weights near the printed ones exist with which the composition of any symmetric basic method of
+/// order 2 has the claimed order.
+///
+/// ```
+/// use symplectic_compiler::certify::{Printed, certify_composition};
+///
+/// // Suzuki 1990: 1/(4 − ∛4), four times.
+/// let [outer, inner] = ["0.4144907717943757", "-0.6579630871775028"].map(Printed::parse);
+/// let (outer, inner) = (outer?, inner?);
+/// let weights = [outer.clone(), outer.clone(), inner, outer.clone(), outer];
+/// let certificate = certify_composition(&weights, 4)?;
+/// assert_eq!(certificate.unknowns(), 2);
+/// # Ok::<(), symplectic_compiler::certify::CertifyError>(())
+/// ```
+///
+/// # Errors
+/// As [`certify()`].
+pub fn certify_composition(weights: &[Printed], order: usize) -> Result<Certificate, CertifyError> {
+    check(weights, Coefficient::Weight)?;
+    let claim = Claim::SymmetricBase(order);
+    claim.check()?;
+    let tolerance = tolerance(weights.iter());
+    let bits = digit_bits(weights.iter());
+    let readings = composition_readings(weights);
+    let found = first_certified(&readings, &claim, &tolerance, bits);
+    check_sum("weights", weights, &tolerance, &found)?;
+    found
+}
+
+/// The binary places with which the proof is done.
+const PROOF_BITS: u32 = 320;
+
+/// The binary places with which digits are compared: more than they have.
+fn digit_bits<'a>(all: impl Iterator<Item = &'a Printed>) -> u32 {
+    let places = all.filter_map(Printed::places).max().unwrap_or(0);
+    128 + places.saturating_mul(4)
+}
+
+fn check_sum(
+    what: &'static str,
+    list: &[Printed],
+    tolerance: &BigRational,
+    found: &Result<Certificate, CertifyError>,
+) -> Result<(), CertifyError> {
+    let Some(sum) = wrong_sum(list, tolerance) else {
+        return Ok(());
+    };
+    let nearest = match found {
+        Ok(certificate) => Some(Box::new(certificate.clone())),
+        Err(CertifyError::DifferentSolution { certificate, .. }) => Some(certificate.clone()),
+        Err(_) => None,
+    };
+    let sum = Decimal::round(&sum, 40).to_string();
+    Err(CertifyError::WeightSum {
+        what,
+        sum: if sum.contains('.') && !sum.contains('e') {
+            sum.trim_end_matches('0').trim_end_matches('.').to_owned()
+        } else {
+            sum
+        },
+        nearest,
+    })
+}
+
+/// The certificate of the first reading that has one near the digits; else the most telling error.
+fn first_certified(
+    readings: &[Reading],
+    claim: &Claim,
+    tolerance: &BigRational,
+    bits: u32,
+) -> Result<Certificate, CertifyError> {
+    let mut worst: Option<CertifyError> = None;
+    for reading in readings {
+        let error = match certified(reading, claim, bits) {
+            Ok(certificate) if certificate.distance() <= tolerance => return Ok(certificate),
+            Ok(certificate) => CertifyError::DifferentSolution {
+                allowed: Decimal::round(tolerance, 2).to_string(),
+                certificate: Box::new(certificate),
+            },
+            Err(error) => error,
+        };
+        if worst.as_ref().is_none_or(|known| tells_more(&error, known)) {
+            worst = Some(error);
+        }
+    }
+    Err(worst.unwrap_or(CertifyError::NotAComposition))
+}
+
+/// A solution tells more than none, the nearer the more; then that one was looked for; then how many
+/// coefficients are missing.
+fn tells_more(error: &CertifyError, known: &CertifyError) -> bool {
+    let rank = |error: &CertifyError| match error {
+        CertifyError::DifferentSolution { .. } => 3,
+        CertifyError::NotFound { .. } => 2,
+        CertifyError::Dependent { .. } => 1,
+        _ => 0,
+    };
+    match (error, known) {
+        (
+            CertifyError::DifferentSolution { certificate: a, .. },
+            CertifyError::DifferentSolution { certificate: b, .. },
+        ) => a.distance() < b.distance(),
+        (
+            CertifyError::TooFewCoefficients {
+                conditions: a,
+                unknowns: b,
+                ..
+            },
+            CertifyError::TooFewCoefficients {
+                conditions: c,
+                unknowns: d,
+                ..
+            },
+        ) => a.saturating_sub(*b) < c.saturating_sub(*d),
+        _ => rank(error) > rank(known),
+    }
+}
+
+/// The certificate of a reading, however far from the digits.
+fn certified(
+    reading: &Reading,
+    claim: &Claim,
+    digit_bits: u32,
+) -> Result<Certificate, CertifyError> {
+    let structure = reading.structure;
+    // What is proved of the composition of any symmetric method holds for Störmer–Verlet and each class.
+    let solved = if structure.composition() {
+        Claim::SymmetricBase(claim.order())
+    } else {
+        claim.clone()
+    };
+    let conditions = Conditions::new(&solved, structure.symmetric())?;
+    let system = System {
+        steps: reading.steps.clone(),
+        conditions,
+    };
+    let counts = (system.conditions.conditions().len(), reading.unknowns.len());
+    let certificate = |fixed, uniqueness, solution| {
+        let sharp = sharp(reading, claim, &solution);
+        Certificate::new(Facts {
+            claim: claim.clone(),
+            structure,
+            conditions: counts.0,
+            unknowns: counts.1,
+            fixed,
+            targets: reading.targets.clone(),
+            sharp,
+            distance: distance(&reading.targets, &solution, digit_bits),
+            digit_bits,
+            uniqueness,
+            solution,
+        })
+    };
+    let printed: Vec<BigRational> = reading.unknowns.iter().map(|x| x.start.clone()).collect();
+    let simple = reading
+        .unknowns
+        .iter()
+        .map(|x| x.simple.clone().unwrap_or(x.start.clone()));
+    for values in [printed.clone(), simple.collect()] {
+        if short(&values) && system.holds_exactly(&values) {
+            return Ok(certificate(Vec::new(), None, Solution::Exact(values)));
+        }
+    }
+    if counts.0 > counts.1 {
+        return Err(CertifyError::TooFewCoefficients {
+            claim: claim.clone(),
+            structure,
+            conditions: counts.0,
+            unknowns: counts.1,
+        });
+    }
+    let not_found = |system: &System| {
+        let at: Vec<Interval> = printed
+            .iter()
+            .map(|x| Interval::enclosing(x, PROOF_BITS))
+            .collect();
+        let residuals = system.residuals(&at);
+        let sizes = residuals.iter().map(|r| r.low().abs().max(r.high().abs()));
+        let conditions = system.conditions.conditions().iter().map(|c| c.degree);
+        let largest = sizes.zip(conditions).max().unwrap_or_default();
+        CertifyError::NotFound {
+            claim: claim.clone(),
+            residual: Decimal::round(&largest.0, 2).to_string(),
+            degree: largest.1,
+        }
+    };
+    let free = free_unknowns(&system, reading).map_err(|rank| CertifyError::Dependent {
+        claim: claim.clone(),
+        structure,
+        conditions: counts.0,
+        rank,
+    })?;
+    let mut fixed = Vec::new();
+    let mut values = Vec::new();
+    for (index, unknown) in reading.unknowns.iter().enumerate() {
+        if free.contains(&index) {
+            values.push(None);
+            continue;
+        }
+        let value = unknown.simple.clone().unwrap_or(unknown.start.clone());
+        fixed.push(Fixed {
+            coefficient: unknown.name,
+            as_printed: value == unknown.start,
+            value: value.clone(),
+        });
+        values.push(Some(value));
+    }
+    let start: Vec<BigRational> = free.iter().map(|&index| printed[index].clone()).collect();
+    let square = Square {
+        system,
+        fixed: values,
+        free,
+    };
+    let Some(center) = square.solve(&start, PROOF_BITS) else {
+        return Err(not_found(&square.system));
+    };
+    let system = square.system.clone();
+    let proof = Proof::new(square, center, PROOF_BITS).ok_or_else(|| not_found(&system))?;
+    let uniqueness = proof.unique_around(&start);
+    if let Some(values) = recognised(&proof) {
+        return Ok(certificate(fixed, uniqueness, Solution::Exact(values)));
+    }
+    let solution = Solution::Enclosed(Box::new(Enclosed::new(proof)));
+    Ok(certificate(fixed, uniqueness, solution))
+}
+
+/// Whether exact arithmetic with some numbers is cheap.
+fn short(values: &[BigRational]) -> bool {
+    values.iter().all(|x| x.denom().bits() <= 256)
+}
+
+/// The solution, if it is rational: the simplest numbers in its enclosures solve the conditions exactly.
+fn recognised(proof: &Proof) -> Option<Vec<BigRational>> {
+    let free = proof.solution(&proof.center, proof.bits);
+    let short = u64::from(proof.bits / 3);
+    let mut values = Vec::with_capacity(free.len());
+    for interval in &free {
+        let simplest = simplest_between(&interval.low(), &interval.high());
+        if simplest.denom().bits() > short {
+            return None;
+        }
+        values.push(simplest);
+    }
+    let mut next = values.into_iter();
+    let fixed = proof.square.fixed.iter();
+    let all: Option<Vec<BigRational>> = fixed.map(|x| x.clone().or_else(|| next.next())).collect();
+    all.filter(|all| proof.square.system.holds_exactly(all))
+}
+
+/// Whether a condition of the next order is refuted.
+///
+/// For a composition of Störmer–Verlet these are the conditions of the class for the drifts and kicks.
+fn sharp(reading: &Reading, claim: &Claim, solution: &Solution) -> Option<bool> {
+    const BITS: u32 = 192;
+    // A symmetric method has even order, so that an odd claim is one order too low.
+    let degree = claim.order() + 1;
+    let next = claim.next(1)?;
+    let unknowns = solution.unknowns(BITS);
+    let (steps, arguments) = match claim {
+        Claim::SymmetricBase(_) => (reading.steps.clone(), unknowns),
+        _ => expanded(&reading.targets, &unknowns, BITS),
+    };
+    let system = System {
+        steps,
+        conditions: Conditions::of_degrees(&next, std::iter::once(degree)),
+    };
+    let residuals = system.residuals(&arguments);
+    Some(residuals.iter().any(|r| !r.contains(&BigRational::zero())))
+}
+
+/// The steps and coefficients of a splitting in the order in which they are done.
+pub(super) fn expanded(
+    targets: &[Target],
+    unknowns: &[Interval],
+    bits: u32,
+) -> (Vec<Step>, Vec<Interval>) {
+    let mut sorted: Vec<(usize, u8, Interval)> = targets
+        .iter()
+        .map(|target| {
+            let value = target.enclosed(unknowns, bits);
+            match target.name {
+                Coefficient::Drift(index) => (index, DRIFT, value),
+                Coefficient::Kick(index) | Coefficient::Weight(index) => (index, KICK, value),
+            }
+        })
+        .collect();
+    // In each stage the kick comes first.
+    sorted.sort_by_key(|(index, letter, _)| (*index, std::cmp::Reverse(*letter)));
+    let step = |(argument, (_, letter, _)): (usize, &(usize, u8, Interval))| Step {
+        kind: Kind::Letter(*letter),
+        argument,
+    };
+    let steps = sorted.iter().enumerate().map(step).collect();
+    (
+        steps,
+        sorted.into_iter().map(|(_, _, value)| value).collect(),
+    )
+}

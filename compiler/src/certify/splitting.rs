@@ -1,0 +1,98 @@
+//! Explicit splittings as they are printed.
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed};
+
+use super::CertifyError;
+use super::printed::{Printed, power_of_ten};
+use super::structure::Coefficient;
+use crate::arithmetic::rational::ratio;
+use crate::arithmetic::rounding::Decimal;
+
+/// The most stages of a splitting, and the most weights of a composition.
+pub const MAX_STAGES: usize = 64;
+/// The largest absolute value of a coefficient.
+const MAX_COEFFICIENT: u32 = 1000;
+/// Differences up to `10^−10` are ascribed to the precision with which a paper was computed, and those beyond
+/// `10^−3` never to short digits.
+const TOLERANCE_PLACES: std::ops::RangeInclusive<u32> = 3..=10;
+
+/// A splitting: for `i = 1, …, n`, `p -= kick[i] h ∂U/∂q(q)`, then `q += drift[i] h ∂T/∂p(p)`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Splitting {
+    /// The coefficients of the kicks.
+    pub kick: Vec<Printed>,
+    /// The coefficients of the drifts, as many.
+    pub drift: Vec<Printed>,
+}
+
+impl Splitting {
+    /// Reads the printed coefficients.
+    ///
+    /// # Errors
+    /// [`CertifyError::NotANumber`], [`CertifyError::Lengths`] for lists of different length,
+    /// [`CertifyError::Stages`] for none or more than [`MAX_STAGES`], and [`CertifyError::TooLarge`].
+    pub fn parse(kick: &[&str], drift: &[&str]) -> Result<Self, CertifyError> {
+        let read = |texts: &[&str]| -> Result<Vec<Printed>, CertifyError> {
+            texts.iter().map(|text| Printed::parse(text)).collect()
+        };
+        let splitting = Splitting {
+            kick: read(kick)?,
+            drift: read(drift)?,
+        };
+        splitting.check()?;
+        Ok(splitting)
+    }
+
+    pub(super) fn check(&self) -> Result<(), CertifyError> {
+        if self.kick.len() != self.drift.len() {
+            return Err(CertifyError::Lengths {
+                kicks: self.kick.len(),
+                drifts: self.drift.len(),
+            });
+        }
+        check(&self.kick, Coefficient::Kick)?;
+        check(&self.drift, Coefficient::Drift)
+    }
+}
+
+/// Checks the number and the size of printed coefficients.
+pub(super) fn check(
+    list: &[Printed],
+    name: impl Fn(usize) -> Coefficient,
+) -> Result<(), CertifyError> {
+    if !(1..=MAX_STAGES).contains(&list.len()) {
+        return Err(CertifyError::Stages {
+            count: list.len(),
+            limit: MAX_STAGES,
+        });
+    }
+    let limit = BigRational::from_integer(MAX_COEFFICIENT.into());
+    for (index, printed) in list.iter().enumerate() {
+        if printed.value().abs() > limit {
+            return Err(CertifyError::TooLarge {
+                coefficient: name(index).to_string(),
+                value: Decimal::round(printed.value(), 6).to_string(),
+                limit: MAX_COEFFICIENT,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// How far the digits may be from those of an exact method: `10^−10`, or ten units of the last decimal place of
+/// the longest coefficient where there are fewer.
+pub(super) fn tolerance<'a>(all: impl Iterator<Item = &'a Printed>) -> BigRational {
+    let places = all.filter_map(Printed::places).max();
+    let (fewest, most) = (*TOLERANCE_PLACES.start(), *TOLERANCE_PLACES.end());
+    let places = places.map_or(most, |n| n.saturating_sub(1).clamp(fewest, most));
+    BigRational::new(BigInt::one(), power_of_ten(places))
+}
+
+/// The sum of the printed values, if it is not 1 within what rounding each of them explains.
+pub(super) fn wrong_sum(list: &[Printed], tolerance: &BigRational) -> Option<BigRational> {
+    let sum: BigRational = list.iter().map(Printed::value).sum();
+    let bound = tolerance * ratio(list.len().try_into().unwrap_or(i64::MAX), 1);
+    ((&sum - BigRational::one()).abs() > bound).then_some(sum)
+}

@@ -1,0 +1,282 @@
+//! What the unknowns of a method are: its symmetry and structure, read off the digits.
+
+use std::fmt;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::printed::{Printed, power_of_ten};
+use super::splitting::Splitting;
+use super::system::{Kind, Step};
+use super::words::{DRIFT, KICK};
+use crate::arithmetic::rational::ratio;
+
+/// Which coefficient of a method, counted from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Coefficient {
+    /// `kick[i]`.
+    Kick(usize),
+    /// `drift[i]`.
+    Drift(usize),
+    /// The weight of a basic method in a composition.
+    Weight(usize),
+}
+
+impl fmt::Display for Coefficient {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Coefficient::Kick(index) => write!(f, "kick[{index}]"),
+            Coefficient::Drift(index) => write!(f, "drift[{index}]"),
+            Coefficient::Weight(index) => write!(f, "weight[{index}]"),
+        }
+    }
+}
+
+/// How the coefficients of a method hang together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Structure {
+    /// Kicks and drifts on their own.
+    Splitting,
+    /// Kicks and drifts which read the same from both ends.
+    SymmetricSplitting,
+    /// Compositions of a symmetric basic method.
+    Composition,
+    /// Compositions of a symmetric basic method whose weights read the same from both ends.
+    SymmetricComposition,
+}
+
+impl Structure {
+    /// Whether the method is symmetric (time-reversible).
+    pub fn symmetric(self) -> bool {
+        matches!(
+            self,
+            Structure::SymmetricSplitting | Structure::SymmetricComposition
+        )
+    }
+
+    /// Whether the method is a composition of a symmetric basic method.
+    pub fn composition(self) -> bool {
+        matches!(
+            self,
+            Structure::Composition | Structure::SymmetricComposition
+        )
+    }
+}
+
+impl fmt::Display for Structure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Structure::Splitting => "splitting",
+            Structure::SymmetricSplitting => "symmetric splitting",
+            Structure::Composition => "composition",
+            Structure::SymmetricComposition => "symmetric composition",
+        })
+    }
+}
+
+/// A free coefficient, or several that are equal.
+#[derive(Debug, Clone)]
+pub struct Unknown {
+    /// The first coefficient that it is.
+    pub name: Coefficient,
+    /// The printed value.
+    pub start: BigRational,
+    /// The exact value that the digits seem to stand for.
+    pub simple: Option<BigRational>,
+}
+
+/// A printed coefficient as a combination of unknowns.
+#[derive(Debug, Clone)]
+pub struct Target {
+    pub name: Coefficient,
+    pub printed: BigRational,
+    /// A unit of the last printed place; zero for a fraction.
+    pub unit: BigRational,
+    pub terms: Vec<(usize, BigRational)>,
+}
+
+/// One way to read the digits.
+#[derive(Debug, Clone)]
+pub struct Reading {
+    pub structure: Structure,
+    pub unknowns: Vec<Unknown>,
+    pub steps: Vec<Step>,
+    pub targets: Vec<Target>,
+}
+
+/// One printed factor of the product.
+#[derive(Clone, Copy)]
+struct Factor<'a> {
+    kind: Kind,
+    name: Coefficient,
+    printed: &'a Printed,
+}
+
+impl Factor<'_> {
+    fn value(&self) -> &BigRational {
+        self.printed.value()
+    }
+
+    fn target(&self, terms: Vec<(usize, BigRational)>) -> Target {
+        let unit = |places| BigRational::new(BigInt::one(), power_of_ten(places));
+        Target {
+            name: self.name,
+            printed: self.value().clone(),
+            unit: self.printed.places().map_or_else(BigRational::zero, unit),
+            terms,
+        }
+    }
+}
+
+/// All ways to read a splitting, those with the most structure first.
+pub fn readings(splitting: &Splitting) -> Vec<Reading> {
+    let mut factors = Vec::new();
+    let mut zeros = Vec::new();
+    for (index, (kick, drift)) in splitting.kick.iter().zip(&splitting.drift).enumerate() {
+        let both = [
+            (Kind::Letter(KICK), Coefficient::Kick(index), kick),
+            (Kind::Letter(DRIFT), Coefficient::Drift(index), drift),
+        ];
+        for (kind, name, printed) in both {
+            let zero = printed.value().is_zero();
+            let list = if zero { &mut zeros } else { &mut factors };
+            list.push(Factor {
+                kind,
+                name,
+                printed,
+            });
+        }
+    }
+    let mut found = composition_of_verlet(&factors);
+    let structures = [Structure::SymmetricSplitting, Structure::Splitting];
+    found.extend(plain(&factors, structures));
+    for reading in &mut found {
+        let zeros = zeros.iter().map(|factor| factor.target(Vec::new()));
+        reading.targets.extend(zeros);
+    }
+    found
+}
+
+/// The ways to read the weights of a composition of a symmetric basic method.
+pub fn composition_readings(weights: &[Printed]) -> Vec<Reading> {
+    let factors: Vec<Factor<'_>> = weights
+        .iter()
+        .enumerate()
+        .map(|(index, printed)| Factor {
+            kind: Kind::Base,
+            name: Coefficient::Weight(index),
+            printed,
+        })
+        .collect();
+    plain(&factors, COMPOSITIONS)
+}
+
+const COMPOSITIONS: [Structure; 2] = [Structure::SymmetricComposition, Structure::Composition];
+
+/// Whether two numbers may be meant to be equal: they agree to three places.
+///
+/// This is coarse, so that a wrong digit does not hide the structure. What the structure leads to is compared
+/// with all digits.
+fn close(x: &BigRational, y: &BigRational) -> bool {
+    (x - y).abs() <= ratio(1, 1000)
+}
+
+/// Each factor with its own argument, but for symmetry and equal digits; then without either.
+fn plain(factors: &[Factor<'_>], [symmetric, asymmetric]: [Structure; 2]) -> Vec<Reading> {
+    let partner = |index: usize| factors.len() - 1 - index;
+    let pairs = || (0..factors.len()).map(|i| (&factors[i], &factors[partner(i)]));
+    let palindrome = pairs().all(|(x, y)| x.kind == y.kind && close(x.value(), y.value()));
+    let exact = palindrome && pairs().all(|(x, y)| x.value() == y.value());
+    let mut readings: Vec<Reading> = Vec::new();
+    for (structure, possible) in [(symmetric, palindrome), (asymmetric, !exact)] {
+        for equal in [true, false] {
+            let reading = read(factors, structure, equal);
+            let known = readings.iter().any(|other| {
+                other.structure == structure && other.unknowns.len() == reading.unknowns.len()
+            });
+            if possible && !known {
+                readings.push(reading);
+            }
+        }
+    }
+    readings
+}
+
+/// The reading with a structure, where equal digits are one unknown or not.
+fn read(factors: &[Factor<'_>], structure: Structure, equal: bool) -> Reading {
+    let mut unknowns: Vec<(Kind, Unknown)> = Vec::new();
+    let mut arguments: Vec<usize> = Vec::new();
+    for (index, factor) in factors.iter().enumerate() {
+        let same = |(kind, unknown): &(Kind, Unknown)| {
+            *kind == factor.kind && &unknown.start == factor.value()
+        };
+        let partner = factors.len() - 1 - index;
+        let known = if structure.symmetric() && partner < index {
+            Some(arguments[partner])
+        } else if equal {
+            unknowns.iter().position(same)
+        } else {
+            None
+        };
+        arguments.push(known.unwrap_or_else(|| {
+            let unknown = Unknown {
+                name: factor.name,
+                start: factor.value().clone(),
+                simple: factor.printed.simple(),
+            };
+            unknowns.push((factor.kind, unknown));
+            unknowns.len() - 1
+        }));
+    }
+    let pairs = || factors.iter().zip(&arguments);
+    let step = |(factor, &argument): (&Factor<'_>, &usize)| Step {
+        kind: factor.kind,
+        argument,
+    };
+    let target = |(factor, &argument): (&Factor<'_>, &usize)| {
+        factor.target(vec![(argument, BigRational::one())])
+    };
+    Reading {
+        structure,
+        steps: pairs().map(step).collect(),
+        targets: pairs().map(target).collect(),
+        unknowns: unknowns.into_iter().map(|(_, unknown)| unknown).collect(),
+    }
+}
+
+/// The readings as a composition of steps of Störmer–Verlet, `exp(w/2 B) exp(w A) exp(w/2 B)` or with the
+/// letters exchanged: the outer coefficients are the half sums of neighbouring inner ones.
+fn composition_of_verlet(factors: &[Factor<'_>]) -> Vec<Reading> {
+    let alternating = factors.windows(2).all(|pair| pair[0].kind != pair[1].kind);
+    if factors.len() < 3 || factors.len().is_multiple_of(2) || !alternating {
+        return Vec::new();
+    }
+    let inner: Vec<Factor<'_>> = factors.iter().skip(1).step_by(2).copied().collect();
+    // The inner neighbours of the outer coefficient with a number.
+    let neighbours = |index: usize| index.saturating_sub(1)..(index + 1).min(inner.len());
+    let half = ratio(1, 2);
+    let outer: Vec<&Factor<'_>> = factors.iter().step_by(2).collect();
+    let half_sums = outer.iter().enumerate().all(|(index, factor)| {
+        let around = inner[neighbours(index)].iter();
+        let sum: BigRational = around.map(Factor::value).sum();
+        close(factor.value(), &(sum * &half))
+    });
+    if !half_sums {
+        return Vec::new();
+    }
+    let mut readings = plain(&inner, COMPOSITIONS);
+    for reading in &mut readings {
+        let argument = |index: usize| reading.steps[index].argument;
+        let half_sum = |(index, factor): (usize, &&Factor<'_>)| {
+            let inner = neighbours(index).map(|inner| (argument(inner), half.clone()));
+            factor.target(inner.collect())
+        };
+        let targets: Vec<Target> = outer.iter().enumerate().map(half_sum).collect();
+        reading.targets.extend(targets);
+        for step in &mut reading.steps {
+            step.kind = Kind::Base;
+        }
+    }
+    readings
+}

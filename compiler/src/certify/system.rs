@@ -1,0 +1,353 @@
+//! The order conditions of a splitting as polynomials in its coefficients, with their derivatives.
+//!
+//! A step with the argument `x` is `exp(x·l)` for a letter `l` of a splitting, or `exp(Σ_l x^{|l|} l)` for a
+//! basic method, where `|l|` is the degree of `l`. The coefficient of a word `u` with `m` letters in it is
+//!
+//! ```text
+//! [u] = x^|u|/m!      (for a letter: if all letters of u are that letter, else 0 for m > 0),
+//! ```
+//!
+//! and that of a word `w` in the product of the steps is the sum over all ways to cut `w` into as many blocks,
+//! possibly empty, as there are steps. Prefixes of `w` in the product of the first `i` steps, and suffixes in
+//! that of the others, are found step by step; both together give the derivative by the argument of each step.
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use super::conditions::{Condition, Conditions};
+use crate::arithmetic::interval::Interval;
+
+/// One factor of the product.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Step {
+    /// What it is the exponential of.
+    pub kind: Kind,
+    /// The index of its argument.
+    pub argument: usize,
+}
+
+/// What a step is the exponential of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// One letter.
+    Letter(u8),
+    /// All letters: a basic method.
+    Base,
+}
+
+/// The order conditions of a product of steps.
+#[derive(Debug, Clone)]
+pub struct System {
+    pub steps: Vec<Step>,
+    pub conditions: Conditions,
+}
+
+/// `x^n/m!` for an argument `x`: the coefficients of blocks.
+struct Powers {
+    /// By `n` and `m`.
+    entries: Vec<Vec<Interval>>,
+    /// The derivatives `n x^{n−1}/m!`.
+    derivatives: Vec<Vec<Interval>>,
+}
+
+impl Powers {
+    fn new(x: &Interval, length: usize) -> Self {
+        let one = BigRational::one();
+        let mut powers = vec![Interval::enclosing(&one, x.bits())];
+        for n in 1..=length {
+            powers.push(powers[n - 1].multiply(x));
+        }
+        let factorials: Vec<BigInt> = (0..=length)
+            .map(|m| (1..=m).fold(BigInt::one(), |product, k| product * k))
+            .collect();
+        let scaled = |power: &Interval, n: usize, from: usize| -> Vec<Interval> {
+            let factor = |m: &BigInt| BigRational::new(n.into(), m.clone());
+            let entries = factorials[..=from].iter();
+            entries.map(|m| power.scale(&factor(m))).collect()
+        };
+        Powers {
+            entries: (0..=length).map(|n| scaled(&powers[n], 1, n)).collect(),
+            derivatives: (0..=length)
+                .map(|n| scaled(&powers[n.saturating_sub(1)], n, n))
+                .collect(),
+        }
+    }
+}
+
+impl System {
+    /// The degree of a block in a step, if its coefficient is not zero.
+    fn block(&self, step: Step, block: &[u8]) -> Option<usize> {
+        match step.kind {
+            Kind::Letter(own) => block.iter().all(|&l| l == own).then_some(block.len()),
+            Kind::Base => Some(self.conditions.alphabet().degree(block)),
+        }
+    }
+
+    fn longest(&self) -> usize {
+        let conditions = self.conditions.conditions().iter();
+        conditions.map(|c| c.degree).max().unwrap_or(0)
+    }
+
+    /// What the conditions combine from the values of words, less what is wanted.
+    fn combined(&self, condition: &Condition, words: &[Interval], wanted: bool) -> Interval {
+        let bits = words.first().map_or(0, Interval::bits);
+        let start = if wanted {
+            -&condition.wanted
+        } else {
+            BigRational::zero()
+        };
+        let start = Interval::enclosing(&start, bits);
+        condition.terms.iter().fold(start, |sum, (word, factor)| {
+            if factor.is_one() {
+                sum.add(&words[*word])
+            } else {
+                sum.add(&words[*word].scale(factor))
+            }
+        })
+    }
+
+    /// Enclosures of the residuals of all conditions for all arguments in a box.
+    pub fn residuals(&self, arguments: &[Interval]) -> Vec<Interval> {
+        let length = self.longest();
+        let powers: Vec<Powers> = arguments.iter().map(|x| Powers::new(x, length)).collect();
+        let bits = arguments.first().map_or(0, Interval::bits);
+        let value = |word: &Vec<u8>| {
+            let prefixes = self.prefixes(word, &powers, bits);
+            prefixes[self.steps.len()][word.len()].clone()
+        };
+        let words: Vec<Interval> = self.conditions.words().iter().map(value).collect();
+        let conditions = self.conditions.conditions().iter();
+        conditions.map(|c| self.combined(c, &words, true)).collect()
+    }
+
+    /// Enclosures of the derivatives of all conditions by some arguments, for all arguments in a box.
+    pub fn derivatives(&self, arguments: &[Interval], by: &[usize]) -> Vec<Vec<Interval>> {
+        let length = self.longest();
+        let powers: Vec<Powers> = arguments.iter().map(|x| Powers::new(x, length)).collect();
+        let bits = arguments.first().map_or(0, Interval::bits);
+        let gradients: Vec<Vec<Interval>> = {
+            let words = self.conditions.words().iter();
+            words
+                .map(|word| self.gradient(word, &powers, by, bits))
+                .collect()
+        };
+        let row = |condition: &Condition| -> Vec<Interval> {
+            let entry = |column: usize| {
+                let mut sum = zero(bits);
+                for (word, factor) in &condition.terms {
+                    sum = sum.add(&gradients[*word][column].scale(factor));
+                }
+                sum
+            };
+            (0..by.len()).map(entry).collect()
+        };
+        self.conditions.conditions().iter().map(row).collect()
+    }
+
+    /// The coefficients of the prefixes of a word in the products of the first 0, 1, … steps.
+    fn prefixes(&self, word: &[u8], powers: &[Powers], bits: u32) -> Vec<Vec<Interval>> {
+        let mut current = vec![zero(bits); word.len() + 1];
+        current[0] = Interval::enclosing(&BigRational::one(), bits);
+        let mut all = vec![current.clone()];
+        for &step in &self.steps {
+            let powers = &powers[step.argument];
+            // From the end, so that the shorter prefixes are still those without this step.
+            for end in (1..=word.len()).rev() {
+                for start in (0..end).rev() {
+                    let Some(degree) = self.block(step, &word[start..end]) else {
+                        break;
+                    };
+                    if !is_zero(&current[start]) {
+                        let entry = &powers.entries[degree][end - start];
+                        current[end] = current[end].add(&current[start].multiply(entry));
+                    }
+                }
+            }
+            all.push(current.clone());
+        }
+        all
+    }
+
+    /// The derivatives of the coefficient of a word by some arguments.
+    fn gradient(&self, word: &[u8], powers: &[Powers], by: &[usize], bits: u32) -> Vec<Interval> {
+        let prefixes = self.prefixes(word, powers, bits);
+        let mut gradient = vec![zero(bits); by.len()];
+        // The coefficients of the suffixes word[start..] in the product of the steps after this one.
+        let mut suffixes = vec![zero(bits); word.len() + 1];
+        suffixes[word.len()] = Interval::enclosing(&BigRational::one(), bits);
+        for (index, &step) in self.steps.iter().enumerate().rev() {
+            let own = &powers[step.argument];
+            let column = by.iter().position(|&argument| argument == step.argument);
+            for start in 0..word.len() {
+                let mut derivative = zero(bits);
+                for end in start + 1..=word.len() {
+                    let Some(degree) = self.block(step, &word[start..end]) else {
+                        break;
+                    };
+                    if is_zero(&suffixes[end]) {
+                        continue;
+                    }
+                    let letters = end - start;
+                    if column.is_some() {
+                        let entry = &own.derivatives[degree][letters];
+                        derivative = derivative.add(&suffixes[end].multiply(entry));
+                    }
+                    let entry = &own.entries[degree][letters];
+                    suffixes[start] = suffixes[start].add(&suffixes[end].multiply(entry));
+                }
+                if let Some(column) = column {
+                    let prefix = &prefixes[index][start];
+                    gradient[column] = gradient[column].add(&prefix.multiply(&derivative));
+                }
+            }
+        }
+        gradient
+    }
+
+    /// Whether all conditions hold for rational arguments, in exact arithmetic.
+    pub fn holds_exactly(&self, arguments: &[BigRational]) -> bool {
+        // Enclosures refute faster what does not hold.
+        let enclosed: Vec<Interval> = arguments
+            .iter()
+            .map(|x| Interval::enclosing(x, 256))
+            .collect();
+        let zero = BigRational::zero();
+        if !self.residuals(&enclosed).iter().all(|r| r.contains(&zero)) {
+            return false;
+        }
+        let values: Vec<BigRational> = {
+            let words = self.conditions.words().iter();
+            words.map(|word| self.exact(word, arguments)).collect()
+        };
+        self.conditions.conditions().iter().all(|condition| {
+            let terms = condition.terms.iter();
+            let sum = terms.fold(BigRational::zero(), |sum, (word, factor)| {
+                sum + factor * &values[*word]
+            });
+            sum == condition.wanted
+        })
+    }
+
+    fn exact(&self, word: &[u8], arguments: &[BigRational]) -> BigRational {
+        let mut current = vec![BigRational::zero(); word.len() + 1];
+        current[0] = BigRational::one();
+        for &step in &self.steps {
+            let x = &arguments[step.argument];
+            for end in (1..=word.len()).rev() {
+                for start in (0..end).rev() {
+                    let Some(degree) = self.block(step, &word[start..end]) else {
+                        break;
+                    };
+                    let factorial: BigInt = (1..=end - start).fold(BigInt::one(), |n, k| n * k);
+                    let power = num_traits::pow(x.clone(), degree);
+                    let block = power / BigRational::from_integer(factorial);
+                    let added = &current[start] * block;
+                    current[end] += added;
+                }
+            }
+        }
+        current.pop().unwrap_or_else(BigRational::zero)
+    }
+}
+
+fn zero(bits: u32) -> Interval {
+    Interval {
+        low: BigInt::zero(),
+        high: BigInt::zero(),
+        bits,
+    }
+}
+
+fn is_zero(interval: &Interval) -> bool {
+    interval.low.is_zero() && interval.high.is_zero()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::rational::ratio;
+    use crate::certify::conditions::Claim;
+    use crate::certify::words::{DRIFT, KICK};
+
+    /// Three steps, kick, drift, kick, of which the first and the last have different arguments.
+    fn system(claim: Claim, kinds: &[Kind]) -> System {
+        let step = |(argument, &kind)| Step { kind, argument };
+        System {
+            steps: kinds.iter().enumerate().map(step).collect(),
+            conditions: Conditions::new(&claim, false).expect("a claim"),
+        }
+    }
+
+    fn splitting() -> System {
+        let kinds = [Kind::Letter(KICK), Kind::Letter(DRIFT), Kind::Letter(KICK)];
+        system(Claim::Separable(3), &kinds)
+    }
+
+    /// `exp(k₁B) exp(d₁A) exp(k₂B)`, by hand: `[AB] = d₁k₂`, `[AAB] = d₁²k₂/2`, `[ABB] = d₁k₂²/2`.
+    #[test]
+    fn coefficients_of_words_are_those_found_by_hand() {
+        let system = splitting();
+        let arguments = [ratio(1, 3), ratio(5, 7), ratio(2, 11)];
+        let value = |word: &[u8]| system.exact(word, &arguments);
+        assert_eq!(value(&[0]), ratio(5, 7));
+        assert_eq!(value(&[1]), ratio(1, 3) + ratio(2, 11));
+        assert_eq!(value(&[0, 1]), ratio(5 * 2, 77));
+        assert_eq!(value(&[1, 0]), ratio(5, 21));
+        assert_eq!(value(&[0, 0, 1]), ratio(25, 49) * ratio(1, 11));
+        assert_eq!(value(&[0, 1, 1]), ratio(5, 7) * ratio(2, 121));
+        assert_eq!(
+            value(&[1, 1]),
+            num_traits::pow(value(&[1]), 2) * ratio(1, 2)
+        );
+    }
+
+    /// `exp(xE₁ + x³E₃) exp(yE₁ + y³E₃)`, by hand.
+    #[test]
+    fn coefficients_of_compositions_are_those_found_by_hand() {
+        let system = system(Claim::SymmetricBase(4), &[Kind::Base, Kind::Base]);
+        let (x, y) = (ratio(2, 3), ratio(-3, 5));
+        let arguments = [x.clone(), y.clone()];
+        let cube = |x: &BigRational| num_traits::pow(x.clone(), 3);
+        let fourth = |x: &BigRational| num_traits::pow(x.clone(), 4);
+        let wanted = (fourth(&x) + fourth(&y)) * ratio(1, 2) + &x * cube(&y);
+        assert_eq!(system.exact(&[0, 1], &arguments), wanted);
+    }
+
+    /// Enclosures contain the exact residuals, and the derivatives are quotients of differences.
+    #[test]
+    fn enclosures_agree_with_exact_arithmetic() {
+        let exact = [ratio(1, 3), ratio(5, 7), ratio(2, 11)];
+        let kinds = [Kind::Base; 3];
+        for system in [splitting(), system(Claim::SymmetricBase(5), &kinds)] {
+            let boxed = |values: &[BigRational]| -> Vec<Interval> {
+                values.iter().map(|x| Interval::enclosing(x, 200)).collect()
+            };
+            let residuals = system.residuals(&boxed(&exact));
+            let by = [2, 0];
+            let derivatives = system.derivatives(&boxed(&exact), &by);
+            for (row, condition) in system.conditions.conditions().iter().enumerate() {
+                let value = |arguments: &[BigRational]| {
+                    let terms = condition.terms.iter();
+                    terms.fold(-&condition.wanted, |sum, (word, factor)| {
+                        sum + factor * system.exact(&system.conditions.words()[*word], arguments)
+                    })
+                };
+                assert!(residuals[row].contains(&value(&exact)));
+                assert!(residuals[row].width_bits() < -180);
+                for (column, &argument) in by.iter().enumerate() {
+                    // Central differences with steps δ and 2δ differ from the derivative by O(δ²).
+                    let delta = ratio(1, 1 << 40);
+                    let mut moved = exact.clone();
+                    moved[argument] += &delta;
+                    let above = value(&moved);
+                    moved[argument] -= &delta + &delta;
+                    let quotient = (above - value(&moved)) / (&delta + &delta);
+                    let error =
+                        derivatives[row][column].subtract(&Interval::enclosing(&quotient, 200));
+                    assert!(error.magnitude_bits() < -70, "{}", error.magnitude_bits());
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,366 @@
+//! Compositions of one base method: `Φ_{γ_m h} ∘ … ∘ Φ_{γ_1 h}`, some steps perhaps of its adjoint (GNI II.4).
+
+use std::ops::Range;
+
+use super::composition::{check_depth, in_text, inner, separated};
+use super::problem::{Construction, Errors, Problem, misfit, misfit_at, switch};
+use super::scheme::{MAX_ORDER, Scheme};
+use super::sequence::Sequence;
+use super::sum::off_one;
+use crate::catalogue;
+use crate::definition::{Definition, Key, read_parts, trimmed};
+use crate::error::{Error, ErrorKind};
+use crate::expression::{Expression, ExpressionKind, Input, parse_list, shown};
+use crate::limits::Limits;
+use crate::operations::concatenate;
+use crate::order::OrderOptions;
+use crate::quadrature::check_stages;
+use crate::symbolic::Constant;
+use crate::tableau::{Exact, Tableau};
+
+/// A base method, by itself or with the steps that are made with it.
+#[derive(Clone)]
+pub struct Based {
+    base: Base,
+    weights: Option<Weights>,
+}
+
+/// A method by its name in the catalogue or by its definition.
+#[derive(Clone)]
+struct Base {
+    /// The name, or the definition in brackets, in canonical form.
+    text: String,
+    method: Problem,
+}
+
+/// The steps of a composition.
+#[derive(Clone)]
+struct Weights {
+    /// In canonical form.
+    text: String,
+    /// Whether only the first half is written.
+    symmetric: bool,
+    components: Vec<Component>,
+}
+
+/// A step of the base method.
+#[derive(Clone)]
+struct Component {
+    /// The fraction of the whole step.
+    fraction: Constant,
+    /// Whether it is a step of the adjoint.
+    adjoint: bool,
+}
+
+impl Based {
+    /// Reads `base`, `weights` and `symmetric`.
+    pub fn read(definition: &Definition, limits: &Limits, errors: &mut Errors) -> Option<Self> {
+        let text = definition.get(Key::Base).unwrap_or_default();
+        let base = match Base::read(text, limits) {
+            Ok(base) => base,
+            Err(all) => {
+                errors.extend(all);
+                return None;
+            }
+        };
+        let symmetric = errors.note(switch(definition, Key::Symmetric))?;
+        let weights = match definition.get(Key::Weights) {
+            Some(text) => {
+                let read = Weights::read(text, symmetric, &base, definition, limits);
+                Some(errors.note(read)?)
+            }
+            None if symmetric => {
+                let message =
+                    "`symmetric` mirrors the `weights` of a composition, which are missing";
+                errors.push(misfit(message.to_owned()));
+                return None;
+            }
+            None => None,
+        };
+        let based = Based { base, weights };
+        let text = definition.get(Key::Weights).unwrap_or(text);
+        let name = if based.weights.is_some() {
+            Key::Weights
+        } else {
+            Key::Base
+        }
+        .name();
+        let checked = check_stages(&based.stages().into(), limits)
+            .map_err(|kind| Input { name, text }.error(&(0..text.len()), kind));
+        errors.note(checked)?;
+        Some(based)
+    }
+
+    /// The parts in canonical form.
+    pub fn parts(&self) -> Vec<(Key, String)> {
+        let mut parts = vec![(Key::Base, self.base.text.clone())];
+        if let Some(weights) = &self.weights {
+            parts.push((Key::Weights, weights.text.clone()));
+            if weights.symmetric {
+                parts.push((Key::Symmetric, "true".to_owned()));
+            }
+        }
+        parts
+    }
+
+    pub fn stages(&self) -> usize {
+        let steps = self
+            .weights
+            .as_ref()
+            .map_or(1, |weights| weights.components.len());
+        match self.sequence() {
+            Some(sequence) => sequence.stages(),
+            None => self.base.method.stages().saturating_mul(steps),
+        }
+    }
+
+    /// What the step does, if the base method is a splitting.
+    pub fn sequence(&self) -> Option<Sequence> {
+        let sequence = self.base.method.sequence()?;
+        let Some(weights) = &self.weights else {
+            return Some(sequence);
+        };
+        Sequence::joined(weights.components.iter().map(|component| {
+            let step = sequence.clone();
+            let step = if component.adjoint {
+                step.reversed()
+            } else {
+                step
+            };
+            (&component.fraction, Some(step))
+        }))
+    }
+
+    /// The coefficients.
+    pub fn exact(&self) -> Result<Exact, ErrorKind> {
+        let Some(weights) = &self.weights else {
+            return self.base.method.exact();
+        };
+        if let Some(sequence) = self.sequence() {
+            return sequence.exact();
+        }
+        let method = self.base.method.exact()?;
+        let adjoint = method.adjoint();
+        let steps = weights.components.iter().map(|component| {
+            let method = if component.adjoint { &adjoint } else { &method };
+            (&component.fraction, method)
+        });
+        concatenate(&steps.collect::<Vec<_>>())
+    }
+}
+
+impl Base {
+    fn read(text: &str, limits: &Limits) -> Result<Self, Vec<Error>> {
+        let input = Input {
+            name: Key::Base.name(),
+            text,
+        };
+        let whole = trimmed(text, 0..text.len());
+        check_depth(text).map_err(|kind| vec![input.error(&whole, kind)])?;
+        if let Some(inside) = inner(text, &whole) {
+            return Self::read_definition(input, whole, inside, limits);
+        }
+        let name = &text[whole.clone()];
+        let Some(entry) = catalogue::find(name) else {
+            return Err(vec![input.error(&whole, *catalogue::unknown(name).kind)]);
+        };
+        // The catalogue is right by its tests; its methods may still have too many stages.
+        let moved = |error: Error| input.error(&whole, *error.kind);
+        let definition =
+            Definition::parse(&entry.definition).map_err(|error| vec![moved(error)])?;
+        let method = Problem::read(&definition, limits)
+            .map_err(|all| all.into_iter().map(moved).collect::<Vec<_>>())?;
+        Ok(Base {
+            text: entry.name,
+            method,
+        })
+    }
+
+    fn read_definition(
+        input: Input<'_>,
+        whole: Range<usize>,
+        inside: Range<usize>,
+        limits: &Limits,
+    ) -> Result<Self, Vec<Error>> {
+        let parts =
+            read_parts(input, separated(input.text, inside)).map_err(|error| vec![error])?;
+        let texts = parts
+            .iter()
+            .map(|(key, range)| (*key, &input.text[range.clone()]));
+        let method = Problem::read(&Definition::new(texts), limits).map_err(|all| {
+            let moved = |error| in_text(input, &whole, &parts, error);
+            all.into_iter().map(moved).collect::<Vec<_>>()
+        })?;
+        Ok(Base {
+            text: format!("[{}]", method.definition()),
+            method,
+        })
+    }
+
+    /// The tableau, which what a composition needs of its base is decided from, if it is symmetric.
+    fn symmetric(&self, what: &str, definition: &Definition) -> Result<Tableau, Error> {
+        let at_base = |message: String| misfit_at(definition, Key::Base, message);
+        let tableau = self
+            .method
+            .derive()
+            .map_err(|kind| at_base(kind.to_string()))?;
+        let symmetric = tableau.separable_properties().symmetric;
+        if !symmetric.holds {
+            let witness = symmetric.witness.unwrap_or_default();
+            return Err(at_base(format!(
+                "{what} needs a base method that is symmetric, and {} is not: {witness}; steps of the adjoint are written `adjoint(1/2)` among the weights",
+                self.text
+            )));
+        }
+        Ok(tableau)
+    }
+}
+
+impl Weights {
+    fn read(
+        text: &str,
+        symmetric: bool,
+        base: &Base,
+        definition: &Definition,
+        limits: &Limits,
+    ) -> Result<Self, Error> {
+        let input = Input {
+            name: Key::Weights.name(),
+            text,
+        };
+        let items = parse_list(input)?;
+        if let [item] = items.as_slice()
+            && let Some((scheme, order)) = Scheme::find(item)
+        {
+            return Self::of_scheme(scheme, order, input, symmetric, base, definition);
+        }
+        let count = if symmetric {
+            2 * items.len() - 1
+        } else {
+            items.len()
+        };
+        let whole = 0..text.len();
+        check_stages(&count.into(), limits).map_err(|kind| input.error(&whole, kind))?;
+        let components = items.iter().map(|item| Component::read(item, input));
+        let mut components: Vec<Component> = components.collect::<Result<_, _>>()?;
+        let texts: Vec<String> = components.iter().map(Component::text).collect();
+        if symmetric {
+            base.symmetric("`symmetric`", definition)?;
+            // The mirror image of a symmetric method is the method itself.
+            components.extend_from_within(..items.len() - 1);
+            components[items.len()..].reverse();
+        }
+        if let Some(sum) = off_one(components.iter().map(|component| &component.fraction)) {
+            let mirrored = if symmetric { ", mirrored," } else { "" };
+            let message = format!(
+                "the weights{mirrored} sum to {sum}, and a step makes fractions that sum to 1; give exact numbers, one of them as 1 minus the others"
+            );
+            return Err(misfit_at(definition, Key::Weights, message));
+        }
+        Ok(Weights {
+            text: texts.join(", "),
+            symmetric,
+            components,
+        })
+    }
+
+    fn of_scheme(
+        scheme: Scheme,
+        order: &Expression,
+        input: Input<'_>,
+        symmetric: bool,
+        base: &Base,
+        definition: &Definition,
+    ) -> Result<Self, Error> {
+        let name = scheme.name();
+        if symmetric {
+            let message = format!("`{name}` is symmetric by itself: leave out `symmetric`");
+            return Err(misfit_at(definition, Key::Symmetric, message));
+        }
+        let written = order.whole(input)?;
+        let tableau = base.symmetric(&format!("`{name}`"), definition)?;
+        let options = OrderOptions {
+            limit: MAX_ORDER,
+            ..OrderOptions::default()
+        };
+        // A symmetric method has an even order, and the scheme raises it by two.
+        let start = tableau.order(&options).separable.order;
+        let orders = (start + 2..=MAX_ORDER).step_by(2);
+        let wanted = orders.clone().find(|order| written == (*order).into());
+        let Some(wanted) = wanted else {
+            let orders: Vec<String> = orders.map(|order| order.to_string()).collect();
+            let possible = match orders.is_empty() {
+                true => format!("no order above {MAX_ORDER}"),
+                false => format!("the orders {}", orders.join(", ")),
+            };
+            let written = shown(&written.to_string());
+            let message = format!(
+                "`{name}` builds {possible} from the order {start} of the base, not {written}"
+            );
+            return Err(input.error(&order.span, ErrorKind::Definition { message }));
+        };
+        let fractions = scheme
+            .fractions(start, wanted)
+            .map_err(|kind| input.error(&(0..input.text.len()), kind))?;
+        let component = |fraction| Component {
+            fraction,
+            adjoint: false,
+        };
+        Ok(Weights {
+            text: format!("{name}({wanted})"),
+            symmetric: false,
+            components: fractions.into_iter().map(component).collect(),
+        })
+    }
+}
+
+impl Component {
+    /// Reads `1/2` or `adjoint(1/2)`.
+    fn read(item: &Expression, input: Input<'_>) -> Result<Self, Error> {
+        if let ExpressionKind::Call {
+            function,
+            arguments,
+            ..
+        } = &item.kind
+        {
+            if function == "adjoint" {
+                let [fraction] = arguments.as_slice() else {
+                    let kind = ErrorKind::Arguments {
+                        function: function.clone(),
+                        expected: "one fraction of the step".to_owned(),
+                        found: format!("{} of them", arguments.len()),
+                    };
+                    return Err(input.error(&item.span, kind));
+                };
+                return Ok(Component {
+                    fraction: fraction.constant(input)?,
+                    adjoint: true,
+                });
+            }
+            if Scheme::NAMES.contains(&function.as_str()) {
+                let kind = ErrorKind::Type {
+                    found: format!("`{function}` among others"),
+                    expected: format!("`weights: {function}(4)` alone, or a list of fractions,"),
+                };
+                return Err(input.error(&item.span, kind));
+            }
+        }
+        Ok(Component {
+            fraction: item.constant(input)?,
+            adjoint: false,
+        })
+    }
+
+    fn text(&self) -> String {
+        match self.adjoint {
+            true => format!("adjoint({})", self.fraction),
+            false => self.fraction.to_string(),
+        }
+    }
+}
+
+impl From<Based> for Construction {
+    fn from(based: Based) -> Self {
+        Construction::Based(Box::new(based))
+    }
+}

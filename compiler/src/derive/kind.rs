@@ -1,0 +1,80 @@
+//! Which construction the parts of a definition ask for.
+
+use crate::definition::{Definition, Key};
+
+/// The ways to say what a method is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Functions at nodes.
+    Derived,
+    /// Given coefficients.
+    Given,
+    /// Kicks and drifts.
+    Splitting,
+    /// A base method, perhaps with the steps made with it.
+    Based,
+    /// Steps of several methods.
+    Composition,
+}
+
+impl Kind {
+    /// The construction of a definition; where the keys of several are there, one of them.
+    pub fn of(definition: &Definition) -> Self {
+        let telling = [Kind::Composition, Kind::Based, Kind::Splitting, Kind::Given];
+        let told = |kind: &Kind| {
+            kind.telling()
+                .iter()
+                .any(|&key| definition.get(key).is_some())
+        };
+        telling.into_iter().find(told).unwrap_or(Kind::Derived)
+    }
+
+    /// The keys by which it is told from the others.
+    fn telling(self) -> &'static [Key] {
+        match self {
+            Kind::Derived => &[Key::Basis, Key::Nodes, Key::Quadrature],
+            Kind::Given => &[Key::A, Key::B, Key::ATilde, Key::BTilde],
+            Kind::Splitting => &[Key::Kick, Key::Drift],
+            Kind::Based => &[Key::Base],
+            Kind::Composition => &[Key::Compose],
+        }
+    }
+
+    /// Whether it takes a key.
+    pub fn takes(self, key: Key) -> bool {
+        match key {
+            Key::Exchange | Key::Adjoint => true,
+            Key::Weights => matches!(self, Kind::Derived | Kind::Based),
+            Key::First => self == Kind::Splitting,
+            Key::Symmetric => matches!(self, Kind::Splitting | Kind::Based),
+            _ => self.telling().contains(&key),
+        }
+    }
+
+    /// The message about a key that it does not take.
+    pub fn refuses(self, key: Key) -> String {
+        let name = key.name();
+        match (self, key) {
+            (_, Key::First | Key::Symmetric) => format!(
+                "`{name}` goes with the `kick` and `drift` of a splitting{}: leave it out",
+                if key == Key::Symmetric {
+                    ", or the `weights` of a `base`"
+                } else {
+                    ""
+                }
+            ),
+            (Kind::Composition, _) => format!(
+                "`compose` has the definitions of its methods in it: leave out `{name}`, or `compose`"
+            ),
+            (Kind::Based, _) => format!(
+                "`base` is a whole method, with which `weights` make a composition: leave out `{name}`, or `base`"
+            ),
+            (Kind::Splitting, _) => {
+                format!("a splitting is all in `kick` and `drift`: leave out `{name}`, or them")
+            }
+            (Kind::Given | Kind::Derived, _) => {
+                format!("coefficients are given by `a` and `b`: leave out `{name}`, or them")
+            }
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Named compositions of a symmetric method, which raise its order by two at each level (GNI II.4).
+//!
+//! From a symmetric method of order `p` they make one of order `p + 2`: the fractions `γ_i` have to satisfy
+//! `Σ γ_i = 1` and `Σ γ_i^{p+1} = 0`, and symmetry gives the second order.
+//!
+//! * triple jump (Creutz & Gocksch 1989; Forest 1989; Suzuki 1990; Yoshida 1990):
+//!   `γ_1 = γ_3 = 1/(2 − r)`, `γ_2 = −r/(2 − r)` with `r = 2^{1/(p+1)}`;
+//! * Suzuki's fractal (Suzuki 1990): `γ_1 = γ_2 = γ_4 = γ_5 = 1/(4 − r²)`, `γ_3 = −r²/(4 − r²)`, whose steps are
+//!   smaller.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+
+use crate::algebra::field::MAX_DEGREE;
+use crate::arithmetic::polynomial::Polynomial;
+use crate::error::ErrorKind;
+use crate::expression::{Expression, ExpressionKind};
+use crate::symbolic::Constant;
+
+/// The highest order that is built.
+pub const MAX_ORDER: usize = 10;
+
+/// A named composition.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scheme {
+    TripleJump,
+    Suzuki,
+}
+
+impl Scheme {
+    /// The names in definitions.
+    pub const NAMES: [&str; 2] = ["triple_jump", "suzuki"];
+
+    /// Reads `triple_jump(4)`; the expression is that of the order.
+    pub fn find(item: &Expression) -> Option<(Self, &Expression)> {
+        let ExpressionKind::Call {
+            function,
+            arguments,
+            ..
+        } = &item.kind
+        else {
+            return None;
+        };
+        let all = [Scheme::TripleJump, Scheme::Suzuki];
+        let scheme = all.into_iter().find(|scheme| scheme.name() == function)?;
+        match arguments.as_slice() {
+            [order] => Some((scheme, order)),
+            _ => None,
+        }
+    }
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Scheme::TripleJump => Self::NAMES[0],
+            Scheme::Suzuki => Self::NAMES[1],
+        }
+    }
+
+    /// The fractions that make a method of order `to` of a symmetric one of order `from`.
+    ///
+    /// All roots are powers of one number, `2^{1/n}` with the least common multiple `n` of the `p + 1`, where the
+    /// field that it generates is within the bounds of number fields; otherwise each is a number of its own.
+    ///
+    /// # Errors
+    /// None up to [`MAX_ORDER`]; [`ErrorKind::ExpressionSize`] where a constant were too long.
+    pub fn fractions(self, from: usize, to: usize) -> Result<Vec<Constant>, ErrorKind> {
+        let orders = || (from..to).step_by(2);
+        let common = orders().fold(1, |n, p| n.lcm(&(p + 1)));
+        let mut fractions = vec![Constant::one()];
+        for p in orders() {
+            let root = if common <= MAX_DEGREE {
+                root_of_two(common)?.power(exponent(common / (p + 1)))?
+            } else {
+                root_of_two(p + 1)?
+            };
+            let (root, whole) = match self {
+                Scheme::TripleJump => (root, 2),
+                Scheme::Suzuki => (root.power(2)?, 4),
+            };
+            let outer = Constant::whole(whole).subtract(&root)?.inverse()?;
+            let inner = root.multiply(&outer)?.negate()?;
+            let outers = whole as usize / 2;
+            let level = std::iter::repeat_n(&outer, outers)
+                .chain([&inner])
+                .chain(std::iter::repeat_n(&outer, outers));
+            let mut raised = Vec::new();
+            for factor in level {
+                for fraction in &fractions {
+                    raised.push(fraction.multiply(factor)?);
+                }
+            }
+            fractions = raised;
+        }
+        Ok(fractions)
+    }
+}
+
+/// Exponents are at most as large as degrees of number fields.
+fn exponent(value: usize) -> i32 {
+    i32::try_from(value).unwrap_or(i32::MAX)
+}
+
+/// `2^{1/n}` for an odd `n`.
+fn root_of_two(n: usize) -> Result<Constant, ErrorKind> {
+    if n == 3 {
+        return Constant::whole(2).cbrt();
+    }
+    let polynomial = &Polynomial::monomial(n) - &Polynomial::from_integers(&[2]);
+    Constant::root(&polynomial, &BigInt::from(1))
+}

@@ -1,0 +1,179 @@
+//! Kicks and drifts one after another as a partitioned Runge–Kutta method.
+
+use std::sync::Arc;
+
+use num_rational::BigRational;
+
+use super::splitting::Flow;
+use super::tiers::outside;
+use crate::algebra::{Constants, Dense, Field, Reals, Zero};
+use crate::error::ErrorKind;
+use crate::pair::Pair;
+use crate::symbolic::Constant;
+use crate::tableau::Exact;
+
+/// A fraction of one of the two flows.
+#[derive(Debug, Clone)]
+pub struct Substep {
+    flow: Flow,
+    /// The fraction of the step is the product of these.
+    factors: Vec<Constant>,
+}
+
+impl Substep {
+    /// This fraction of the step.
+    pub fn new(flow: Flow, fraction: Constant) -> Self {
+        Substep {
+            flow,
+            factors: vec![fraction],
+        }
+    }
+}
+
+/// What a method does that makes kicks and drifts one after another: a splitting, its adjoint, and
+/// compositions of such methods.
+#[derive(Debug, Clone)]
+pub struct Sequence {
+    /// Which of the two is the first of each pair of the tableau, where that makes it no longer.
+    first: Flow,
+    substeps: Vec<Substep>,
+}
+
+impl Sequence {
+    /// These flows; those of no time at all are left out.
+    pub fn new(first: Flow, mut substeps: Vec<Substep>) -> Self {
+        substeps.retain(|substep| !substep.factors.iter().any(Constant::is_trivially_zero));
+        Sequence { first, substeps }
+    }
+
+    /// The sequences of methods one after another, each with its fraction of the step; `None` where one of the
+    /// methods is no such sequence.
+    pub fn joined<'a>(
+        parts: impl IntoIterator<Item = (&'a Constant, Option<Sequence>)>,
+    ) -> Option<Self> {
+        let mut all: Option<Sequence> = None;
+        for (fraction, part) in parts {
+            let mut part = part?;
+            for substep in &mut part.substeps {
+                substep.factors.push(fraction.clone());
+            }
+            match &mut all {
+                Some(all) => all.substeps.append(&mut part.substeps),
+                None => all = Some(part),
+            }
+        }
+        all
+    }
+
+    /// The sequence of the adjoint method: the flows are their own adjoints, so that only their order turns.
+    #[must_use]
+    pub fn reversed(mut self) -> Self {
+        self.substeps.reverse();
+        self
+    }
+
+    /// The sequence with positions and momenta exchanged.
+    #[must_use]
+    pub fn exchanged(mut self) -> Self {
+        self.first = self.first.other();
+        for substep in &mut self.substeps {
+            substep.flow = substep.flow.other();
+        }
+        self
+    }
+
+    /// The number of stages, if no fraction vanishes; more than there are otherwise.
+    pub fn stages(&self) -> usize {
+        let mut flows: Vec<Flow> = self.substeps.iter().map(|substep| substep.flow).collect();
+        flows.dedup();
+        let first = flows.first().copied();
+        let [this, other] = [self.first, self.first.other()]
+            .map(|layout| (flows.len() + usize::from(first != Some(layout))).div_ceil(2));
+        this.min(other)
+    }
+
+    /// The coefficients.
+    ///
+    /// # Errors
+    /// None; a constant that the field that was made for it does not hold.
+    pub fn exact(&self) -> Result<Exact, ErrorKind> {
+        let constants = self.substeps.iter().flat_map(|substep| &substep.factors);
+        let exact = match Constants::containing(constants) {
+            Some(field) => self.pair(&field).map(Exact::Field),
+            None => self.pair(&Reals).map(Exact::Reals),
+        };
+        exact.ok_or_else(outside)
+    }
+
+    /// The tableau: with the kicks `k_i` and the drifts `d_i` in pairs, each kick before its drift,
+    ///
+    /// ```text
+    /// a_ij = d_j for j < i     ã_ij = k_j for j ≤ i     b = d     b̃ = k
+    /// ```
+    ///
+    /// and the same exchanged where each drift comes before its kick.
+    fn pair<F: Field + Clone>(&self, field: &F) -> Option<Pair<Dense<F>>> {
+        let flows = self.merged(field)?;
+        let zero = field.rational(&BigRational::default());
+        let start = flows.first().map_or(self.first, |(flow, _)| *flow);
+        let length = |layout: Flow| (flows.len() + usize::from(layout != start)).div_ceil(2);
+        let layout = match length(self.first.other()) < length(self.first) {
+            true => self.first.other(),
+            false => self.first,
+        };
+        let mut values: Vec<F::Element> = flows.into_iter().map(|(_, value)| value).collect();
+        if start != layout {
+            values.insert(0, zero.clone());
+        }
+        // The step that does nothing has a stage too.
+        if values.len() % 2 == 1 || values.is_empty() {
+            values.resize(values.len().max(1).next_multiple_of(2), zero.clone());
+        }
+        let half = |offset: usize| -> Vec<F::Element> {
+            values.iter().skip(offset).step_by(2).cloned().collect()
+        };
+        let (b_tilde, b) = (half(0), half(1));
+        let rows = |weights: &[F::Element], includes_own: usize| -> Vec<Vec<F::Element>> {
+            let entry = |i: usize, j: usize| match j < i + includes_own {
+                true => weights[j].clone(),
+                false => zero.clone(),
+            };
+            let row = |i: usize| (0..weights.len()).map(|j| entry(i, j)).collect();
+            (0..weights.len()).map(row).collect()
+        };
+        let pair = Pair {
+            algebra: Arc::new(Dense::new(field.clone(), b.len())),
+            a: rows(&b, 0),
+            a_tilde: rows(&b_tilde, 1),
+            b,
+            b_tilde,
+        };
+        Some(match layout {
+            Flow::Kick => pair,
+            Flow::Drift => pair.exchanged(),
+        })
+    }
+
+    /// Alternating flows: neighbours of the same kind are one, and what is exactly zero is none.
+    fn merged<F: Field>(&self, field: &F) -> Option<Vec<(Flow, F::Element)>> {
+        let vanishes = |x: &F::Element| field.zero(x) == Zero::Yes;
+        let mut merged: Vec<(Flow, F::Element)> = Vec::new();
+        for Substep { flow, factors } in &self.substeps {
+            let one = field.rational(&BigRational::from_integer(1.into()));
+            let value = factors.iter().try_fold(one, |product, factor| {
+                Some(field.multiply(&product, &field.constant(factor)?))
+            })?;
+            match merged.last_mut() {
+                Some((last, sum)) if last == flow => {
+                    *sum = field.add(sum, &value);
+                    if vanishes(sum) {
+                        merged.pop();
+                    }
+                }
+                _ if vanishes(&value) => {}
+                _ => merged.push((*flow, value)),
+            }
+        }
+        Some(merged)
+    }
+}

@@ -1,0 +1,215 @@
+//! Splittings: what they are and how they are read.
+//!
+//! For `H = T(p) + U(q)` the two parts can be integrated exactly, and a splitting makes fractions of their flows
+//! one after another (Ruth 1983; GNI II.5): for `i = 1, …, n`
+//!
+//! ```text
+//! kick    p −= kick_i h ∂U/∂q(q)
+//! drift   q += drift_i h ∂T/∂p(p)
+//! ```
+
+use super::problem::{Errors, misfit, misfit_at, read_vector, switch};
+use super::sequence::{Sequence, Substep};
+use super::sum::off_one;
+use crate::definition::{Definition, Key};
+use crate::error::ErrorKind;
+use crate::expression::{Input, shown};
+use crate::limits::Limits;
+use crate::quadrature::check_stages;
+use crate::symbolic::Constant;
+
+/// The flow of one part of `H = T(p) + U(q)`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flow {
+    /// That of `U(q)`, which changes momenta.
+    Kick,
+    /// That of `T(p)`, which changes positions.
+    Drift,
+}
+
+impl Flow {
+    /// The other one.
+    pub fn other(self) -> Self {
+        match self {
+            Flow::Kick => Flow::Drift,
+            Flow::Drift => Flow::Kick,
+        }
+    }
+
+    /// The word for it, which is also the key of its list.
+    fn key(self) -> Key {
+        match self {
+            Flow::Kick => Key::Kick,
+            Flow::Drift => Key::Drift,
+        }
+    }
+}
+
+/// A splitting as it is written.
+#[derive(Clone)]
+pub struct Splitting {
+    kick: Vec<Constant>,
+    drift: Vec<Constant>,
+    /// Which of the two of the same number comes first.
+    first: Flow,
+    /// Whether the lists are the first half of a sequence that reads the same from both ends.
+    symmetric: bool,
+}
+
+impl Splitting {
+    /// Reads `kick`, `drift`, `first` and `symmetric`.
+    ///
+    /// Both lists have the same length, but where they are mirrored, the first flow may come once more than the
+    /// other: it stands in the middle then.
+    pub fn read(definition: &Definition, limits: &Limits, errors: &mut Errors) -> Option<Self> {
+        let first = errors.note(read_first(definition));
+        let symmetric = errors.note(switch(definition, Key::Symmetric));
+        let mut list = |key: Key, other: Key| match definition.get(key) {
+            Some(text) => errors.note(read_vector(key, text)),
+            None => {
+                errors.push(misfit(format!(
+                    "a splitting has `kick` and `drift`, two lists of the same length: `{}` is missing beside `{}`",
+                    key.name(),
+                    other.name()
+                )));
+                None
+            }
+        };
+        let (kick, drift) = (list(Key::Kick, Key::Drift), list(Key::Drift, Key::Kick));
+        let splitting = Splitting {
+            kick: kick?,
+            drift: drift?,
+            first: first?,
+            symmetric: symmetric?,
+        };
+        let valid = splitting
+            .check_lengths(definition, limits)
+            .and_then(|()| splitting.check_sums(definition));
+        errors.note(valid)?;
+        Some(splitting)
+    }
+
+    fn list(&self, flow: Flow) -> &[Constant] {
+        match flow {
+            Flow::Kick => &self.kick,
+            Flow::Drift => &self.drift,
+        }
+    }
+
+    fn check_lengths(
+        &self,
+        definition: &Definition,
+        limits: &Limits,
+    ) -> Result<(), crate::error::Error> {
+        let second = self.first.other();
+        let [n, m] = [self.first, second].map(|flow| self.list(flow).len());
+        if n != m && !(self.symmetric && n == m + 1) {
+            let middle = if self.symmetric {
+                format!(
+                    " the same number of both, or one more in `{}`, which is in the middle then",
+                    self.first.key().name()
+                )
+            } else {
+                " the same number of both; write 0 where there is none".to_owned()
+            };
+            let message = format!(
+                "{} kick{} and {} drift{}:{middle}",
+                self.kick.len(),
+                plural(self.kick.len()),
+                self.drift.len(),
+                plural(self.drift.len()),
+            );
+            return Err(misfit_at(definition, second.key(), message));
+        }
+        let stages = if self.symmetric { n + m } else { n };
+        check_stages(&stages.into(), limits)
+            .map(|_| ())
+            .map_err(|kind| {
+                let key = self.first.key();
+                let text = definition.get(key).unwrap_or_default();
+                let name = key.name();
+                Input { name, text }.error(&(0..text.len()), kind)
+            })
+    }
+
+    /// Both have to sum to 1, or the method has order 0.
+    fn check_sums(&self, definition: &Definition) -> Result<(), crate::error::Error> {
+        let flows = self.flows();
+        for flow in [Flow::Kick, Flow::Drift] {
+            let values = flows.iter().filter(|(kind, _)| *kind == flow);
+            if let Some(sum) = off_one(values.map(|(_, value)| *value)) {
+                let mirrored = if self.symmetric { ", mirrored," } else { "" };
+                let message = format!(
+                    "the {}s{mirrored} sum to {sum}, and a step makes them for a time of 1 together; give exact numbers, one of them as 1 minus the others",
+                    flow.key().name(),
+                );
+                return Err(misfit_at(definition, flow.key(), message));
+            }
+        }
+        Ok(())
+    }
+
+    /// Kicks and drifts in the order in which they are made.
+    fn flows(&self) -> Vec<(Flow, &Constant)> {
+        let second = self.first.other();
+        let mut flows = Vec::new();
+        for i in 0..self.list(self.first).len() {
+            let both = [self.first, second];
+            flows.extend(both.map(|flow| Some((flow, self.list(flow).get(i)?))));
+        }
+        let mut flows: Vec<_> = flows.into_iter().flatten().collect();
+        if self.symmetric {
+            flows.extend_from_within(..flows.len().saturating_sub(1));
+            let half = flows.len() / 2 + 1;
+            flows[half..].reverse();
+        }
+        flows
+    }
+
+    /// What the step does.
+    pub fn sequence(&self) -> Sequence {
+        let substep = |(flow, value): (Flow, &Constant)| Substep::new(flow, value.clone());
+        Sequence::new(self.first, self.flows().into_iter().map(substep).collect())
+    }
+
+    /// The parts in canonical form.
+    pub fn parts(&self) -> Vec<(Key, String)> {
+        let list = |values: &[Constant]| {
+            let values: Vec<String> = values.iter().map(ToString::to_string).collect();
+            values.join(", ")
+        };
+        let mut parts = vec![
+            (Key::Kick, list(&self.kick)),
+            (Key::Drift, list(&self.drift)),
+        ];
+        if self.first == Flow::Drift {
+            parts.push((Key::First, Key::Drift.name().to_owned()));
+        }
+        if self.symmetric {
+            parts.push((Key::Symmetric, "true".to_owned()));
+        }
+        parts
+    }
+}
+
+fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
+}
+
+fn read_first(definition: &Definition) -> Result<Flow, crate::error::Error> {
+    match definition.get(Key::First) {
+        None | Some("kick") => Ok(Flow::Kick),
+        Some("drift") => Ok(Flow::Drift),
+        Some(text) => {
+            let input = Input {
+                name: Key::First.name(),
+                text,
+            };
+            let kind = ErrorKind::Type {
+                found: shown(text),
+                expected: "`kick` or `drift`".to_owned(),
+            };
+            Err(input.error(&(0..text.len()), kind))
+        }
+    }
+}

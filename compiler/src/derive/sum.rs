@@ -1,0 +1,36 @@
+//! Whether fractions of a step make a whole one.
+
+use num_rational::BigRational;
+
+use crate::algebra::{Constants, Field, Number, Reals, Zero};
+use crate::symbolic::Constant;
+
+/// The sum of some constants for a message, if it is not 1.
+///
+/// Where no field holds them, a sum that enclosures do not tell from 1 is taken for it.
+pub fn off_one<'a>(values: impl Iterator<Item = &'a Constant>) -> Option<String> {
+    let values: Vec<&Constant> = values.collect();
+    match Constants::containing(values.iter().copied()) {
+        Some(field) => off_one_in(&field, &values),
+        None => off_one_in(&Reals, &values),
+    }
+}
+
+fn off_one_in<F: Field>(field: &F, values: &[&Constant]) -> Option<String> {
+    let zero = field.rational(&BigRational::default());
+    let elements = values.iter().filter_map(|value| field.constant(value));
+    let sum = elements.fold(zero, |sum, value| field.add(&sum, &value));
+    let one = field.rational(&BigRational::from_integer(1.into()));
+    let rest = field.subtract(&sum, &one);
+    (field.zero(&rest) == Zero::No).then(|| shown(&field.number(&sum), &field.number(&rest)))
+}
+
+/// A short fraction as it is; otherwise the first digits, and how far from 1 it is.
+fn shown(sum: &Number<'_>, rest: &Number<'_>) -> String {
+    const SHORT: usize = 12;
+    let exact = sum.short_rational().map(|value| value.to_string());
+    match exact.filter(|exact| exact.len() <= SHORT) {
+        Some(exact) => exact,
+        None => format!("{}… (off by {})", sum.decimal(20), rest.decimal(2)),
+    }
+}

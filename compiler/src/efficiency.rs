@@ -1,0 +1,41 @@
+//! Error at equal cost.
+//!
+//! A method of order `p` with error constant `C` makes an error of about `C h^{p+1}` in a step of `h`, so `C h^p` in a
+//! unit of time. With `n` force evaluations a step, `N = n/h` of them in a unit of time give
+//!
+//! ```text
+//! error = C (n/N)^p = (n C^{1/p} / N)^p .
+//! ```
+//!
+//! So `n C^{1/p}` is the number of evaluations in a unit of time at which the error is 1 by its leading term: methods of
+//! one order compare by it at any accuracy, and for an error `ε` it is `n (C/ε)^{1/p}`, from which methods of different
+//! orders compare (McLachlan 1995, §3; Blanes & Moan 2002, the effective error).
+
+use crate::arithmetic::rounding::to_f64;
+use crate::order::HamiltonianClass;
+use crate::tableau::Tableau;
+
+impl Tableau {
+    /// Force evaluations in a unit of time for an error of `tolerance`, `n (C/ε)^{1/p}`, by the leading term of the
+    /// error for a class of Hamiltonians: a figure to compare methods by, not a bound.
+    ///
+    /// `None` for methods that solve for their stages, for those that are only known to have at least some order, and for
+    /// a method or a tolerance for which the figure is not finite.
+    ///
+    /// ```
+    /// use symplectic_compiler::{catalogue, order::HamiltonianClass::Separable};
+    ///
+    /// let cost = |name| catalogue::find(name)?.derive().ok()?.evaluations_for(Separable, 1e-8);
+    /// // Four times as many kicks a step as Störmer–Verlet, and far fewer steps.
+    /// assert!(cost("mclachlan-1995-s4") < cost("stormer-verlet").map(|cost| cost / 100.0));
+    /// assert_eq!(cost("gauss-2"), None);
+    /// ```
+    pub fn evaluations_for(&self, class: HamiltonianClass, tolerance: f64) -> Option<f64> {
+        let report = self.orders();
+        let found = report.class(class);
+        let constant = to_f64(&found.error_constant.as_ref()?.value());
+        let forces = self.evaluations()?.forces as f64;
+        let cost = forces * (constant / tolerance).powf(1.0 / found.order as f64);
+        (cost.is_finite() && found.order > 0).then_some(cost)
+    }
+}

@@ -1,0 +1,163 @@
+//! What a method is for separable Hamiltonians, where it is not so for all.
+
+use std::sync::Arc;
+
+use num_rational::BigRational;
+
+use super::symplectic::decide_matrices;
+use super::{Evidence, Examined, Property, Symmetry};
+use crate::algebra::{Dense, Field, NodeAlgebra, Zero};
+use crate::pair::Pair;
+use crate::schedule::{Class, Groups};
+
+/// Properties of a method for `H = T(p) + U(q)`, which has them for every `H` or for these only.
+///
+/// There a stage `Q_i` is seen by forces and a stage `P_i` by velocities only: it does not matter which of them have
+/// the same number, and a splitting may have other weights for positions than for momenta.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SeparableProperties {
+    /// `b_i ã_ij + b̃_j a_ji = b_i b̃_j` (MW 2.6.7; GNI VI.4, Theorem 4.6).
+    pub symplectic: Property,
+    /// Equal to its adjoint, for some order of the position stages and some order of the momentum stages.
+    pub symmetric: Property,
+}
+
+impl SeparableProperties {
+    /// The names of the properties, as in `require: [symplectic(separable)]`.
+    pub const NAMES: [&str; 2] = ["symplectic", "symmetric"];
+
+    /// The property of this name.
+    pub fn get(&self, name: &str) -> Option<&Property> {
+        let all = [&self.symplectic, &self.symmetric];
+        let index = Self::NAMES.iter().position(|known| *known == name)?;
+        all.get(index).copied()
+    }
+
+    /// Decides both. `symmetric` is what is known of symmetry for every Hamiltonian.
+    pub(crate) fn of_pair<A: SeparableSymmetry>(pair: &Pair<A>, symmetric: Property) -> Self {
+        let numbers = &pair.numbers();
+        SeparableProperties {
+            symplectic: decide_matrices(&Examined { pair, numbers }),
+            symmetric: if symmetric.holds {
+                symmetric
+            } else {
+                A::separably_symmetric(pair, symmetric)
+            },
+        }
+    }
+}
+
+/// An algebra over which symmetry for separable Hamiltonians can be decided.
+pub(crate) trait SeparableSymmetry: Symmetry {
+    /// Symmetry for separable Hamiltonians of a pair that is not known to be symmetric for all.
+    fn separably_symmetric(pair: &Pair<Self>, for_all: Property) -> Property;
+}
+
+impl SeparableSymmetry for NodeAlgebra {
+    /// Not looked for: the tableaux of this algebra have equal weights, and no splitting is among them.
+    fn separably_symmetric(_pair: &Pair<Self>, for_all: Property) -> Property {
+        for_all
+    }
+}
+
+impl<F: Field + Clone> SeparableSymmetry for Dense<F> {
+    /// A method with a stage for each distinct position and one for each distinct momentum is equal to this one for
+    /// separable Hamiltonians, and an order of its stages is an order of each kind.
+    fn separably_symmetric(pair: &Pair<Self>, _for_all: Property) -> Property {
+        let apart = apart(pair);
+        let mut symmetric = Self::symmetric(&apart, &apart.numbers());
+        if symmetric.evidence == Evidence::Refuted {
+            let witness = "no order of the position stages and of the momentum stages makes the tableau equal to its adjoint";
+            symmetric.witness = Some(witness.to_owned());
+        }
+        symmetric
+    }
+}
+
+/// The distinct position stages of a pair that are used, and then the momentum stages, as stages of their own.
+///
+/// What the force does not see of a momentum stage, and the velocity of a position stage, has no weight; the
+/// coefficients that it never meets are half the weights, which are their own in the adjoint.
+fn apart<F: Field + Clone>(pair: &Pair<Dense<F>>) -> Pair<Dense<F>> {
+    let field = pair.algebra.field();
+    let groups = Groups::new(Class::Separable, pair);
+    let zero = field.rational(&BigRational::default());
+    let sum = |values: &[F::Element], group: &[usize]| {
+        let values = group.iter().map(|&i| &values[i]);
+        values.fold(zero.clone(), |sum, value| field.add(&sum, value))
+    };
+    let rows = |matrix: &[Vec<F::Element>], stages: &[Vec<usize>], evaluations: &[Vec<usize>]| {
+        let row = |stage: &Vec<usize>| -> Vec<F::Element> {
+            let row = &matrix[stage[0]];
+            evaluations.iter().map(|group| sum(row, group)).collect()
+        };
+        stages.iter().map(row).collect::<Vec<_>>()
+    };
+    let positions = rows(&pair.a, &groups.positions, &groups.velocities);
+    let momenta = rows(&pair.a_tilde, &groups.momenta, &groups.forces);
+    let total = |weights: &[F::Element], groups: &[Vec<usize>]| -> Vec<F::Element> {
+        groups.iter().map(|group| sum(weights, group)).collect()
+    };
+    let b = total(&pair.b, &groups.velocities);
+    let b_tilde = total(&pair.b_tilde, &groups.forces);
+
+    let counts = |x: &F::Element| field.zero(x) != Zero::Yes;
+    let mut forces: Vec<bool> = b_tilde.iter().map(counts).collect();
+    let mut velocities: Vec<bool> = b.iter().map(counts).collect();
+    loop {
+        let needed = |used: &[bool], rows: &[Vec<F::Element>], index: usize| {
+            let mut rows = rows.iter().zip(used);
+            rows.any(|(row, used)| *used && counts(&row[index]))
+        };
+        let more = |known: &[bool], used: &[bool], rows: &[Vec<F::Element>]| -> Vec<bool> {
+            let each = known.iter().enumerate();
+            each.map(|(i, known)| *known || needed(used, rows, i))
+                .collect()
+        };
+        let (f, v) = (
+            more(&forces, &velocities, &momenta),
+            more(&velocities, &forces, &positions),
+        );
+        if f == forces && v == velocities {
+            break;
+        }
+        (forces, velocities) = (f, v);
+    }
+    let kept = |used: &[bool]| -> Vec<usize> { (0..used.len()).filter(|&i| used[i]).collect() };
+    let (forces, velocities) = (kept(&forces), kept(&velocities));
+
+    let half = field.rational(&BigRational::new(1.into(), 2.into()));
+    let halves = |b: &F::Element| field.multiply(&half, b);
+    // The stages with forces first, then those with velocities.
+    let weights =
+        |b: &[F::Element], own: &[usize], before: usize, after: usize| -> Vec<F::Element> {
+            let own = own.iter().map(|&j| b[j].clone());
+            let before = std::iter::repeat_n(zero.clone(), before);
+            before
+                .chain(own)
+                .chain(std::iter::repeat_n(zero.clone(), after))
+                .collect()
+        };
+    let (n, m) = (forces.len(), velocities.len());
+    let (b, b_tilde) = (
+        weights(&b, &velocities, n, 0),
+        weights(&b_tilde, &forces, 0, m),
+    );
+    let position = |i: usize| weights(&positions[i], &velocities, n, 0);
+    let momentum = |i: usize| weights(&momenta[i], &forces, 0, m);
+    let (half_b, half_b_tilde): (Vec<_>, Vec<_>) = (
+        b.iter().map(halves).collect(),
+        b_tilde.iter().map(halves).collect(),
+    );
+    let a = forces.iter().map(|&i| position(i));
+    let a_tilde = velocities.iter().map(|&i| momentum(i));
+    Pair {
+        algebra: Arc::new(Dense::new(field.clone(), n + m)),
+        a: a.chain(std::iter::repeat_n(half_b, m)).collect(),
+        a_tilde: std::iter::repeat_n(half_b_tilde, n)
+            .chain(a_tilde)
+            .collect(),
+        b,
+        b_tilde,
+    }
+}

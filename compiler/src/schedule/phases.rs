@@ -1,0 +1,154 @@
+//! A step in the phases in which code computes it, and how often it evaluates.
+
+use super::{Class, Evaluation, Node, Schedule, StageValue, StepGraph};
+use crate::arithmetic::rational::ratio;
+use crate::tableau::Tableau;
+
+/// The nodes of a step by the function in which they are computed.
+#[derive(Debug)]
+pub struct Phases<'g, 'a> {
+    graph: &'g StepGraph<'a>,
+    /// What is computed first.
+    pub begin: Vec<Node>,
+    /// What is solved for.
+    pub coupled: Vec<Node>,
+    /// What is computed last, from the first stage on that is the result of the step.
+    pub finish: Vec<Node>,
+}
+
+impl<'g, 'a> Phases<'g, 'a> {
+    /// The phases of a step.
+    pub fn new(graph: &'g StepGraph<'a>) -> Self {
+        let Schedule {
+            before,
+            coupled,
+            after,
+        } = graph.schedule();
+        let mut begin = before;
+        let mut finish = after;
+        if coupled.is_empty() {
+            // From the first stage on that is the result itself, everything is computed where the
+            // result is written.
+            let is_end = |node: &Node| graph.value(*node).is_some_and(|value| value.is_end);
+            let split = begin.iter().position(is_end).unwrap_or(begin.len());
+            finish.splice(0..0, begin.drain(split..));
+        }
+        Phases {
+            graph,
+            begin,
+            coupled,
+            finish,
+        }
+    }
+
+    /// Whether a stage value is never stored because it is the result of the step.
+    pub fn is_aliased(&self, node: Node) -> bool {
+        self.finish.contains(&node)
+            && self
+                .graph
+                .value(node)
+                .is_some_and(|value| value.is_end && !value.is_start())
+    }
+
+    /// Evaluations at the start of the step that are the same as one at the end of the previous step.
+    pub fn carried(&self) -> Vec<(Node, Node)> {
+        let forces = (0..self.graph.forces.len()).map(Node::Force);
+        let velocities = (0..self.graph.velocities.len()).map(Node::Velocity);
+        let nodes: Vec<Node> = forces.chain(velocities).collect();
+        let sees_only = |node: Node, accept: &dyn Fn(Node) -> bool, time: i64| {
+            let evaluation = self.graph.evaluation(node);
+            let arguments = evaluation
+                .position
+                .map(Node::Position)
+                .into_iter()
+                .chain(evaluation.momentum.map(Node::Momentum));
+            arguments.into_iter().all(accept) && evaluation.time.equals(&ratio(time, 1))
+        };
+        let values = || {
+            self.graph
+                .nodes()
+                .filter(|&node| self.graph.value(node).is_some())
+        };
+        let at_start = |node: Node| self.graph.value(node).is_some_and(StageValue::is_start);
+        let first = nodes
+            .iter()
+            .filter(|&&node| self.begin.contains(&node) && sees_only(node, &at_start, 0));
+        let mut carried: Vec<(Node, Node)> = Vec::new();
+        for &first in first {
+            let is_last = |node: &&Node| {
+                matches!(node, Node::Force(_)) == matches!(first, Node::Force(_))
+                    && self.finish.contains(node)
+                    && sees_only(**node, &|n| self.is_aliased(n), 1)
+                    // Nothing but the result is made of it.
+                    && values().all(|value| !self.graph.needs(value).contains(node))
+                    // An evaluation can take the place of one other only.
+                    && carried.iter().all(|(_, taken)| taken != *node)
+            };
+            if let Some(&last) = nodes.iter().find(is_last) {
+                carried.push((first, last));
+            }
+        }
+        carried
+    }
+}
+
+impl<'a> StepGraph<'a> {
+    /// The value that a node is, if it is a stage.
+    pub fn value(&self, node: Node) -> Option<&StageValue<'a>> {
+        match node {
+            Node::Position(i) => self.positions.get(i),
+            Node::Momentum(i) => self.momenta.get(i),
+            Node::Force(_) | Node::Velocity(_) => None,
+        }
+    }
+
+    /// The evaluation that a node is, or that is made at it.
+    pub fn evaluation(&self, node: Node) -> &Evaluation<'a> {
+        match node {
+            Node::Position(i) | Node::Force(i) => &self.forces[i],
+            Node::Momentum(i) | Node::Velocity(i) => &self.velocities[i],
+        }
+    }
+}
+
+/// How often a step of many evaluates the two halves of a separable Hamiltonian.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Evaluations {
+    /// Evaluations of the force `−∂U/∂q`.
+    pub forces: usize,
+    /// Evaluations of the velocity `∂T/∂p`.
+    pub velocities: usize,
+}
+
+impl Tableau {
+    /// How often a step evaluates force and velocity, for separable Hamiltonians and a method that is explicit for
+    /// them; `None` for one that solves for its stages.
+    ///
+    /// What the previous step has evaluated already (first same as last) is not counted: the first step of all needs
+    /// it once more.
+    ///
+    /// ```
+    /// use symplectic_compiler::schedule::Evaluations;
+    ///
+    /// let verlet = symplectic_compiler::derive("polynomial(2)", "lobatto(2)")?;
+    /// assert_eq!(verlet.evaluations(), Some(Evaluations { forces: 1, velocities: 1 }));
+    /// let gauss = symplectic_compiler::derive("polynomial(2)", "gauss(2)")?;
+    /// assert_eq!(gauss.evaluations(), None);
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    pub fn evaluations(&self) -> Option<Evaluations> {
+        let graph = StepGraph::new(Class::Separable, self, &self.numbers());
+        let phases = Phases::new(&graph);
+        let carried = phases.carried();
+        let saved = |force: bool| {
+            let kinds = carried
+                .iter()
+                .map(|(first, _)| matches!(first, Node::Force(_)));
+            kinds.filter(|kind| *kind == force).count()
+        };
+        phases.coupled.is_empty().then(|| Evaluations {
+            forces: graph.forces.len() - saved(true),
+            velocities: graph.velocities.len() - saved(false),
+        })
+    }
+}

@@ -1,0 +1,118 @@
+//! The macros for explicit methods of separable systems.
+
+/// Proves and emits a splitting: kicks and drifts one after another, explicit for `H = T(p) + U(q)`.
+///
+/// With lists of `n` exact numbers a step of `h` does, for `i = 1, …, n`,
+///
+/// ```text
+/// kick    p −= kick_i h ∂U/∂q(q)
+/// drift   q += drift_i h ∂T/∂p(p)
+/// ```
+///
+/// ```
+/// symplectic::splitting! {
+///     /// Ruth's method of order 3.
+///     pub Ruth { kick: [7/24, 3/4, -1/24], drift: [2/3, -2/3, 1], require: [order(separable) == 3] }
+///
+///     /// Forest & Ruth, order 4: half of a palindrome.
+///     pub ForestRuth {
+///         kick: [1/(4 - 2*cbrt(2)), (1 - cbrt(2))/(4 - 2*cbrt(2))],
+///         drift: [1/(2 - cbrt(2)), -cbrt(2)/(2 - cbrt(2))],
+///         symmetric: true,
+///         require: [symplectic(separable), symmetric(separable), explicit, order(separable) == 4],
+///     }
+/// }
+///
+/// use symplectic::Method;
+/// assert_eq!(Ruth::B_TILDE, [7.0 / 24.0, 0.75, -1.0 / 24.0]);
+/// assert_eq!(ForestRuth::STAGES, 4);
+/// ```
+///
+/// | key | value |
+/// |---|---|
+/// | `kick`, `drift` | two lists of the same length, each of sum 1; 0 where there is none |
+/// | `first` | `drift` where each drift comes before the kick of the same number; `kick` if left out |
+/// | `symmetric` | `true` where the lists are the first half of a sequence that reads the same from both ends: what is written last stands in the middle, once. The flow that comes first may have one more than the other, and is in the middle then |
+/// | `exchange`, `adjoint`, `require`, `accept`, `max_stages` | as in [`tableau!`](crate::tableau) |
+///
+/// Drifts with no kick between them are one drift, and the other way round; what is 0 at an end is no step. The method is
+/// the partitioned Runge–Kutta method
+///
+/// ```text
+/// a_ij = drift_j for j < i     ã_ij = kick_j for j ≤ i     b = drift     b̃ = kick
+/// ```
+///
+/// (Marsden & West 2001, §2.6.4), so that everything is proved of it that is proved of a tableau. It is symplectic for
+/// separable Hamiltonians, `require: [symplectic(separable)]`; a [`General`](crate::General) system can be stepped with it
+/// too, by iteration, but that step is not symplectic and has a lower order.
+///
+/// A step of a [`Separable`](crate::Separable) system is straight-line code. Where it begins and ends with a kick, the force
+/// at its end is the one at the start of the next step, and is evaluated once.
+///
+/// # Errors
+///
+/// As with [`tableau!`](crate::tableau); lists that are not of the same length, or whose sum is not 1.
+///
+/// ```compile_fail
+/// symplectic::splitting! {
+///     // error: the kicks sum to 11/12, and a step makes them for a time of 1 together; …
+///     Typo { kick: [7/24, 3/4, -1/8], drift: [2/3, -2/3, 1] }
+/// }
+/// ```
+pub use symplectic_macros::splitting;
+
+/// Proves and emits a composition: steps of other methods one after another.
+///
+/// ```
+/// symplectic::composition! {
+///     /// The triple jump: order 4 from three steps of Störmer–Verlet.
+///     pub Yoshida4 { base: StoermerVerlet, weights: triple_jump(4), require: [symplectic, symmetric, order == 4] }
+///
+///     /// McLachlan's five steps, the first half of them written.
+///     pub Mclachlan5 {
+///         base: StoermerVerlet,
+///         weights: [
+///             7/25,
+///             root(93750*t^3 - 82500*t^2 + 18150*t - 2017, 1),
+///             11/25 - 2*root(93750*t^3 - 82500*t^2 + 18150*t - 2017, 1),
+///         ],
+///         symmetric: true,
+///         require: [order == 4],
+///     }
+///
+///     /// Symplectic Euler and its adjoint: Störmer–Verlet.
+///     pub Verlet { base: symplectic-euler, weights: [1/2, adjoint(1/2)], require: [symmetric, order == 2] }
+///
+///     /// A step of midpoint between two of Gauss.
+///     pub Mixed { compose: [[1/4, base: gauss-2], [1/2, base: midpoint], [1/4, base: gauss-2]], require: [symmetric] }
+/// }
+/// ```
+///
+/// | key | value |
+/// |---|---|
+/// | `base` | a method of the catalogue (`symplectic list`; `StoermerVerlet` and `stormer-verlet` are one name), or a definition in brackets: `[kick: [1/2, 1/2], drift: [1, 0]]` |
+/// | `weights` | the fractions `γ_i` of the step, of sum 1; `adjoint(1/2)` for a step of the adjoint. Or `triple_jump(p)`, `suzuki(p)` for an even order `p` up to 10 from a symmetric base |
+/// | `symmetric` | `true` where the weights are the first half: what is written last stands in the middle, once. The base has to be symmetric |
+/// | `compose` | instead of these: steps of several methods, `[[γ_1, definition], …]` |
+/// | `exchange`, `adjoint`, `require`, `accept`, `max_stages` | as in [`tableau!`](crate::tableau) |
+///
+/// The triple jump raises the order of a symmetric method from `p` to `p + 2` by `γ_1 = γ_3 = 1/(2 − 2^{1/(p+1)})`,
+/// `γ_2 = 1 − 2γ_1`, Suzuki's fractal by `γ_1 = γ_2 = γ_4 = γ_5 = 1/(4 − 4^{1/(p+1)})`, `γ_3 = 1 − 4γ_1`, again and again up
+/// to the order that is asked for (Hairer, Lubich & Wanner, *Geometric numerical integration*, §II.4). The weights are
+/// exact; to order 6 they lie in a number field, in which everything is proved, and from order 8 on what holds is verified.
+///
+/// A composition of splittings is a splitting, with neighbouring drifts and kicks made one. Any other composition has the
+/// stages of all its steps; one of methods that are symplectic for all Hamiltonians is so too.
+///
+/// # Errors
+///
+/// As with [`tableau!`](crate::tableau); an unknown base, with the names that are near; weights whose sum is not 1; a base
+/// that is not symmetric where the composition needs it.
+///
+/// ```compile_fail
+/// symplectic::composition! {
+///     // error: `triple_jump` needs a base method that is symmetric, and ruth-1983 is not: …
+///     Wrong { base: ruth-1983, weights: triple_jump(4) }
+/// }
+/// ```
+pub use symplectic_macros::composition;
