@@ -66,7 +66,7 @@ impl Requirement {
                     };
                     let kind = ErrorKind::Type {
                         found,
-                        expected: format!("an order, a whole number from 0 to {},", usize::MAX),
+                        expected: "an order, a whole number of at most 19 digits,".to_owned(),
                     };
                     input.error(&(start..text.len()), kind)
                 })?;

@@ -85,7 +85,7 @@ pub fn relax<R: Summation, V: Vector, const N: usize>(
 pub fn scale<V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
     let factor = V::Scalar::weight(h, coefficient);
     for component in vector.as_mut_slice() {
-        *component = *component * factor;
+        *component *= factor;
     }
 }
 
