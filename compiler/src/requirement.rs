@@ -391,7 +391,7 @@ mod tests {
             ("order >=", "require, column 9: nothing where an order"),
             (
                 "order >= 99999999999999999999999",
-                "a whole number from 0 to",
+                "a whole number of at most 19 digits",
             ),
             ("stable_to(0)", "0 where a positive bound on hω is needed"),
             (

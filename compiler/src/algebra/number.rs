@@ -109,6 +109,14 @@ impl Number<'_> {
         (self.difference(&candidate) == Zero::Yes).then_some(candidate)
     }
 
+    /// [`Number::short_rational`] that the number equals as far as is known: an enclosed one too.
+    pub(crate) fn short_rational_as_far_as_known(&self) -> Option<BigRational> {
+        if let Number::Rational(value) = self {
+            return Some(value.clone());
+        }
+        short_rational(&self.enclose(0)).filter(|candidate| self.equals(candidate))
+    }
+
     /// The sign of the number; equal to zero where it is not known to differ from it.
     pub fn sign(&self) -> Ordering {
         if self.is_zero() {

@@ -425,7 +425,12 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
         };
         let field = self.field();
         let square = field.multiply(constant, &field.inverse(slope)?);
-        let text = field.exact(&field.subtract(&self.integer(0), &square))?;
+        let square = field.subtract(&self.integer(0), &square);
+        if let Some(value) = field.number(&square).short_rational() {
+            let linear = &Polynomial::variable() - &Polynomial::constant(value.clone());
+            return linear.square_root_text(&Root::Rational(value));
+        }
+        let text = field.exact(&square)?;
         (text.len() <= SHORT).then(|| format!("sqrt({text})"))
     }
 

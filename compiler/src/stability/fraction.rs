@@ -95,11 +95,12 @@ impl Coefficient {
     }
 
     pub(super) fn of(number: &Number<'_>, exact: Option<String>) -> Self {
-        if let Number::Rational(value) = number {
-            return Coefficient::rational(value.clone());
-        }
         if number.is_zero() {
             return Coefficient::rational(BigRational::default());
+        }
+        // Where numbers are enclosed, as far as is known.
+        if let Some(value) = number.short_rational_as_far_as_known() {
+            return Coefficient::rational(value);
         }
         Coefficient {
             text: exact.unwrap_or_else(|| format!("{}…", number.decimal(16))),
