@@ -38,6 +38,9 @@ pub enum Key {
     Drift,
     /// `drift` where each drift of a splitting comes before the kick of the same number; `kick` otherwise.
     First,
+    /// What printed kicks and drifts claim: `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`. The coefficients are
+    /// then those of the exact method that is proved to be near the digits, see [`certify`](crate::certify).
+    Claim,
     /// Steps of other methods one after another, each with its fraction of the step and its own
     /// definition: `[[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]]`.
     Compose,
@@ -53,7 +56,7 @@ pub enum Key {
 
 impl Key {
     /// All keys, in the order in which they are written.
-    pub const ALL: [Key; 16] = [
+    pub const ALL: [Key; 17] = [
         Key::Basis,
         Key::Nodes,
         Key::Quadrature,
@@ -66,6 +69,7 @@ impl Key {
         Key::Kick,
         Key::Drift,
         Key::First,
+        Key::Claim,
         Key::Compose,
         Key::Symmetric,
         Key::Exchange,
@@ -87,6 +91,7 @@ impl Key {
             Key::Kick => "kick",
             Key::Drift => "drift",
             Key::First => "first",
+            Key::Claim => "claim",
             Key::Compose => "compose",
             Key::Symmetric => "symmetric",
             Key::Exchange => "exchange",
@@ -113,6 +118,7 @@ impl Key {
 /// | `basis`, `quadrature`, perhaps `weights` | rectangular Galerkin: at least as many nodes (T §2.2) |
 /// | `a`, `b`, perhaps `a_tilde`, `b_tilde` | given coefficients |
 /// | `kick`, `drift`, perhaps `first`, `symmetric` | a splitting `H = T(p) + U(q)`: kicks and drifts one after another (MW 2.6.4) |
+/// | `kick`, `drift`, `claim` | the exact splitting behind printed digits, certified |
 /// | `base`, perhaps `weights`, `symmetric` | a method of the catalogue, or steps of it one after another (GNI II.4) |
 /// | `compose` | `Φ_{γ_m h} ∘ … ∘ Φ_{γ_1 h}` (MW 2.5): a list of `[γ_k, definition of Φ_k]`, the first step first |
 ///

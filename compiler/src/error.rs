@@ -292,6 +292,12 @@ pub enum ErrorKind {
         /// What it should say.
         expected: String,
     },
+    /// Printed coefficients that are not those of a method with the claimed order.
+    #[error("{message}")]
+    NotCertified {
+        /// What is wrong, and how far the nearest exact method is if one was found.
+        message: String,
+    },
     /// A requirement that is refuted.
     #[error("{message}")]
     Requirement {

@@ -24,7 +24,7 @@
 //! | what a user requires of a method | [`Requirement`], [`Tableau::require`], [`assert_order!`] |
 //! | text, JSON, TOML; reading and checking files | [`export`], [`check`] |
 //! | known methods | [`catalogue`] |
-//! | explicit methods from printed digits, with a proof that an exact method is near | [`certify`] |
+//! | explicit methods from printed digits, with a proof that an exact method is near | [`certify`], [`refine()`] for files |
 //! | Rust code | [`emit`], from the order of computation found in [`schedule`] |
 //!
 //! Statements about a tableau are decided in exact arithmetic where its coefficients are functions of the
@@ -51,6 +51,7 @@ pub mod order;
 mod pair;
 mod properties;
 mod quadrature;
+mod refine;
 mod requirement;
 pub mod schedule;
 pub mod stability;
@@ -66,5 +67,6 @@ pub use error::{Error, ErrorKind, Place};
 pub use limits::Limits;
 pub use properties::{Evidence, Properties, Property, SeparableProperties};
 pub use quadrature::{FAMILIES, Family, Nodes, QuadratureRule};
+pub use refine::{Refinement, refine};
 pub use requirement::{Requirement, require};
 pub use tableau::{Provenance, Tableau, Tier};

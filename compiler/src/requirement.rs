@@ -185,7 +185,7 @@ impl fmt::Display for Requirement {
 }
 
 impl Tableau {
-    /// Decides a requirement. `accepted` are the binary places to which it is enough that equations are
+    /// Decides a requirement. What is certified is proved. `accepted` are the binary places to which it is enough that equations are
     /// verified; without them everything has to be proved.
     ///
     /// # Errors

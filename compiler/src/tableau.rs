@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::algebra::{Constants, Dense, NodeAlgebra, Number, Reals, StageAlgebra};
+use crate::certify::Claim;
 use crate::coefficients::Coefficients;
 use crate::definition::Definition;
 use crate::order::{OrderOptions, OrderReport};
@@ -33,6 +34,8 @@ pub struct Tableau {
     pub(crate) name: Option<String>,
     pub(crate) provenance: Provenance,
     pub(crate) exact: Exact,
+    /// The order that is proved of the exact coefficients, however well they are known.
+    pub(crate) certified: Option<Claim>,
     properties: OnceLock<Properties>,
     separable: OnceLock<SeparableProperties>,
     orders: OnceLock<OrderReport>,
@@ -130,6 +133,7 @@ impl Tableau {
                 source: None,
             },
             exact,
+            certified: None,
             properties: OnceLock::new(),
             separable: OnceLock::new(),
             orders: OnceLock::new(),

@@ -22,6 +22,7 @@ impl Form {
                 Key::Kick,
                 Key::Drift,
                 Key::First,
+                Key::Claim,
                 Key::Symmetric,
                 Key::Exchange,
                 Key::Adjoint,

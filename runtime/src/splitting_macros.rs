@@ -32,6 +32,7 @@
 /// |---|---|
 /// | `kick`, `drift` | two lists of the same length, each of sum 1; 0 where there is none |
 /// | `first` | `drift` where each drift comes before the kick of the same number; `kick` if left out |
+/// | `claim` | `separable(6)`, `nystrom(6)` or `perturbed(8, 6, 4)`: the lists are digits as printed, and the method is the exact one of that order that is proved to be near them |
 /// | `symmetric` | `true` where the lists are the first half of a sequence that reads the same from both ends: what is written last stands in the middle, once. The flow that comes first may have one more than the other, and is in the middle then |
 /// | `exchange`, `adjoint`, `require`, `accept`, `max_stages` | as in [`tableau!`](crate::tableau) |
 ///

@@ -27,7 +27,7 @@
 /// | `weights` | of the quadrature, if not the interpolatory ones: `[1/6, 2/3, 1/6]` |
 /// | `a`, `b` | instead of `basis`: given coefficients, `[[0, 0], [1/2, 1/2]]` and `[1/2, 1/2]` |
 /// | `a_tilde`, `b_tilde` | with them: those for momenta, or `a_tilde: symplectic_partner`; the same as for positions if left out |
-/// | `kick`, `drift`, `first`, `symmetric` | instead of all these: a splitting, as in [`splitting!`](crate::splitting) |
+/// | `kick`, `drift`, `first`, `symmetric`, `claim` | instead of all these: a splitting, as in [`splitting!`](crate::splitting) |
 /// | `base`, `weights`, `symmetric` | instead of all these: a method of the catalogue, or a composition of steps of it, as in [`composition!`](crate::composition) |
 /// | `compose` | instead of all these: steps of other methods one after another, each with its fraction of the step and its definition: `[[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]]` |
 /// | `exchange` | `true` where positions and momenta are exchanged in the end |

@@ -19,6 +19,10 @@ pub trait Field: Debug + PartialEq {
     fn rational(&self, value: &BigRational) -> Self::Element;
     /// A constant, if it is an element.
     fn constant(&self, value: &Constant) -> Option<Self::Element>;
+    /// An expression, if these are elements.
+    fn real(&self, _value: &super::Real) -> Option<Self::Element> {
+        None
+    }
     /// The sum.
     fn add(&self, x: &Self::Element, y: &Self::Element) -> Self::Element;
     /// The difference.

@@ -8,6 +8,7 @@ use num_traits::{One, Zero as _};
 
 use super::{Field, Number, Zero};
 use crate::arithmetic::interval::Interval;
+use crate::certify::{Certificate, Coefficient};
 use crate::symbolic::Constant;
 
 /// Binary places to which equations are verified. Half the smallest positive double is `2⁻¹⁰⁷⁵`, so that what
@@ -33,6 +34,8 @@ struct Expression {
 enum Operation {
     Rational(BigRational),
     Constant(Constant),
+    /// A coefficient of a method that is proved to exist.
+    Certified(Certificate, Coefficient),
     Add(Real, Real),
     Subtract(Real, Real),
     Multiply(Real, Real),
@@ -58,6 +61,11 @@ impl Real {
             Some(value) => Real::rational(value.clone()),
             None => Real::new(Operation::Constant(value)),
         }
+    }
+
+    /// A coefficient of a certified method, which has to have it.
+    pub(crate) fn certified(certificate: Certificate, coefficient: Coefficient) -> Self {
+        Real::new(Operation::Certified(certificate, coefficient))
     }
 
     /// The value, if the expression is known to be a rational.
@@ -100,6 +108,7 @@ impl Real {
         let value = match &self.0.operation {
             Operation::Rational(value) => Interval::enclosing(value, working),
             Operation::Constant(constant) => constant.enclose(working)?.with_bits(working),
+            Operation::Certified(certificate, name) => certificate.enclose(*name, working)?,
             Operation::Add(x, y) => x.evaluate(working)?.add(&y.evaluate(working)?),
             Operation::Subtract(x, y) => x.evaluate(working)?.subtract(&y.evaluate(working)?),
             Operation::Multiply(x, y) => x.evaluate(working)?.multiply(&y.evaluate(working)?),
@@ -160,6 +169,10 @@ impl Field for Reals {
 
     fn constant(&self, value: &Constant) -> Option<Real> {
         Some(Real::constant(value.clone()))
+    }
+
+    fn real(&self, x: &Real) -> Option<Real> {
+        Some(x.clone())
     }
 
     fn add(&self, x: &Real, y: &Real) -> Real {

@@ -237,6 +237,14 @@ impl Certificate {
             })
     }
 
+    /// Whether two coefficients are equal by symmetry or structure.
+    pub(crate) fn same(&self, one: Coefficient, other: Coefficient) -> bool {
+        match (self.target(one), self.target(other)) {
+            (Some(one), Some(other)) => one.terms == other.terms,
+            _ => false,
+        }
+    }
+
     /// A coefficient of the exact method, enclosed with `bits` binary places; `None` if there is none of that
     /// name.
     ///

@@ -53,7 +53,7 @@ pub enum CertifyError {
         limit: usize,
     },
     /// Weights that do not sum to 1, by more than their digits explain.
-    #[error("the {what} sum to {sum}, not to 1{}", nearest.as_ref().map_or(String::new(), |found| format!("; the nearest certified solution is {} away", found.distance_text())))]
+    #[error("the {what} sum to {sum}, not to 1{}", nearest.as_ref().map_or("; no certified solution was found".to_owned(), |found| format!("; the nearest certified solution is {} away", found.distance_text())))]
     WeightSum {
         /// `kicks`, `drifts` or `weights`.
         what: &'static str,

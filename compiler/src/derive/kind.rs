@@ -11,6 +11,8 @@ pub enum Kind {
     Given,
     /// Kicks and drifts.
     Splitting,
+    /// Printed kicks and drifts with what they claim.
+    Certified,
     /// A base method, perhaps with the steps made with it.
     Based,
     /// Steps of several methods.
@@ -20,7 +22,13 @@ pub enum Kind {
 impl Kind {
     /// The construction of a definition; where the keys of several are there, one of them.
     pub fn of(definition: &Definition) -> Self {
-        let telling = [Kind::Composition, Kind::Based, Kind::Splitting, Kind::Given];
+        let telling = [
+            Kind::Composition,
+            Kind::Based,
+            Kind::Certified,
+            Kind::Splitting,
+            Kind::Given,
+        ];
         let told = |kind: &Kind| {
             kind.telling()
                 .iter()
@@ -35,6 +43,7 @@ impl Kind {
             Kind::Derived => &[Key::Basis, Key::Nodes, Key::Quadrature],
             Kind::Given => &[Key::A, Key::B, Key::ATilde, Key::BTilde],
             Kind::Splitting => &[Key::Kick, Key::Drift],
+            Kind::Certified => &[Key::Claim],
             Kind::Based => &[Key::Base],
             Kind::Composition => &[Key::Compose],
         }
@@ -45,6 +54,7 @@ impl Kind {
         match key {
             Key::Exchange | Key::Adjoint => true,
             Key::Weights => matches!(self, Kind::Derived | Kind::Based),
+            Key::Kick | Key::Drift => matches!(self, Kind::Splitting | Kind::Certified),
             Key::First => self == Kind::Splitting,
             Key::Symmetric => matches!(self, Kind::Splitting | Kind::Based),
             _ => self.telling().contains(&key),
@@ -55,6 +65,9 @@ impl Kind {
     pub fn refuses(self, key: Key) -> String {
         let name = key.name();
         match (self, key) {
+            (Kind::Certified, _) => format!(
+                "with a `claim`, `kick` and `drift` are all that is printed, each drift after the kick of the same number: leave out `{name}`"
+            ),
             (_, Key::First | Key::Symmetric) => format!(
                 "`{name}` goes with the `kick` and `drift` of a splitting{}: leave it out",
                 if key == Key::Symmetric {

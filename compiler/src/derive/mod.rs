@@ -7,6 +7,7 @@
 //! is derived from the definitions of the operands by the same operations.
 
 mod based;
+mod certified;
 mod composition;
 mod dense;
 mod kind;

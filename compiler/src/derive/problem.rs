@@ -1,11 +1,13 @@
 //! The parts of a definition, read: what is to be derived.
 
 use super::based::Based;
+use super::certified::Certified;
 use super::composition::{self, Step};
 use super::kind::Kind;
 use super::sequence::Sequence;
 use super::splitting::Splitting;
 use crate::basis::Basis;
+use crate::certify::Claim;
 use crate::definition::{Definition, Key};
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Expression, Input, parse_list, parse_matrix};
@@ -43,6 +45,8 @@ pub enum Construction {
     },
     /// Drifts and kicks one after another.
     Splitting(Splitting),
+    /// The exact drifts and kicks behind printed ones.
+    Certified(Certified),
     /// Steps of one base method one after another.
     Based(Box<Based>),
     /// Steps of other methods one after another.
@@ -54,6 +58,7 @@ impl Construction {
     pub fn sequence(&self) -> Option<Sequence> {
         match self {
             Construction::Splitting(splitting) => Some(splitting.sequence()),
+            Construction::Certified(certified) => Some(certified.sequence()),
             Construction::Based(based) => based.sequence(),
             Construction::Composition { steps } => Sequence::joined(
                 steps
@@ -110,6 +115,9 @@ impl Problem {
             Kind::Based => Based::read(definition, limits, &mut errors).map(Construction::from),
             Kind::Splitting => {
                 Splitting::read(definition, limits, &mut errors).map(Construction::Splitting)
+            }
+            Kind::Certified => {
+                Certified::read(definition, limits, &mut errors).map(Construction::Certified)
             }
             Kind::Given => read_given(definition, limits, &mut errors),
             Kind::Derived => read_derived(definition, limits, &mut errors),
@@ -176,6 +184,7 @@ impl Problem {
                 parts.map(|(key, text)| (key, text.to_owned())).collect()
             }
             Construction::Splitting(splitting) => splitting.parts(),
+            Construction::Certified(certified) => certified.parts(),
             Construction::Based(based) => based.parts(),
         };
         for (key, on) in [(Key::Exchange, self.exchange), (Key::Adjoint, self.adjoint)] {
@@ -200,6 +209,17 @@ impl Problem {
         })
     }
 
+    /// The order that is certified, where the definition claims one.
+    pub fn certified(&self) -> Option<Claim> {
+        let Construction::Certified(certified) = &self.construction else {
+            return None;
+        };
+        // With positions and momenta exchanged, it is U that is quadratic.
+        let claim = certified.claim();
+        let separable = matches!(claim, Claim::Separable(_));
+        (separable || !self.exchange).then(|| claim.clone())
+    }
+
     /// The number of stages of the method, or a bound for it.
     pub fn stages(&self) -> usize {
         match &self.construction {
@@ -208,6 +228,7 @@ impl Problem {
             }
             Construction::Given { b, .. } => b.len(),
             Construction::Splitting(splitting) => splitting.sequence().stages(),
+            Construction::Certified(certified) => certified.stages(),
             Construction::Based(based) => based.stages(),
             Construction::Composition { steps } => match self.construction.sequence() {
                 Some(sequence) => sequence.stages(),

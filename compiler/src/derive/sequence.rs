@@ -6,7 +6,7 @@ use num_rational::BigRational;
 
 use super::splitting::Flow;
 use super::tiers::outside;
-use crate::algebra::{Constants, Dense, Field, Reals, Zero};
+use crate::algebra::{Constants, Dense, Field, Real, Reals, Zero};
 use crate::error::ErrorKind;
 use crate::pair::Pair;
 use crate::symbolic::Constant;
@@ -17,12 +17,42 @@ use crate::tableau::Exact;
 pub struct Substep {
     flow: Flow,
     /// The fraction of the step is the product of these.
-    factors: Vec<Constant>,
+    factors: Vec<Factor>,
+}
+
+/// A factor of a fraction of the step.
+#[derive(Debug, Clone)]
+pub enum Factor {
+    /// One with a closed form.
+    Constant(Constant),
+    /// One that is enclosed.
+    Real(Real),
+}
+
+impl Factor {
+    fn constant(&self) -> Option<&Constant> {
+        match self {
+            Factor::Constant(constant) => Some(constant),
+            Factor::Real(_) => None,
+        }
+    }
+
+    fn element<F: Field>(&self, field: &F) -> Option<F::Element> {
+        match self {
+            Factor::Constant(constant) => field.constant(constant),
+            Factor::Real(real) => field.real(real),
+        }
+    }
 }
 
 impl Substep {
     /// This fraction of the step.
     pub fn new(flow: Flow, fraction: Constant) -> Self {
+        Substep::of(flow, Factor::Constant(fraction))
+    }
+
+    /// A fraction of the step that may be known by enclosures only.
+    pub fn of(flow: Flow, fraction: Factor) -> Self {
         Substep {
             flow,
             factors: vec![fraction],
@@ -42,7 +72,8 @@ pub struct Sequence {
 impl Sequence {
     /// These flows; those of no time at all are left out.
     pub fn new(first: Flow, mut substeps: Vec<Substep>) -> Self {
-        substeps.retain(|substep| !substep.factors.iter().any(Constant::is_trivially_zero));
+        let zero = |factor: &Factor| factor.constant().is_some_and(Constant::is_trivially_zero);
+        substeps.retain(|substep| !substep.factors.iter().any(zero));
         Sequence { first, substeps }
     }
 
@@ -55,7 +86,7 @@ impl Sequence {
         for (fraction, part) in parts {
             let mut part = part?;
             for substep in &mut part.substeps {
-                substep.factors.push(fraction.clone());
+                substep.factors.push(Factor::Constant(fraction.clone()));
             }
             match &mut all {
                 Some(all) => all.substeps.append(&mut part.substeps),
@@ -97,8 +128,9 @@ impl Sequence {
     /// # Errors
     /// None; a constant that the field that was made for it does not hold.
     pub fn exact(&self) -> Result<Exact, ErrorKind> {
-        let constants = self.substeps.iter().flat_map(|substep| &substep.factors);
-        let exact = match Constants::containing(constants) {
+        let factors = self.substeps.iter().flat_map(|substep| &substep.factors);
+        let constants: Option<Vec<&Constant>> = factors.map(Factor::constant).collect();
+        let exact = match constants.and_then(Constants::containing) {
             Some(field) => self.pair(&field).map(Exact::Field),
             None => self.pair(&Reals).map(Exact::Reals),
         };
@@ -161,7 +193,7 @@ impl Sequence {
         for Substep { flow, factors } in &self.substeps {
             let one = field.rational(&BigRational::from_integer(1.into()));
             let value = factors.iter().try_fold(one, |product, factor| {
-                Some(field.multiply(&product, &field.constant(factor)?))
+                Some(field.multiply(&product, &factor.element(field)?))
             })?;
             match merged.last_mut() {
                 Some((last, sum)) if last == flow => {

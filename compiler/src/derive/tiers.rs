@@ -25,7 +25,9 @@ impl Problem {
     /// # Errors
     /// Everything but what is wrong with the texts.
     pub fn derive(&self) -> Result<Tableau, ErrorKind> {
-        Ok(Tableau::new(self.definition(), self.exact()?))
+        let mut tableau = Tableau::new(self.definition(), self.exact()?);
+        tableau.certified = self.certified();
+        Ok(tableau)
     }
 
     /// Derives the coefficients.
@@ -49,6 +51,7 @@ impl Construction {
             } => galerkin(basis, nodes, weights.as_deref()),
             Construction::Given { a, b, momenta } => given(a, b, momenta),
             Construction::Splitting(splitting) => splitting.sequence().exact(),
+            Construction::Certified(certified) => certified.sequence().exact(),
             Construction::Based(based) => based.exact(),
             Construction::Composition { steps } => {
                 if let Some(sequence) = self.sequence() {

@@ -211,7 +211,7 @@ pub(super) fn offset(text: &str, line: usize, column: usize) -> usize {
 }
 
 /// A span without what follows its first line, so that a caret can stand under it.
-pub(super) fn first_line(text: &str, span: Range<usize>) -> Range<usize> {
+pub(crate) fn first_line(text: &str, span: Range<usize>) -> Range<usize> {
     let end = text
         .get(span.clone())
         .and_then(|part| part.find(['\n', '\r']))

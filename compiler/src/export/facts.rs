@@ -248,7 +248,8 @@ pub(super) fn lines(tableau: &Tableau) -> Vec<String> {
     if let Some(found) = tableau.symplecticity_order(SYMPLECTICITY_LIMIT) {
         let evidence = match found.evidence {
             Evidence::Verified { bits } => format!("verified to 2^-{bits}"),
-            _ => "proved".to_owned(),
+            Evidence::Certified => "certified".to_owned(),
+            Evidence::Proved | Evidence::Refuted => "proved".to_owned(),
         };
         let violated = found.violated.as_ref();
         let not = violated.map_or(String::new(), |v| format!("; not {}: {v}", found.order + 1));

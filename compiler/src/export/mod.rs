@@ -19,7 +19,7 @@ mod origin;
 pub mod text;
 pub mod toml;
 
-pub(crate) use entries::compare;
+pub(crate) use entries::{compare, first_line};
 pub use facts::STABILITY_STAGES;
 
 /// The significant digits of decimals in JSON and TOML, unless another number is asked for.

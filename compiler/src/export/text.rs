@@ -167,6 +167,7 @@ fn property_lines(tableau: &Tableau) -> Vec<String> {
         .map(|(name, property)| {
             let evidence = match property.evidence {
                 Evidence::Proved => "proved".to_owned(),
+                Evidence::Certified => "certified".to_owned(),
                 Evidence::Refuted => "refuted".to_owned(),
                 Evidence::Verified { bits } => format!("verified to 2^-{bits}"),
             };

@@ -89,7 +89,11 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn order(&self, options: &OrderOptions) -> OrderReport {
-        over_algebra!(self, pair => order(pair, options))
+        let mut report = over_algebra!(self, pair => order(pair, options));
+        if let Some(claim) = &self.certified {
+            report.certify(claim);
+        }
+        report
     }
 
     /// The simplifying assumptions that hold; `None` if `b` differs from `b̃`.

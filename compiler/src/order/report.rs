@@ -7,6 +7,7 @@ use num_rational::BigRational;
 use super::class::HamiltonianClass;
 use super::tree::BicolouredTree;
 use crate::arithmetic::rounding::Decimal;
+use crate::certify::Claim;
 use crate::properties::Evidence;
 
 /// The order of a method for each class of Hamiltonians.
@@ -27,6 +28,29 @@ impl OrderReport {
             HamiltonianClass::General => &self.general,
             HamiltonianClass::Separable => &self.separable,
             HamiltonianClass::Nystrom => &self.nystrom,
+        }
+    }
+}
+
+impl OrderReport {
+    /// Takes the orders that follow from a certified claim for certified, where enclosures only verify them.
+    pub(super) fn certify(&mut self, claim: &Claim) {
+        let order = claim.order();
+        // Kicks and drifts that sum to 1 are order 1 for all, and order 2 is the same for the other classes.
+        let (separable, nystrom) = match claim {
+            Claim::Separable(_) => (order, order),
+            Claim::Nystrom(_) => (order.min(2), order),
+            Claim::SymmetricBase(_) | Claim::Perturbed(_) => (1, 1),
+        };
+        let bounds = [
+            (&mut self.general, 1),
+            (&mut self.separable, separable),
+            (&mut self.nystrom, nystrom),
+        ];
+        for (found, bound) in bounds {
+            if found.order <= bound && matches!(found.evidence, Evidence::Verified { .. }) {
+                found.evidence = Evidence::Certified;
+            }
         }
     }
 }
@@ -56,6 +80,7 @@ impl fmt::Display for ClassOrder {
         write!(f, "{}, ", self.order)?;
         match self.evidence {
             Evidence::Verified { bits } => write!(f, "verified to 2^-{bits}")?,
+            Evidence::Certified => f.write_str("certified")?,
             Evidence::Proved | Evidence::Refuted => f.write_str("proved")?,
         }
         match &self.refuted_by {

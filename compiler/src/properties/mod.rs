@@ -26,6 +26,8 @@ use crate::pair::Pair;
 pub enum Evidence {
     /// It holds, by exact arithmetic.
     Proved,
+    /// It holds: the equations are solved by coefficients that are proved to exist, near given digits.
+    Certified,
     /// It does not hold, by exact arithmetic or by an enclosure that excludes it.
     Refuted,
     /// Known only up to enclosures of width `2⁻ᵇⁱᵗˢ`; that is no proof.
@@ -45,6 +47,7 @@ impl Evidence {
                 }
             }
             (Evidence::Proved, other) => other,
+            (Evidence::Certified, other @ Evidence::Verified { .. }) => other,
             (known, _) => known,
         }
     }
@@ -85,6 +88,7 @@ impl fmt::Display for Property {
         f.write_str(if self.holds { "yes, " } else { "no, " })?;
         match self.evidence {
             Evidence::Proved => f.write_str("proved")?,
+            Evidence::Certified => f.write_str("certified")?,
             Evidence::Refuted => f.write_str("refuted")?,
             Evidence::Verified { bits } => write!(f, "verified to 2^-{bits}")?,
         }

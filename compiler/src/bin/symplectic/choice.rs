@@ -120,6 +120,7 @@ impl Method {
         let found = report.class(class);
         let known = match found.evidence {
             Evidence::Verified { .. } => "verified",
+            Evidence::Certified => "certified",
             Evidence::Proved | Evidence::Refuted => "proved",
         };
         let at_least = if found.refuted_by.is_none() {

@@ -16,7 +16,7 @@ use crate::output::{self, OutputOptions};
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// A TOML file with the definition instead of the options below.
-    #[arg(value_name = "FILE", conflicts_with_all = ["basis", "nodes", "quadrature", "base", "weights", "a", "b", "a_tilde", "b_tilde", "kick", "drift", "first", "compose", "symmetric", "exchange", "adjoint"])]
+    #[arg(value_name = "FILE", conflicts_with_all = ["basis", "nodes", "quadrature", "base", "weights", "a", "b", "a_tilde", "b_tilde", "kick", "drift", "first", "claim", "compose", "symmetric", "exchange", "adjoint"])]
     file: Option<PathBuf>,
     /// `polynomial(s)`, `legendre(s)`, or a list of functions of t: "1, cos(pi*t), sin(pi*t)".
     #[arg(long, allow_hyphen_values = true)]
@@ -56,6 +56,10 @@ pub(crate) struct Arguments {
     /// Which of the two comes first: kick or drift [default: kick].
     #[arg(long, value_name = "FLOW")]
     first: Option<String>,
+    /// The order that printed kicks and drifts claim: the exact method behind their digits is derived, with a proof
+    /// that it exists. `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`.
+    #[arg(long, value_name = "CLAIM")]
+    claim: Option<String>,
     /// Steps of other methods one after another, each with its fraction of the step:
     /// "[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]".
     #[arg(long, allow_hyphen_values = true, value_name = "STEPS")]
@@ -111,6 +115,7 @@ impl Arguments {
             (Key::Kick, &self.kick),
             (Key::Drift, &self.drift),
             (Key::First, &self.first),
+            (Key::Claim, &self.claim),
             (Key::Compose, &self.compose),
             (Key::Symmetric, &symmetric),
             (Key::Exchange, &exchange),

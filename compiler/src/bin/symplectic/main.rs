@@ -1,12 +1,14 @@
-//! The command line of the compiler: derive a tableau, show and list known ones, check files.
+//! The command line of the compiler: derive a tableau, show and list known ones, check files, refine printed
+//! coefficients.
 //!
-//! Exit status: 0; 1 where a file's entries do not fit; 2 for bad input.
+//! Exit status: 0; 1 where a file's entries do not fit, or its digits are not those of a method as claimed; 2 for bad input.
 
 mod check;
 mod choice;
 mod derive;
 mod list;
 mod output;
+mod refine;
 mod report;
 mod show;
 
@@ -28,6 +30,7 @@ enum Command {
     List(list::Arguments),
     Show(show::Arguments),
     Check(check::Arguments),
+    Refine(refine::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -36,6 +39,7 @@ fn main() -> ExitCode {
         Command::List(arguments) => list::run(&arguments),
         Command::Show(arguments) => show::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Refine(arguments) => refine::run(&arguments),
     };
     outcome.unwrap_or_else(|error| {
         report::to_stderr(&error);

@@ -60,7 +60,7 @@ pub(crate) fn limits(max_stages: Option<u16>) -> Limits {
     limits
 }
 
-fn digits(text: &str) -> Result<usize, String> {
+pub(crate) fn digits(text: &str) -> Result<usize, String> {
     text.parse()
         .ok()
         .filter(|digits| (1..=MAX_DIGITS).contains(digits))

@@ -5,10 +5,10 @@ use std::io::{IsTerminal, Write};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use symplectic_compiler::{Error, ErrorKind};
 
-/// The exit status for an error: 1 where a file does not fit, 2 for bad input.
+/// The exit status for an error: 1 where a file does not fit or is not certified, 2 for bad input.
 pub(crate) fn status(error: &Error) -> u8 {
     match *error.kind {
-        ErrorKind::Mismatch { .. } => 1,
+        ErrorKind::Mismatch { .. } | ErrorKind::NotCertified { .. } => 1,
         _ => 2,
     }
 }

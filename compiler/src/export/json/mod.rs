@@ -6,7 +6,7 @@
 //!  "properties": {"symplectic": P, "symmetric": P, …}}
 //!
 //! N = {"exact": string or null, "decimal": string, "f64": string, "f32": string}
-//! P = {"holds": bool, "evidence": "proved" | "refuted" | "verified", "bits": integer or null,
+//! P = {"holds": bool, "evidence": "proved" | "certified" | "refuted" | "verified", "bits": integer or null,
 //!      "witness": string or null}
 //! ```
 //!

@@ -126,6 +126,7 @@ fn property_text(property: &Property) -> String {
 pub(in crate::export) fn evidence(evidence: Evidence) -> (&'static str, Option<u32>) {
     match evidence {
         Evidence::Proved => ("proved", None),
+        Evidence::Certified => ("certified", None),
         Evidence::Refuted => ("refuted", None),
         Evidence::Verified { bits } => ("verified", Some(bits)),
     }

@@ -1,0 +1,47 @@
+//! `symplectic refine`
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+use symplectic_compiler::export::{self, DEFAULT_DIGITS};
+use symplectic_compiler::{Error, refine};
+
+use crate::output;
+
+/// Prove that an exact method is near the printed coefficients of a file, and print it to any number of digits.
+///
+/// The file is TOML: `name` and `source`; `[claim]` with `class = "separable"` or `"nystrom"` and `order = 6`, or with
+/// `perturbed = [8, 4]`; `[printed]` with `kick` and `drift`, lists of decimals as texts, or with `weights`, those of a
+/// composition of any symmetric method of order 2, which claims an `order` without a class.
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// The file.
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Significant digits of the coefficients [default: 40].
+    #[arg(long, value_name = "D", value_parser = output::digits)]
+    digits: Option<usize>,
+    /// The form of the output.
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+/// The formats of a refined method.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people.
+    Text,
+    /// For other programs.
+    Json,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
+    let path = &arguments.file;
+    let refinement = refine(&path.display().to_string(), &export::read_text(path)?)?;
+    let digits = arguments.digits.unwrap_or(DEFAULT_DIGITS);
+    output::print(&match arguments.format {
+        Format::Text => refinement.text(digits)?,
+        Format::Json => refinement.json(digits)?,
+    })
+}
