@@ -96,10 +96,10 @@ pub fn scale<V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
 /// use symplectic::nalgebra::Vector1;
 /// use symplectic::{Compensated, total};
 ///
-/// let (one, tiny, zero) = (Vector1::new(1.0), Vector1::new(1e-20), Vector1::new(0.0));
+/// let (one, tiny, zero) = (Vector1::new(1.0), Vector1::new(f64::EPSILON / 8.0), Vector1::new(0.0));
 /// let (mut out, mut low) = (zero, zero);
 /// total::<Compensated, _, 2>(&mut out, &mut low, &one, &tiny, [&tiny, &tiny]);
-/// assert_eq!((out[0], low[0]), (1.0, 3e-20));
+/// assert_eq!((out[0], low[0]), (1.0, 3.0 * tiny[0]));
 /// ```
 #[inline(always)]
 pub fn total<R: Summation, V: Vector, const N: usize>(
