@@ -1,6 +1,5 @@
 //! Starting values for the stages of a step from those of the step before.
 
-use crate::algebra::Number;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::to_f64;
@@ -18,25 +17,52 @@ use super::relative::decide;
 ///
 /// Correctly rounded; `None` where times coincide, as far as is known.
 pub(super) fn matrix(evaluations: &[&Evaluation<'_>]) -> Option<Vec<Vec<f64>>> {
+    let first = Enclosed::new(evaluations, 0);
     let entry = |i: usize, j: usize| {
-        decide(|bits| enclose(evaluations, i, j, bits), to_f64).filter(|value| value.is_finite())
+        let enclose = |bits| match bits <= first.bits {
+            true => first.entry(i, j),
+            false => Enclosed::new(evaluations, bits).entry(i, j),
+        };
+        decide(enclose, to_f64).filter(|value| value.is_finite())
     };
     let indices = 0..evaluations.len();
     let row = |i| indices.clone().map(|j| entry(i, j)).collect();
     indices.clone().map(row).collect()
 }
 
-/// An enclosure of one entry; `None` where a divisor is not told from zero by it.
-fn enclose(evaluations: &[&Evaluation<'_>], i: usize, j: usize, bits: u32) -> Option<Interval> {
-    let value = |number: &Number<'_>| number.enclose(bits);
-    let time = |k: usize| value(&evaluations[k].time);
-    let weights = value(&evaluations[i].weight).divide(&value(&evaluations[j].weight))?;
-    let later = time(i).add(&Interval::enclosing(&ratio(1, 1), weights.bits()));
-    let others = (0..evaluations.len()).filter(|&k| k != j);
-    others.into_iter().try_fold(weights, |product, k| {
-        let factor = later
-            .subtract(&time(k))
-            .divide(&time(j).subtract(&time(k)))?;
-        Some(product.multiply(&factor))
+/// Enclosures of what the entries are made of.
+struct Enclosed {
+    bits: u32,
+    times: Vec<Interval>,
+    weights: Vec<Interval>,
+    /// `w_j Π_{k≠j} (c_j − c_k)`
+    divisors: Vec<Interval>,
+}
+
+impl Enclosed {
+    fn new(evaluations: &[&Evaluation<'_>], bits: u32) -> Self {
+        let times: Vec<Interval> = evaluations.iter().map(|e| e.time.enclose(bits)).collect();
+        let weights: Vec<Interval> = evaluations.iter().map(|e| e.weight.enclose(bits)).collect();
+        let divisors = (0..times.len()).map(|j| product(&weights[j], &times[j], &times, j));
+        Enclosed {
+            bits: times.first().map_or(0, Interval::bits),
+            divisors: divisors.collect(),
+            times,
+            weights,
+        }
+    }
+
+    /// An enclosure of one entry; `None` where a divisor is not told from zero by it.
+    fn entry(&self, i: usize, j: usize) -> Option<Interval> {
+        let later = self.times[i].add(&Interval::enclosing(&ratio(1, 1), self.bits));
+        product(&self.weights[i], &later, &self.times, j).divide(&self.divisors[j])
+    }
+}
+
+/// `factor Π_{k≠j} (time − c_k)`
+fn product(factor: &Interval, time: &Interval, times: &[Interval], j: usize) -> Interval {
+    let others = times.iter().enumerate().filter(|&(k, _)| k != j);
+    others.fold(factor.clone(), |product, (_, other)| {
+        product.multiply(&time.subtract(other))
     })
 }
