@@ -234,10 +234,6 @@ impl<M: Method, C: Class> Plan for TypeTwo<M, C> {
         sum(increment, &weights.back, force);
         settle(outcome.p, step.p, increment, &mut unused);
     }
-
-    fn carry<V: Vector>(_stages: &mut Unknowns<M, V>) -> bool {
-        false
-    }
 }
 
 /// The stages, one of each for every stage of the tableau.

@@ -378,7 +378,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Integrator<M, S, V, 
         self.statistics.count(work);
         self.last_size = size;
         self.kept = Kept {
-            evaluation: <PlanOf<M, S, V> as Plan>::carry(&mut self.stages),
+            evaluation: <PlanOf<M, S, V> as Plan>::EVALUATIONS.carried > 0,
             stages: true,
         };
     }

@@ -80,7 +80,4 @@ pub trait Plan {
         outcome: Outcome<'_, V>,
         witness: &mut W,
     );
-
-    /// After an accepted step: whether `stages` holds the first evaluation of the next one.
-    fn carry<V: Vector>(stages: &mut Self::Stages<V>) -> bool;
 }

@@ -73,7 +73,8 @@ pub struct EvaluationCounts {
     pub sweep: u32,
     /// After the coupled stages.
     pub finish: u32,
-    /// How many of the first ones are not made where the step before has [kept](Kept::evaluation) them.
+    /// How many of the first ones are not made where the step before has [kept](Kept::evaluation) them; every accepted
+    /// step keeps them.
     pub carried: u32,
 }
 

@@ -38,73 +38,51 @@ fn main() -> Result<(), Error> {
         start
     });
     // The step sizes are such that the errors of the methods themselves are below those of rounding.
-    row(
-        "Kepler, e ≈ 0.6",
-        Gauss6,
-        "Gauss 6",
-        Kepler,
-        &ellipses,
-        1.0 / 32.0,
-        &steps,
-    )?;
-    row(
-        "Kepler, e ≈ 0.6",
-        Gauss8,
-        "Gauss 8",
-        Kepler,
-        &ellipses,
-        1.0 / 16.0,
-        &steps,
-    )?;
-    row(
-        "Hénon–Heiles",
-        Gauss6,
-        "Gauss 6",
-        HenonHeiles,
-        &stars,
-        1.0 / 16.0,
-        &steps,
-    )?;
-    row(
-        "Hénon–Heiles",
-        Gauss8,
-        "Gauss 8",
-        HenonHeiles,
-        &stars,
-        1.0 / 8.0,
-        &steps,
-    )
+    let kepler = Ensemble {
+        problem: "Kepler, e ≈ 0.6",
+        system: Kepler,
+        starts: &ellipses,
+    };
+    kepler.rows(Gauss6, 1.0 / 32.0, &steps)?;
+    kepler.rows(Gauss8, 1.0 / 16.0, &steps)?;
+    let galaxy = Ensemble {
+        problem: "Hénon–Heiles",
+        system: HenonHeiles,
+        starts: &stars,
+    };
+    galaxy.rows(Gauss6, 1.0 / 16.0, &steps)?;
+    galaxy.rows(Gauss8, 1.0 / 8.0, &steps)
 }
 
-fn row<M: Method, S: SeparableHamiltonian<SVector<f64, 2>> + Copy>(
-    problem: &str,
-    method: M,
-    name: &str,
+/// Orbits of one system.
+struct Ensemble<'a, S> {
+    problem: &'a str,
     system: S,
-    starts: &[Start],
-    step_size: f64,
-    steps: &[u64],
-) -> Result<(), Error> {
-    fn one<M, S, R>(
-        row: (&str, &str, &str),
+    starts: &'a [Start],
+}
+
+impl<S: SeparableHamiltonian<SVector<f64, 2>> + Copy> Ensemble<'_, S> {
+    /// A row for each kind of sums.
+    fn rows<M: Method>(&self, method: M, step_size: f64, steps: &[u64]) -> Result<(), Error> {
+        self.row::<M, Compensated>(method, "compensated", step_size, steps)?;
+        self.row::<M, Plain>(method, "plain", step_size, steps)
+    }
+
+    fn row<M: Method, R: Summation>(
+        &self,
         method: M,
-        system: S,
-        starts: &[Start],
+        sums: &str,
         step_size: f64,
         steps: &[u64],
-    ) -> Result<(), Error>
-    where
-        M: Method,
-        S: SeparableHamiltonian<SVector<f64, 2>> + Copy,
-        R: Summation,
-    {
-        let samples = ensemble::<M, S, R>(method, system, starts, step_size, steps)?;
+    ) -> Result<(), Error> {
+        let samples = ensemble::<M, S, R>(method, self.system, self.starts, step_size, steps)?;
         let Some(last) = samples.last() else {
             return Ok(());
         };
-        let (problem, name, sums) = row;
         println!(
-            "| {problem} | {name} | {sums} | {:.1e} | {:.1e} | {:.1} | {:.2} | {:.2} |",
+            "| {} | {} | {sums} | {:.1e} | {:.1e} | {:.1} | {:.2} | {:.2} |",
+            self.problem,
+            M::NAME,
             last.mean,
             last.spread,
             last.significance,
@@ -113,20 +91,4 @@ fn row<M: Method, S: SeparableHamiltonian<SVector<f64, 2>> + Copy>(
         );
         Ok(())
     }
-    one::<M, S, Compensated>(
-        (problem, name, "compensated"),
-        method,
-        system,
-        starts,
-        step_size,
-        steps,
-    )?;
-    one::<M, S, Plain>(
-        (problem, name, "plain"),
-        method,
-        system,
-        starts,
-        step_size,
-        steps,
-    )
 }

@@ -707,10 +707,6 @@ const _: () = {
                 [&force[0], &force[1], &force[2], &force[3]],
             );
         }
-        #[inline]
-        fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
-            false
-        }
     }
     pub struct ForestRuthSeparable;
     #[allow(unused_variables)]
@@ -952,10 +948,6 @@ const _: () = {
                 ),
                 force,
             );
-        }
-        #[inline]
-        fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
-            true
         }
     }
 };

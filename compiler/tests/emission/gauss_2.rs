@@ -400,10 +400,6 @@ const _: () = {
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
         }
-        #[inline]
-        fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
-            false
-        }
     }
     pub struct Gauss2Separable;
     #[allow(unused_variables)]
@@ -663,10 +659,6 @@ const _: () = {
                 V,
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
-        }
-        #[inline]
-        fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
-            false
         }
     }
 };

@@ -517,10 +517,6 @@ const _: () = {
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1], &force[2]]);
         }
-        #[inline]
-        fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
-            false
-        }
     }
     pub struct Lobatto3Separable;
     #[allow(unused_variables)]
@@ -806,10 +802,6 @@ const _: () = {
                 ),
                 &force[2],
             );
-        }
-        #[inline]
-        fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
-            true
         }
     }
 };

@@ -252,10 +252,6 @@ const _: () = {
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
         }
-        #[inline]
-        fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
-            false
-        }
     }
     pub struct StoermerVerletSeparable;
     #[allow(unused_variables)]
@@ -363,10 +359,6 @@ const _: () = {
                 R,
                 V,
             >(p1, p1_low, step.size, ::symplectic::Coefficient::exact(0.5), force);
-        }
-        #[inline]
-        fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
-            true
         }
     }
 };

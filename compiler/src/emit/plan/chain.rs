@@ -7,8 +7,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::{Bodies, base, evaluation_name, literal};
-use crate::arithmetic::rational::ratio;
-use crate::schedule::{Class, Node, StageValue, StepGraph};
+use crate::schedule::{Class, Node, Phases, StageValue, StepGraph};
 
 /// The evaluations of a splitting in their order.
 pub(super) struct Chain<'g, 'a> {
@@ -66,23 +65,10 @@ impl<'g, 'a> Chain<'g, 'a> {
         }
     }
 
-    /// Whether the first evaluation is the last one of the step before: of the same kind, at the start and at the end.
-    fn is_carried(&self) -> bool {
-        let (Some(&first), Some(&last)) = (self.evaluations.first(), self.evaluations.last())
-        else {
-            return false;
-        };
-        let at = |node, time| self.graph.evaluation(node).time.equals(&ratio(time, 1));
-        first != last
-            && evaluation_name(first) == evaluation_name(last)
-            && self.argument(last).is_some_and(|value| value.is_end)
-            && at(first, 0)
-            && at(last, 1)
-    }
-
     /// The code of the step.
     pub(super) fn bodies(&self) -> Bodies {
-        let carried = self.is_carried();
+        // The first evaluation, if any: it is left in its place by the last one of its kind.
+        let carried = !Phases::new(self.graph).carried().is_empty();
         let mut moved = [false; 2];
         let mut lines = Vec::new();
         for (number, &node) in self.evaluations.iter().enumerate() {
@@ -139,7 +125,6 @@ impl<'g, 'a> Chain<'g, 'a> {
                 let ::symplectic::Evaluations { velocity, force } = stages;
                 #(#lines)*
             },
-            carry: quote!(#carried),
             counts: [self.evaluations.len(), 0, 0, 0],
             carried: usize::from(carried),
         }

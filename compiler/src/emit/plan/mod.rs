@@ -25,7 +25,6 @@ struct Bodies {
     begin: TokenStream,
     sweep: TokenStream,
     finish: TokenStream,
-    carry: TokenStream,
     /// Evaluations in `begin`, for starting values, in a sweep and in `finish`.
     counts: [usize; 4],
     /// How many of them the step before has made already.
@@ -49,7 +48,6 @@ pub(super) fn implementation(
         begin,
         sweep,
         finish,
-        carry,
         ..
     } = bodies;
     let class = identifier(match class {
@@ -99,11 +97,6 @@ pub(super) fn implementation(
             ) {
                 let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
                 #finish
-            }
-
-            #[inline]
-            fn carry<V: ::symplectic::Vector>(stages: &mut Self::Stages<V>) -> bool {
-                #carry
             }
         }
     }

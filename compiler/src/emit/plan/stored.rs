@@ -50,7 +50,6 @@ impl<'g, 'a> Stored<'g, 'a> {
             begin: quote!(#slots #begin),
             sweep: quote!(#slots #sweep),
             finish: quote!(#slots #finish),
-            carry: self.carry(),
             counts: [
                 evaluations(&self.phases.begin),
                 starts,
@@ -282,10 +281,5 @@ impl<'g, 'a> Stored<'g, 'a> {
     /// Whether an evaluation stays as it is, for the next step.
     fn is_kept(&self, node: Node) -> bool {
         self.carried.iter().any(|(_, last)| *last == node)
-    }
-
-    fn carry(&self) -> TokenStream {
-        let kept = !self.carried.is_empty();
-        quote!(#kept)
     }
 }
