@@ -9,7 +9,7 @@ use super::node::{NodeNumber, short_rational};
 use super::real::ROUNDING_BITS;
 use super::{Ball, ConstantField, FieldElement, Real, ZERO_BITS};
 use crate::arithmetic::interval::Interval;
-use crate::arithmetic::rational::ratio;
+use crate::arithmetic::rational::{add, ratio};
 use crate::arithmetic::rounding::{self, Decimal, exact};
 
 /// What is known about whether a number is zero.
@@ -75,11 +75,11 @@ impl Number<'_> {
         if equal { Zero::Yes } else { Zero::No }
     }
 
-    /// Whether the number equals a rational for the purpose of rounding: exactly, or as far as very fine
-    /// enclosures tell.
-    fn is_surely(&self, value: &BigRational) -> bool {
+    /// Whether the number equals a rational for the purpose of rounding: exactly, or as far as enclosures with this
+    /// many binary places tell.
+    fn is_surely(&self, value: &BigRational, bits: u32) -> bool {
         match self {
-            Number::Real(number) => number.difference(value, ROUNDING_BITS).may_be(),
+            Number::Real(number) => number.difference(value, bits).may_be(),
             Number::Enclosed(ball) => ball.difference(value).may_be(),
             _ => self.difference(value) == Zero::Yes,
         }
@@ -148,13 +148,13 @@ impl Number<'_> {
     /// Together they are the number to 106 bits, where that is not below the smallest double.
     pub fn low_double(&self, double: f64) -> f64 {
         let double = exact(double);
-        // Here the difference is zero, which no enclosure tells.
-        if self.is_surely(&double) {
+        // Here the difference is zero, which no enclosure tells, or rounds to zero.
+        if self.is_surely(&double, ZERO_BITS) {
             return 0.0;
         }
         self.round(
             0,
-            |value| rounding::to_f64(&(value - &double)),
+            |value| rounding::to_f64(&add(value, &-&double)),
             |&low| &double + exact(low),
         )
     }
@@ -181,7 +181,7 @@ impl Number<'_> {
         if let Number::Rational(value) = self {
             return round(value);
         }
-        if self.is_surely(&BigRational::zero()) {
+        if self.is_surely(&BigRational::zero(), ZERO_BITS) {
             return round(&BigRational::zero());
         }
         let mut interval = self.enclose(bits);
@@ -200,7 +200,7 @@ impl Number<'_> {
             // middle: the exact test is expensive, so it has to be worth it.
             let narrow = (high - low) * exact(2f64.powi(64)) < (b - a).abs();
             if decided && narrow && excluded.as_ref() != Some(&middle) {
-                if self.is_surely(&middle) {
+                if self.is_surely(&middle, ROUNDING_BITS) {
                     return round(&middle);
                 }
                 excluded = Some(middle);

@@ -11,10 +11,10 @@ use crate::arithmetic::interval::Interval;
 use crate::certify::{Certificate, Coefficient};
 use crate::symbolic::Constant;
 
-/// Binary places to which equations are verified. Half the smallest positive double is `2⁻¹⁰⁷⁵`, so that what
-/// is not told from zero is the double zero.
+/// Binary places to which equations are verified, and to which a number is compared with zero when it is rounded.
+/// Half the smallest positive double is `2⁻¹⁰⁷⁵`, so that what is not told from zero is the double zero.
 pub const ZERO_BITS: u32 = 1280;
-/// Binary places to which a number is compared with zero and with ties when it is rounded.
+/// Binary places to which a number is compared with ties when it is rounded.
 pub const ROUNDING_BITS: u32 = 8192;
 
 /// A real number: constants joined by field operations.

@@ -6,6 +6,8 @@
 //! outward: its ends are within two units in the last place of the tight ones, apart from the units
 //! that the operand is wide.
 
+use std::sync::{Mutex, PoisonError};
+
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -18,6 +20,18 @@ pub const LARGEST_EXPONENT: u32 = 1 << 16;
 
 /// An enclosure of π, at most two units wide.
 pub fn pi(bits: u32) -> Interval {
+    /// The finest so far: every wave reduces its argument by it.
+    static FINEST: Mutex<Option<Interval>> = Mutex::new(None);
+    let mut finest = FINEST.lock().unwrap_or_else(PoisonError::into_inner);
+    // With more places, so that what is left of them does not depend on how many there were.
+    let known = match finest.take().filter(|known| known.bits >= bits + 64) {
+        Some(known) => known,
+        None => compute_pi(bits + 64),
+    };
+    finest.insert(known).with_bits(bits)
+}
+
+fn compute_pi(bits: u32) -> Interval {
     // 1/π = 12·Σ (−1)ᵏ (6k)! (13591409 + 545140134k)/((3k)! k!³ 640320^(3k+3/2)) (Chudnovsky). The terms
     // alternate and fall by at least 2⁻⁴¹ each, so the relative error after n terms is below
     // 2^(1−41n): less than one unit here.
@@ -108,14 +122,17 @@ fn exp_of_point(point: &BigInt, bits: u32) -> Interval {
     // The two roundings of a term lower it by less than 2 units, the half of the error before it adds
     // up to 4 in all; the terms that are left out are each less than half of the one before, which is
     // less than 5 units.
+    let mut error = BigInt::from(4 * n + 10);
+    for _ in 0..halvings {
+        // (p + e)² − p² = 2pe + e², and less than one unit of rounding each.
+        error = ((&error * (&error + (&sum << 1u32))) >> fine) + 2;
+        sum = (&sum * &sum) >> fine;
+    }
     let mut power = Interval {
         low: sum.clone(),
-        high: sum + (4 * n + 10),
+        high: sum + error,
         bits: fine,
     };
-    for _ in 0..halvings {
-        power = power.multiply(&power);
-    }
     if point.is_negative() {
         let one = BigInt::one() << fine;
         let one = Interval {
@@ -228,7 +245,8 @@ pub fn sin(x: &Interval) -> Interval {
 fn wave(x: &Interval, quarter: u32) -> Interval {
     let bits = x.bits;
     let one = BigInt::one() << bits;
-    if &x.high - &x.low >= &one * 7 {
+    let width = &x.high - &x.low;
+    if width >= &one * 7 {
         return Interval {
             low: -&one,
             high: one,
@@ -242,6 +260,15 @@ fn wave(x: &Interval, quarter: u32) -> Interval {
         ..pi(fine)
     };
     let [low, high] = [&x.low, &x.high].map(|end| end << (half_pi.bits - bits));
+    // The slope is at most 1, so that one point of a narrow interval is enough.
+    if width <= BigInt::from(256) {
+        let start = wave_of_point(&low, quarter, &half_pi, bits);
+        return Interval {
+            low: (start.low - &width).max(-&one),
+            high: (start.high + width).min(one),
+            bits,
+        };
+    }
     // The multiples n·π/2 in the interval; one outside by less than a rounding error does no harm, for
     // there the wave is within a rounding error of its extremum.
     let over = |end: &BigInt, outer: &BigInt, inner: &BigInt| {
@@ -254,11 +281,7 @@ fn wave(x: &Interval, quarter: u32) -> Interval {
         first.clone() + steps.mod_floor(&BigInt::from(4)) <= last
     };
     let start = wave_of_point(&low, quarter, &half_pi, bits);
-    let end = if low == high {
-        start.clone()
-    } else {
-        wave_of_point(&high, quarter, &half_pi, bits)
-    };
+    let end = wave_of_point(&high, quarter, &half_pi, bits);
     Interval {
         low: if meets(2) {
             -&one
@@ -312,21 +335,18 @@ fn cos_of_reduced(y: &BigInt, bits: u32) -> Interval {
         n += 1;
     }
     // Every term is less than 3 units too small, and so is the sum of those that are left out.
-    let error = 3 * n + 5;
-    let mut cosine = Interval {
-        low: &sum - error,
+    let mut error = BigInt::from(3 * n + 5);
+    for _ in 0..halvings {
+        // 2(c + e)² − 2c² = 4ce + 2e² with |c| ≤ 1, and less than one unit of rounding each.
+        sum = ((&sum * &sum) >> (fine - 1)) - &one;
+        error = (&error << 2u32) + ((&error * &error) >> (fine - 1)) + 2;
+    }
+    Interval {
+        low: &sum - &error,
         high: sum + error,
         bits: fine,
-    };
-    for _ in 0..halvings {
-        let square = cosine.multiply(&cosine);
-        cosine = Interval {
-            low: (square.low << 1) - &one,
-            high: (square.high << 1) - &one,
-            bits: fine,
-        };
     }
-    cosine.with_bits(bits)
+    .with_bits(bits)
 }
 
 /// The square root; `None` if the lower end is negative.

@@ -8,6 +8,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::polynomial::Polynomial;
+use super::rational::dyadic;
 
 /// The closed interval `[low, high]·2⁻ᵇⁱᵗˢ`: a certified enclosure of a real number.
 ///
@@ -53,6 +54,11 @@ impl Interval {
     /// The upper end.
     pub fn high(&self) -> BigRational {
         dyadic(&self.high, self.bits)
+    }
+
+    /// The middle.
+    pub fn middle(&self) -> BigRational {
+        dyadic(&(&self.low + &self.high), self.bits + 1)
     }
 
     /// The sign of all numbers in the interval, if they have the same.
@@ -284,17 +290,6 @@ impl Interval {
             }
         });
         Interval::quotient(value.low, value.high, polynomial.denominator(), self.bits)
-    }
-}
-
-/// `numerator·2⁻ᵇⁱᵗˢ` in lowest terms, for which no greatest common divisor is needed.
-fn dyadic(numerator: &BigInt, bits: u32) -> BigRational {
-    match numerator.trailing_zeros() {
-        None => BigRational::zero(),
-        Some(zeros) => {
-            let common = u32::try_from(zeros).unwrap_or(u32::MAX).min(bits);
-            BigRational::new_raw(numerator >> common, BigInt::one() << (bits - common))
-        }
     }
 }
 

@@ -10,16 +10,36 @@ pub fn ratio(numerator: i64, denominator: i64) -> BigRational {
     BigRational::new(numerator.into(), denominator.into())
 }
 
-/// The sum. Whole numbers are added without the greatest common divisor with 1, which is slow for long ones.
-pub(crate) fn add(a: &BigRational, b: &BigRational) -> BigRational {
-    if a.is_integer() && b.is_integer() {
-        BigRational::from_integer(a.numer() + b.numer())
-    } else {
-        a + b
+/// `numerator·2⁻ᵇⁱᵗˢ` in lowest terms, for which no greatest common divisor is needed.
+pub(crate) fn dyadic(numerator: &BigInt, bits: u32) -> BigRational {
+    match numerator.trailing_zeros() {
+        None => BigRational::zero(),
+        Some(zeros) => {
+            let common = u32::try_from(zeros).unwrap_or(u32::MAX).min(bits);
+            BigRational::new_raw(numerator >> common, BigInt::one() << (bits - common))
+        }
     }
 }
 
-/// The product, as fast for whole numbers as [`add`].
+/// The binary places of a dyadic number: 0 for a whole one.
+fn places(value: &BigRational) -> Option<u32> {
+    let places = value.denom().bits() - 1;
+    (value.denom().trailing_zeros() == Some(places)).then_some(u32::try_from(places).ok()?)
+}
+
+/// The sum. Dyadic numbers are added without a greatest common divisor, which is slow for long ones.
+pub(crate) fn add(a: &BigRational, b: &BigRational) -> BigRational {
+    let (Some(m), Some(n)) = (places(a), places(b)) else {
+        return a + b;
+    };
+    let most = m.max(n);
+    dyadic(
+        &((a.numer() << (most - m)) + (b.numer() << (most - n))),
+        most,
+    )
+}
+
+/// The product. Whole numbers are multiplied without a greatest common divisor.
 pub(crate) fn multiply(a: &BigRational, b: &BigRational) -> BigRational {
     if a.is_integer() && b.is_integer() {
         BigRational::from_integer(a.numer() * b.numer())
@@ -57,12 +77,22 @@ pub fn parse(text: &str) -> Option<BigRational> {
 
 /// The rational with the smallest denominator in the closed interval `[low, high]` (Stern–Brocot).
 pub fn simplest_between(low: &BigRational, high: &BigRational) -> BigRational {
-    debug_assert!(low <= high);
+    simplest_until(low, high, u64::MAX)
+}
+
+/// [`simplest_between`], if its numerator and denominator have no more than these `bits`.
+pub fn short_between(low: &BigRational, high: &BigRational, bits: u64) -> Option<BigRational> {
+    let found = simplest_until(low, high, bits);
+    (found.numer().bits() <= bits && found.denom().bits() <= bits).then_some(found)
+}
+
+/// The simplest rational between two, or the first convergent towards it with more than these `bits`.
+fn simplest_until(low: &BigRational, high: &BigRational, bits: u64) -> BigRational {
     if !low.is_positive() && !high.is_negative() {
         return BigRational::zero();
     }
     if high.is_negative() {
-        return -simplest_between(&-high, &-low);
+        return -simplest_until(&-high, &-low, bits);
     }
     // Continued fractions of both ends agree up to the term where the simplest fraction leaves them.
     let (mut a, mut b) = (low.numer().clone(), low.denom().clone());
@@ -80,6 +110,9 @@ pub fn simplest_between(low: &BigRational, high: &BigRational) -> BigRational {
         } else {
             let (p, q) = (&floor * &p1 + &p0, &floor * &q1 + &q0);
             (p0, q0, p1, q1) = (p1, q1, p, q);
+            if p1.bits().max(q1.bits()) > bits {
+                return BigRational::new_raw(p1, q1);
+            }
             let high_remainder = c - floor * &d;
             // Reciprocals of the fractional parts, which exchanges the ends.
             (a, b, c, d) = (d, high_remainder, b, remainder);

@@ -1,7 +1,5 @@
 //! Which coefficients are solved for, and which are fixed as exact numbers.
 
-use num_rational::BigRational;
-
 use super::structure::{Reading, Unknown};
 use super::system::System;
 use crate::arithmetic::interval::Interval;
@@ -65,12 +63,7 @@ pub fn free_unknowns(system: &System, reading: &Reading) -> Result<Vec<usize>, u
 }
 
 fn normalised(row: &[Interval]) -> Vec<f64> {
-    let value = |entry: &Interval| {
-        let middle: BigRational =
-            (entry.low() + entry.high()) / BigRational::from_integer(2.into());
-        to_f64(&middle)
-    };
-    let values: Vec<f64> = row.iter().map(value).collect();
+    let values: Vec<f64> = row.iter().map(|entry| to_f64(&entry.middle())).collect();
     let largest = values.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     if largest > 0.0 {
         values.iter().map(|x| x / largest).collect()

@@ -8,7 +8,7 @@
 
 use num_rational::BigRational;
 
-use crate::algebra::Number;
+use crate::algebra::{Number, ROUNDING_BITS, ZERO_BITS};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::{exact, to_f32, to_f64};
@@ -104,7 +104,7 @@ fn complements(mu: Fraction<'_>, mu_tilde: Fraction<'_>) -> Option<(Rounded, Rou
         return Some((Rounded::ONE, Rounded::ZERO));
     }
     // Where both are 1/2, or as good as that, either may be the larger one.
-    let first_is_larger = enclosure.low() + enclosure.high() >= ratio(1, 1);
+    let first_is_larger = enclosure.middle() >= ratio(1, 2);
     let larger = round(if first_is_larger { mu } else { mu_tilde })?;
     let smaller = larger.complement()?;
     Some(if first_is_larger {
@@ -140,33 +140,31 @@ fn round(fraction: Fraction<'_>) -> Option<Rounded> {
     })
 }
 
-/// Binary places beyond which an enclosure that still contains zero, or the middle between two neighbours, is taken for
-/// it.
-const DECIDED_BITS: u32 = 2048;
+/// Binary places of the enclosures by which a number is rounded: nearly always the first are enough, and by the second
+/// both ends of what encloses zero round to zero. A number that the last do not tell from the middle between two
+/// neighbours is taken for it.
+const DECIDING_BITS: [u32; 3] = [192, ZERO_BITS, ROUNDING_BITS];
 
 /// Rounds a number that is enclosed as narrowly as needed.
 pub(super) fn decide<T: PartialEq>(
     enclose: impl Fn(u32) -> Option<Interval>,
     round: impl Fn(&BigRational) -> T,
 ) -> Option<T> {
-    let mut bits = 192;
-    loop {
-        if let Some(interval) = enclose(bits) {
-            let (low, high) = (interval.low(), interval.high());
-            let below = round(&low);
-            let sign = interval.sign();
-            if sign.is_some() && below == round(&high) {
-                return Some(below);
-            }
-            if bits >= DECIDED_BITS {
-                let value = sign.map_or_else(|| ratio(0, 1), |_| (low + high) / ratio(2, 1));
-                return Some(round(&value));
-            }
-        } else if bits >= DECIDED_BITS {
-            return None;
+    let mut finest = None;
+    for bits in DECIDING_BITS {
+        let Some(interval) = enclose(bits) else {
+            continue;
+        };
+        // Zero without the sign of an end.
+        let middle = interval
+            .sign()
+            .map_or_else(|| ratio(0, 1), |_| interval.middle());
+        finest = Some(round(&middle));
+        if round(&interval.low()) == round(&interval.high()) {
+            break;
         }
-        bits *= 2;
     }
+    finest
 }
 
 #[cfg(test)]

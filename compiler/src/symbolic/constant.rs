@@ -255,7 +255,7 @@ pub(crate) mod tests {
     /// The value as a double.
     pub(crate) fn value(constant: &Constant) -> f64 {
         let interval = constant.enclose(80).expect("can be enclosed");
-        to_f64(&((interval.low() + interval.high()) / ratio(2, 1)))
+        to_f64(&interval.middle())
     }
 
     #[test]

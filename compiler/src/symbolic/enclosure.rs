@@ -8,8 +8,8 @@ use num_traits::Zero;
 
 use super::zero::is_zero;
 use super::{Constant, MAX_MAGNITUDE, MAX_SIGN_BITS, Tree};
+use crate::arithmetic::elementary;
 use crate::arithmetic::interval::Interval;
-use crate::arithmetic::{elementary, roots};
 
 /// The most binary places that are spent beyond those asked for: a product of the largest numbers, and the
 /// inverse of the smallest that can be told from zero.
@@ -130,7 +130,7 @@ impl Evaluation {
         let interval = match constant.tree() {
             Tree::Rational(value) => Interval::enclosing(value, bits),
             Tree::Pi => elementary::pi(bits),
-            Tree::Root(root) => roots::enclose(&root.polynomial, &root.root, bits),
+            Tree::Root(root) => root.enclose(bits),
             // A radicand is not negative, whatever its enclosure says.
             Tree::Sqrt(x) => elementary::sqrt(&self.of(x)?.nonnegative()?)?,
             Tree::Cbrt(x) => elementary::root(&self.of(x)?, 3)?,

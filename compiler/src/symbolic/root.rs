@@ -2,14 +2,16 @@
 
 use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use num_bigint::BigInt;
 use num_traits::ToPrimitive;
 
 use super::size::check;
 use super::{Constant, MAX_ROOT_DEGREE, MAX_ROOT_SIZE, Tree};
+use crate::arithmetic::interval::Interval;
 use crate::arithmetic::polynomial::Polynomial;
-use crate::arithmetic::roots::{Root, real_roots};
+use crate::arithmetic::roots::{self, Root, real_roots};
 use crate::error::ErrorKind;
 use crate::expression::shown;
 
@@ -21,12 +23,25 @@ pub(crate) struct AlgebraicRoot {
     pub(crate) index: usize,
     /// Its isolating interval.
     pub(crate) root: Root,
+    /// The finest enclosure so far: a root is a part of many constants.
+    finest: Arc<Mutex<Option<Interval>>>,
 }
 
 impl AlgebraicRoot {
     /// What determines the root.
     fn key(&self) -> (&[BigInt], usize) {
         (self.polynomial.numerators(), self.index)
+    }
+
+    /// An enclosure with this number of binary places, at most two units wide.
+    pub(super) fn enclose(&self, bits: u32) -> Interval {
+        let mut finest = self.finest.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*finest {
+            Some(known) if known.bits() >= bits => known.with_bits(bits),
+            _ => finest
+                .insert(roots::enclose(&self.polynomial, &self.root, bits))
+                .clone(),
+        }
     }
 }
 
@@ -99,6 +114,7 @@ impl Constant {
                 polynomial: squarefree,
                 index: position + 1,
                 root: root.clone(),
+                finest: Arc::default(),
             })),
         }
     }

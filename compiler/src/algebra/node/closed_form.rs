@@ -11,7 +11,8 @@ use super::tensor::magnitude_bits;
 use super::{NodeAlgebra, NodeNumber, Tensor};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::polynomial::Polynomial;
-use crate::arithmetic::rational::{ratio, simplest_between};
+use crate::arithmetic::rational::{ratio, short_between};
+use crate::arithmetic::roots::compare;
 
 /// The number `rational + factor·√radicand`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -193,57 +194,82 @@ impl fmt::Display for ClosedForm {
 /// Short exact forms of the values of an element at all nodes, where there are any.
 pub fn of_element(algebra: &NodeAlgebra, element: &Polynomial) -> Vec<Option<ClosedForm>> {
     let values = algebra.enclose(element, 4 * SHORT_BITS as u32 + 2 * magnitude_bits(element));
-    (0..algebra.dimension())
-        .map(|node| search(algebra, element, &values, node))
-        .collect()
+    let vanishes = |f: &Polynomial, node: usize| {
+        NodeNumber::at(algebra, algebra.reduce(f), node).equals(&BigRational::zero())
+    };
+    let rational = |node: usize| {
+        if let Some(node) = algebra.roots()[node].rational() {
+            return Some(element.evaluate(node));
+        }
+        let candidate = short_rational(&values[node])?;
+        let distance = element - &Polynomial::constant(candidate.clone());
+        vanishes(&distance, node).then_some(candidate)
+    };
+    let nodes = 0..algebra.dimension();
+    let mut forms: Vec<Option<ClosedForm>> = nodes
+        .clone()
+        .map(|node| rational(node).map(ClosedForm::rational))
+        .collect();
+    // The conjugate of a quadratic number is the value at another node.
+    for node in nodes.clone() {
+        for other in node + 1..nodes.end {
+            if forms[node].is_some() && forms[other].is_some() {
+                continue;
+            }
+            let Some(quadratic) = Quadratic::of_roots(&values[node], &values[other]) else {
+                continue;
+            };
+            let residual = quadratic.at(element);
+            let sign = compare(&values[node], &values[other]);
+            for (node, sign) in [(node, sign), (other, sign.map(Ordering::reverse))] {
+                if forms[node].is_none() && vanishes(&residual, node) {
+                    forms[node] = sign.map(|sign| quadratic.root(sign));
+                }
+            }
+        }
+    }
+    forms
 }
 
-/// Looks for a rational value or a quadratic equation of a value; what is found is proved.
-fn search(
-    algebra: &NodeAlgebra,
-    element: &Polynomial,
-    values: &[Interval],
-    node: usize,
-) -> Option<ClosedForm> {
-    if let Some(rational) = algebra.roots()[node].rational() {
-        return Some(ClosedForm::rational(element.evaluate(rational)));
+/// The polynomial `z² − sum·z + product` with distinct real roots.
+struct Quadratic {
+    sum: BigRational,
+    product: BigRational,
+}
+
+impl Quadratic {
+    /// The one with these roots, if its coefficients are short.
+    fn of_roots(a: &Interval, b: &Interval) -> Option<Self> {
+        let found = Quadratic {
+            sum: short_rational(&a.add(b))?,
+            product: short_rational(&a.multiply(b))?,
+        };
+        found.discriminant().is_positive().then_some(found)
     }
-    let vanishes = |f: Polynomial| {
-        NodeNumber::at(algebra, algebra.reduce(&f), node).equals(&BigRational::zero())
-    };
-    let value = &values[node];
-    if let Some(candidate) = short_rational(value)
-        && vanishes(element - &Polynomial::constant(candidate.clone()))
-    {
-        return Some(ClosedForm::rational(candidate));
+
+    fn discriminant(&self) -> BigRational {
+        &self.sum * &self.sum - &self.product * ratio(4, 1)
     }
-    // The conjugate of a quadratic number is the value at another node.
-    values
-        .iter()
-        .enumerate()
-        .filter(|(k, _)| *k != node)
-        .find_map(|(_, other)| {
-            let sum = short_rational(&value.add(other))?;
-            let product = short_rational(&value.multiply(other))?;
-            let discriminant = &sum * &sum - &product * ratio(4, 1);
-            let square = &(element * element) - &element.scale(&sum);
-            if !discriminant.is_positive() || !vanishes(&square + &Polynomial::constant(product)) {
-                return None;
-            }
-            let sign = crate::arithmetic::roots::compare(value, other)?;
-            Some(ClosedForm::surd(
-                sum / ratio(2, 1),
-                &(discriminant / ratio(4, 1)),
-                sign,
-            ))
-        })
+
+    /// Its value at an element.
+    fn at(&self, z: &Polynomial) -> Polynomial {
+        &(&(z * z) - &z.scale(&self.sum)) + &Polynomial::constant(self.product.clone())
+    }
+
+    /// The root that compares so with the other one.
+    fn root(&self, sign: Ordering) -> ClosedForm {
+        let two = ratio(2, 1);
+        ClosedForm::surd(
+            &self.sum / &two,
+            &(self.discriminant() / (&two * &two)),
+            sign,
+        )
+    }
 }
 
 /// The simplest rational in an interval, if it is short.
 pub fn short_rational(interval: &Interval) -> Option<BigRational> {
-    let candidate = simplest_between(&interval.low(), &interval.high());
-    let short = candidate.numer().bits() <= SHORT_BITS && candidate.denom().bits() <= SHORT_BITS;
-    short.then_some(candidate)
+    short_between(&interval.low(), &interval.high(), SHORT_BITS)
 }
 
 /// Short exact forms of the entries of a matrix, where there are any.
