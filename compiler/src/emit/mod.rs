@@ -37,7 +37,9 @@ pub struct Header {
 /// # Errors
 /// [`ErrorKind::Overflow`] where a coefficient is beyond the largest double.
 pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKind> {
-    if let Some(&value) = tableau.to_f64().iter().find(|value| !value.is_finite()) {
+    let numbers = tableau.numbers();
+    let doubles = numbers.map(Number::to_f64);
+    if let Some(&value) = doubles.iter().find(|value| !value.is_finite()) {
         return Err(ErrorKind::Overflow {
             value: value.to_string(),
         });
@@ -47,13 +49,12 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
         visibility,
         name,
     } = header;
-    let constants = constants(tableau);
+    let constants = constants(tableau, &doubles);
     let documentation = documentation(tableau);
     let stages = literal::count(tableau.stages());
     let text = name.to_string();
     let provenance = tableau.provenance();
     let definition = provenance.definition.to_string();
-    let numbers = tableau.numbers();
     let coefficients = coefficients(tableau, &numbers);
     // The plans are named after the method, so that they are not the method.
     let [general_plan, separable_plan] =
@@ -91,8 +92,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
 }
 
 /// The coefficients as constants, each the double nearest to the exact value.
-fn constants(tableau: &Tableau) -> TokenStream {
-    let values = tableau.to_f64();
+fn constants(tableau: &Tableau, values: &Coefficients<f64>) -> TokenStream {
     let stages = literal::count(tableau.stages());
     // Where both halves are the same, the second is written as the first.
     let same = tableau.equal_halves();

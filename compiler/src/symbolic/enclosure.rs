@@ -169,6 +169,7 @@ impl Evaluation {
 mod tests {
     use super::*;
     use crate::arithmetic::rational::ratio;
+    use crate::arithmetic::roots;
     use crate::arithmetic::rounding::to_f64;
     use crate::symbolic::constant::tests::{constant, value};
     use proptest::prelude::*;

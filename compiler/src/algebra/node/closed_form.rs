@@ -191,8 +191,23 @@ impl fmt::Display for ClosedForm {
     }
 }
 
+/// Short exact forms of the nodes, where there are any.
+fn of_nodes(algebra: &NodeAlgebra) -> &[Option<ClosedForm>] {
+    algebra
+        .forms
+        .get_or_init(|| search(algebra, &algebra.variable()))
+}
+
 /// Short exact forms of the values of an element at all nodes, where there are any.
 pub fn of_element(algebra: &NodeAlgebra, element: &Polynomial) -> Vec<Option<ClosedForm>> {
+    if *element == algebra.variable() {
+        of_nodes(algebra).to_vec()
+    } else {
+        search(algebra, element)
+    }
+}
+
+fn search(algebra: &NodeAlgebra, element: &Polynomial) -> Vec<Option<ClosedForm>> {
     let values = algebra.enclose(element, 4 * SHORT_BITS as u32 + 2 * magnitude_bits(element));
     let vanishes = |f: &Polynomial, node: usize| {
         NodeNumber::at(algebra, algebra.reduce(f), node).equals(&BigRational::zero())
@@ -278,7 +293,7 @@ pub fn short_rational(interval: &Interval) -> Option<BigRational> {
 /// images, `c_i + c_j = 1`.
 pub fn of_tensor(algebra: &NodeAlgebra, tensor: &Tensor) -> Vec<Vec<Option<ClosedForm>>> {
     let size = algebra.dimension();
-    let nodes = of_element(algebra, &algebra.variable());
+    let nodes = of_nodes(algebra);
     let diagonal = of_element(algebra, &tensor.on_graph(algebra, &algebra.variable()));
     let reflection = Polynomial::from_integers(&[1, -1]);
     let mirrored = algebra.modulus().compose(&reflection).primitive() == *algebra.modulus();

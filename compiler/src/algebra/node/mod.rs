@@ -12,7 +12,7 @@ mod number;
 mod stages;
 mod tensor;
 
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -43,6 +43,8 @@ pub struct NodeAlgebra {
     power_sums: Polynomial,
     /// The finest enclosures of the nodes so far.
     enclosures: Mutex<Option<Arc<Vec<Interval>>>>,
+    /// Short exact forms of the nodes, once they have been looked for.
+    forms: OnceLock<Vec<Option<ClosedForm>>>,
 }
 
 impl NodeAlgebra {
@@ -71,6 +73,7 @@ impl NodeAlgebra {
             roots,
             power_sums,
             enclosures: Mutex::new(None),
+            forms: OnceLock::new(),
         })
     }
 
