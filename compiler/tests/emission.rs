@@ -56,13 +56,34 @@ fn a_splitting_is_straight_line_code() {
     expect_file!["emission/forest_ruth.rs"].assert_eq(&code);
 }
 
+/// One plan for each class, however many steps there are.
+#[test]
+fn a_composition_of_implicit_methods_is_a_list_of_steps() {
+    let definition = Definition::parse("base: gauss-2, weights: triple_jump(6)");
+    let tableau = definition.and_then(|definition| definition.derive(&Limits::default()));
+    let code = emitted(&tableau.expect("derived"), "Jump");
+    assert_eq!(code.matches("impl ::symplectic::StagePlan for").count(), 2);
+    assert_eq!(code.matches("::symplectic::Stages<V, 2, 2>").count(), 2);
+    assert_eq!(code.matches("::symplectic::Substep {").count(), 6);
+    // The sizes of the first and the last step are equal, and so are those of the last and the next first one.
+    assert_eq!(code.matches("stages: true").count(), 2);
+    assert!(code.contains("type Separable = ::symplectic::Composition<JumpSeparable>"));
+    // Explicit for separable systems: one splitting there.
+    let definition = Definition::parse("base: velocity-verlet, weights: triple_jump(4)");
+    let tableau = definition.and_then(|definition| definition.derive(&Limits::default()));
+    let code = emitted(&tableau.expect("derived"), "Jump");
+    assert!(!code.contains("Substep"));
+}
+
 /// The numbers that the plans multiply by: all coefficients in them but the times.
 fn factors(code: &str) -> Vec<f64> {
     let plans = code.split_once("pub struct").expect("a method").1;
     let plans = plans.split_once("pub struct").expect("plans").1;
     let plans = plans.replace([' ', '\n'], "");
     let parts: Vec<&str> = plans.split("::symplectic::Coefficient::").collect();
-    let factors = parts.windows(2).filter(|pair| !pair[0].ends_with(".at("));
+    let factors = parts
+        .windows(2)
+        .filter(|pair| !pair[0].ends_with(".at(") && !pair[0].ends_with("start:"));
     let number = |pair: &[&str]| {
         let list = pair[1].split_once('(').expect("a list").1;
         let double = list.trim_start_matches('(').split([',', ')']).next();

@@ -1,7 +1,7 @@
 //! How the stages of a step are found: in order, or by iteration.
 
 use crate::{
-    Class, Hamiltonian, Kept, Outcome, Plan, Quantity, Scalar, Separable, StageStorage, Step,
+    Class, Hamiltonian, Kept, Outcome, Quantity, Scalar, Separable, StagePlan, StageStorage, Step,
     Summation, Vector, Witness,
 };
 
@@ -11,7 +11,7 @@ mod sealed {
     impl Sealed for super::Coupled {}
 }
 
-/// Whether the stages of a [`Plan`] have to be solved for: [`Explicit`] or [`Coupled`]. Sealed.
+/// Whether the stages of a [`StagePlan`] have to be solved for: [`Explicit`] or [`Coupled`]. Sealed.
 pub trait Coupling: sealed::Sealed + Sized + 'static {
     /// Takes `step` and writes its result into `outcome`; returns what that took.
     ///
@@ -27,7 +27,7 @@ pub trait Coupling: sealed::Sealed + Sized + 'static {
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
-        P: Plan<Coupling = Self>,
+        P: StagePlan<Coupling = Self>,
         R: Summation,
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>;
@@ -40,7 +40,7 @@ pub trait Coupling: sealed::Sealed + Sized + 'static {
         outcome: Outcome<'_, V>,
         witness: &mut W,
     ) where
-        P: Plan<Coupling = Self>,
+        P: StagePlan<Coupling = Self>,
         R: Summation,
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,
@@ -73,6 +73,19 @@ pub enum Failure {
         /// The stage of the evaluation, from 1.
         stage: Option<usize>,
     },
+}
+
+impl Failure {
+    /// The same in a longer step, in which there are this many stages before.
+    pub(crate) fn after(self, stages: usize) -> Self {
+        match self {
+            Self::NonFinite { what, stage } => Self::NonFinite {
+                what,
+                stage: stage.map(|stage| stages + stage),
+            },
+            Self::NoConvergence { .. } => self,
+        }
+    }
 }
 
 /// Every stage is computed from the ones before it. There is no solver in the code of such a step.
@@ -113,7 +126,7 @@ impl Coupling for Explicit {
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
-        P: Plan<Coupling = Self>,
+        P: StagePlan<Coupling = Self>,
         R: Summation,
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,
@@ -133,7 +146,7 @@ impl Coupling for Explicit {
         outcome: Outcome<'_, V>,
         witness: &mut W,
     ) where
-        P: Plan<Coupling = Self>,
+        P: StagePlan<Coupling = Self>,
         R: Summation,
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,
@@ -156,7 +169,7 @@ impl Coupling for Coupled {
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
-        P: Plan<Coupling = Self>,
+        P: StagePlan<Coupling = Self>,
         R: Summation,
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,
@@ -184,7 +197,7 @@ impl Coupling for Coupled {
         _outcome: Outcome<'_, V>,
         _witness: &mut W,
     ) where
-        P: Plan<Coupling = Self>,
+        P: StagePlan<Coupling = Self>,
         R: Summation,
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,
@@ -204,7 +217,7 @@ fn solve<P, R, V, S>(
     work: &mut Work,
 ) -> Result<(), Failure>
 where
-    P: Plan,
+    P: StagePlan,
     R: Summation,
     V: Vector,
     S: Hamiltonian<V, Class = P::Class>,
@@ -239,7 +252,7 @@ fn iterate<P, R, V, S>(
     max_iterations: u32,
 ) -> Result<u32, Failure>
 where
-    P: Plan,
+    P: StagePlan,
     R: Summation,
     V: Vector,
     S: Hamiltonian<V, Class = P::Class>,

@@ -27,7 +27,7 @@ impl FirstFault {
     }
 
     /// The first that is not finite: what, and the number of its stage.
-    fn non_finite(&self) -> Option<(Quantity, usize)> {
+    pub(crate) fn non_finite(&self) -> Option<(Quantity, usize)> {
         match self.found {
             Some((what, stage, Fault::NonFinite)) => Some((what, stage)),
             _ => None,

@@ -10,7 +10,7 @@ use crate::integrator::{check_state, check_step_size};
 use crate::stage::{first_mismatch, first_non_finite, is_finite};
 use crate::{
     Change, Class, Coefficient, Coefficients, Coupled, Coupling, Error, EvaluationCounts,
-    Hamiltonian, Integrator, Kept, Method, Outcome, PartChange, Plain, Plan, Quantity, Scalar,
+    Hamiltonian, Integrator, Kept, Method, Outcome, PartChange, Plain, Quantity, Scalar, StagePlan,
     StageStorage, Step, Summation, Vector, Witness,
 };
 
@@ -150,7 +150,7 @@ pub(crate) fn generating<M: Method, S: Hamiltonian<V>, V: Vector>(
 /// that are known, and of its results the second is `p0`.
 struct TypeTwo<M, C>(PhantomData<(M, C)>);
 
-impl<M: Method, C: Class> Plan for TypeTwo<M, C> {
+impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
     type Class = C;
     type Coupling = Coupled;
     type Stages<V: Vector> = Unknowns<M, V>;

@@ -8,8 +8,8 @@ use crate::diagnosis::{Attempt, FirstFault};
 use crate::stage::is_finite;
 use crate::time::{Clock, uniform};
 use crate::{
-    Class, Compensated, Coupling, Error, Failure, Hamiltonian, Kept, Method, Outcome, Plain, Plan,
-    Quantity, Scalar, StageStorage, State, States, Statistics, Step, Summation, Vector, Work,
+    Class, Compensated, Error, Failure, Hamiltonian, Kept, Method, Outcome, Plain, Plan, Quantity,
+    Scalar, StageStorage, State, States, Statistics, Step, Summation, Vector, Work,
 };
 #[cfg(feature = "alloc")]
 use crate::{GeneratingFunction, generating_function::generating};
@@ -59,8 +59,8 @@ pub struct Integrator<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation = Co
     next: (V, V),
     /// What they leave out.
     next_low: (V, V),
-    stages: <PlanOf<M, S, V> as Plan>::Stages<V>,
-    /// What `stages` holds for the next step.
+    memory: <PlanOf<M, S, V> as Plan>::Memory<V>,
+    /// What `memory` holds for the next step.
     kept: Kept,
     /// Size of the step before.
     last_size: f64,
@@ -133,7 +133,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Integrator<M, S, V, 
             low: zeros(),
             next: zeros(),
             next_low: zeros(),
-            stages: StageStorage::like(&state.q),
+            memory: StageStorage::like(&state.q),
             kept: Kept::default(),
             last_size: step_size,
             clock: Clock::new(state.time, step_size),
@@ -378,7 +378,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Integrator<M, S, V, 
         self.statistics.count(work);
         self.last_size = size;
         self.kept = Kept {
-            evaluation: <PlanOf<M, S, V> as Plan>::EVALUATIONS.carried > 0,
+            evaluation: true,
             stages: true,
         };
     }
@@ -390,17 +390,17 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Integrator<M, S, V, 
             stages: self.kept.stages && size == self.last_size,
             ..self.kept
         };
-        let work = <PlanOf<M, S, V> as Plan>::Coupling::drive::<PlanOf<M, S, V>, R, V, S>(
+        let work = <PlanOf<M, S, V> as Plan>::take::<R, V, S>(
             &step(&self.state, &self.low, size),
             &self.system,
-            &mut self.stages,
+            &mut self.memory,
             kept,
             self.max_iterations,
             outcome(&mut self.next, &mut self.next_low),
         )?;
         let (q1, p1) = &self.next;
         let dimension = self.state.q.dimension();
-        let sound = self.stages.mismatch(dimension).is_none() && is_finite(q1) && is_finite(p1);
+        let sound = self.memory.mismatch(dimension).is_none() && is_finite(q1) && is_finite(p1);
         if sound { Ok(work) } else { Err(None) }
     }
 
@@ -415,16 +415,16 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Integrator<M, S, V, 
         };
         let mut fault = FirstFault::new(attempt.dimension);
         if failure.is_none() {
-            <PlanOf<M, S, V> as Plan>::Coupling::observe::<PlanOf<M, S, V>, R, V, S, FirstFault>(
+            <PlanOf<M, S, V> as Plan>::observe::<R, V, S, FirstFault>(
                 &step(&self.state, &self.low, size),
                 &self.system,
-                &mut self.stages,
+                &mut self.memory,
                 outcome(&mut self.next, &mut self.next_low),
                 &mut fault,
             );
         }
-        let error = attempt.error(failure, &fault, &self.stages, &self.next.0);
-        self.stages = StageStorage::like(&self.state.q);
+        let error = attempt.error(failure, &fault, &self.memory, &self.next.0);
+        self.memory = StageStorage::like(&self.state.q);
         self.kept = Kept::default();
         error
     }

@@ -19,7 +19,7 @@
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`] |
 //! | Running it | [`State`], [`Integrator`], [`Error`] |
 //! | What generates a step | [`generating_function`], of Type II |
-//! | The method, as the macro emits it | [`Method`], [`Plan`], [`Stages`], [`Coefficient`], [`combine`], [`relax`] |
+//! | The method, as the macro emits it | [`Method`], [`StagePlan`], [`Composition`], [`Stages`], [`Coefficient`], [`combine`], [`relax`] |
 //!
 //! A [`Separable`] system with an [`Explicit`] plan is straight-line code with no solver in it; anything else
 //! goes through the fixed-point iteration of [`Coupled`]. The types of the system and of the method decide
@@ -68,6 +68,7 @@ mod change;
 mod class;
 mod closures;
 mod coefficient;
+mod composition;
 mod coupling;
 mod diagnosis;
 mod error;
@@ -93,6 +94,7 @@ pub use change::{Change, PartChange};
 pub use class::{Class, General, Separable};
 pub use closures::{HamiltonianClosures, NoEnergy, SeparableClosures, hamiltonian, separable};
 pub use coefficient::{Coefficient, Coefficients};
+pub use composition::{Composition, CompositionMemory, Substep, Substeps};
 pub use coupling::{Coupled, Coupling, Explicit, Failure, Work};
 pub use error::{Error, Quantity};
 #[cfg(feature = "alloc")]
@@ -103,7 +105,7 @@ pub use kernel::{
     advance, advance_in_place, combine, copy, copy_to, factors, relax, scale, total, transform,
     weighted_total, weights,
 };
-pub use method::{Method, Plan};
+pub use method::{Method, Plan, StagePlan};
 pub use nalgebra;
 pub use num_traits;
 pub use scalar::Scalar;

@@ -3,8 +3,8 @@
 use core::fmt::Debug;
 
 use crate::{
-    Change, Class, Coefficients, Coupling, EvaluationCounts, General, Hamiltonian, Kept, Outcome,
-    Separable, StageStorage, Step, Summation, Vector, Witness,
+    Change, Class, Coefficients, Coupling, EvaluationCounts, Failure, General, Hamiltonian, Kept,
+    Outcome, Separable, StageStorage, Step, Summation, Vector, Witness, Work,
 };
 
 /// A symplectic partitioned Runge–Kutta method: a type without a value, emitted from a proved tableau.
@@ -25,7 +25,66 @@ pub trait Method: Copy + Debug + 'static {
     type Separable: Plan<Class = Separable>;
 }
 
-/// How a [`Method`] goes through one step of a system of one [`Class`].
+/// How a [`Method`] goes through one step of a system of one [`Class`]: by the stages of a [`StagePlan`], or by steps of
+/// other methods in a [`Composition`](crate::Composition).
+pub trait Plan {
+    /// The class of systems that it steps.
+    type Class: Class;
+    /// What it needs beside the state, made once and used for every step.
+    type Memory<V: Vector>: StageStorage<V>;
+
+    /// Takes `step` and writes its result into `outcome`; returns what that took.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`], where the stages cannot be found. That the result is finite is left to the caller to check.
+    fn take<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<V>,
+        kept: Kept,
+        max_iterations: u32,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>;
+
+    /// Takes a step that failed once more and shows its evaluations to `witness`, if they are not in `memory`.
+    fn observe<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>, W: Witness>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<V>,
+        outcome: Outcome<'_, V>,
+        witness: &mut W,
+    );
+}
+
+impl<P: StagePlan> Plan for P {
+    type Class = P::Class;
+    type Memory<V: Vector> = P::Stages<V>;
+
+    #[inline(always)]
+    fn take<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<V>,
+        kept: Kept,
+        max_iterations: u32,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure> {
+        P::Coupling::drive::<P, R, V, S>(step, system, memory, kept, max_iterations, outcome)
+    }
+
+    fn observe<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>, W: Witness>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<V>,
+        outcome: Outcome<'_, V>,
+        witness: &mut W,
+    ) {
+        P::Coupling::observe::<P, R, V, S, W>(step, system, memory, outcome, witness);
+    }
+}
+
+/// How the stages of a [`Method`] are found for systems of one [`Class`].
 ///
 /// A step is `begin`, then `sweep` until the stages no longer change (never where the
 /// [`Coupling`](Self::Coupling) is [`Explicit`](crate::Explicit)), then `finish`.
@@ -38,7 +97,7 @@ pub trait Method: Copy + Debug + 'static {
 /// `h b̃_j force_j` with the coefficients `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, rounded so that `μ̃_ij + μ_ji = 1`
 /// exactly: the rounded method is symplectic too. A splitting, where every evaluation is in the later stages in full,
 /// applies it to the state at once and stores no stages.
-pub trait Plan {
+pub trait StagePlan {
     /// The class of systems that it steps.
     type Class: Class;
     /// Whether stages have to be solved for.

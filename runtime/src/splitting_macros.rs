@@ -103,7 +103,8 @@ pub use symplectic_macros::splitting;
 /// exact; to order 6 they lie in a number field, in which everything is proved, and from order 8 on what holds is verified.
 ///
 /// A composition of splittings is a splitting, with neighbouring drifts and kicks made one. Any other composition has the
-/// stages of all its steps; one of methods that are symplectic for all Hamiltonians is so too.
+/// stages of all its steps; one of methods that are symplectic for all Hamiltonians is so too. Where stages are solved
+/// for, it is taken step by step, each from the result of the one before: see [`Composition`](crate::Composition).
 ///
 /// # Errors
 ///

@@ -4,7 +4,7 @@ use core::array;
 
 use crate::{Quantity, Scalar, Vector};
 
-/// Memory for the stages of one [`Plan`](crate::Plan), made once and used for every step.
+/// Memory of one [`Plan`](crate::Plan), made once and used for every step.
 pub trait StageStorage<V: Vector>: Sized {
     /// Storage for vectors of the dimension of `prototype`; every component is zero.
     fn like(prototype: &V) -> Self;
@@ -16,6 +16,23 @@ pub trait StageStorage<V: Vector>: Sized {
     /// The first evaluation whose dimension is not `dimension`: the quantity, the number of the stage, from 1, and the
     /// dimension found.
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)>;
+}
+
+/// The memories of two plans.
+impl<V: Vector, A: StageStorage<V>, B: StageStorage<V>> StageStorage<V> for (A, B) {
+    fn like(prototype: &V) -> Self {
+        (A::like(prototype), B::like(prototype))
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.0.non_finite().or_else(|| self.1.non_finite())
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        let first = self.0.mismatch(dimension);
+        first.or_else(|| self.1.mismatch(dimension))
+    }
 }
 
 /// The memory of a splitting: the latest evaluation of each kind.

@@ -55,14 +55,14 @@ impl<V> Outcome<'_, V> {
 /// What the memory of the stages still holds from the step before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Kept {
-    /// The evaluation at its end, which is the one at the start of this step.
+    /// The evaluations at its end that are those at the start of this step, if there are any.
     pub evaluation: bool,
     /// The increments of its stages, from which those of this step can be extrapolated: the step before was taken by
     /// the same method, from a step size equal to this one.
     pub stages: bool,
 }
 
-/// Evaluations that a [`Plan`](crate::Plan) makes.
+/// Evaluations that a [`StagePlan`](crate::StagePlan) makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EvaluationCounts {
     /// Before the coupled stages; all of a splitting.

@@ -13,6 +13,11 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use symplectic::{Error, Hamiltonian, Integrator, Method, State, hamiltonian, separable};
 use symplectic_tests::methods::{Gauss4, Lobatto3, StoermerVerlet};
 
+symplectic::composition! {
+    /// Three steps of an implicit method.
+    TripleJump { base: gauss-2, weights: triple_jump(6) }
+}
+
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
@@ -57,6 +62,8 @@ fn main() -> Result<(), Error> {
     assert_eq!(allocations(Gauss4, chain())?, 0);
     assert_eq!(allocations(StoermerVerlet, coupled())?, 0);
     assert_eq!(allocations(Gauss4, coupled())?, 0);
+    assert_eq!(allocations(TripleJump, chain())?, 0);
+    assert_eq!(allocations(TripleJump, coupled())?, 0);
 
     // The count sees what a system allocates itself.
     let wasteful = separable::<DVector<f64>, _, _>(

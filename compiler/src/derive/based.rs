@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::composition::{check_depth, in_text, inner, separated};
+use super::composition::{Step, check_depth, in_text, inner, separated};
 use super::problem::{Construction, Errors, Problem, misfit, misfit_at, switch};
 use super::scheme::{MAX_ORDER, Scheme};
 use super::sequence::Sequence;
@@ -129,6 +129,25 @@ impl Based {
             };
             (&component.fraction, Some(step))
         }))
+    }
+
+    /// The steps, if there are weights.
+    pub fn steps(&self) -> Option<Vec<Step>> {
+        let components = &self.weights.as_ref()?.components;
+        let step = |component: &Component| {
+            let mut method = self.base.method.clone();
+            method.adjoint ^= component.adjoint;
+            Step {
+                fraction: component.fraction.clone(),
+                method,
+            }
+        };
+        Some(components.iter().map(step).collect())
+    }
+
+    /// The base method, if there are no weights.
+    pub fn alone(&self) -> Option<&Problem> {
+        self.weights.is_none().then_some(&self.base.method)
     }
 
     /// The coefficients.

@@ -17,11 +17,13 @@ mod problem;
 mod scheme;
 mod sequence;
 mod splitting;
+mod substeps;
 mod sum;
 mod tiers;
 
 pub(crate) use self::composition::check_depth;
 use self::problem::{Construction, Problem};
+pub(crate) use self::substeps::{Substep, substeps};
 use crate::basis::Basis;
 use crate::definition::{Definition, Key, trimmed};
 use crate::error::{Error, ErrorKind, Place};
@@ -128,10 +130,14 @@ pub fn derive_from(basis: &Basis, rule: &QuadratureRule) -> Result<Tableau, Erro
 /// # Errors
 /// As [`Definition::derive`], without places.
 pub(crate) fn splitting(definition: &Definition) -> Result<Option<Exact>, ErrorKind> {
-    let unlimited = Limits { stages: usize::MAX };
-    let problem = Problem::read(definition, &unlimited).map_err(|errors| *first(errors).kind)?;
-    let sequence = problem.sequence();
+    let sequence = read_again(definition)?.sequence();
     sequence.map(|sequence| sequence.exact()).transpose()
+}
+
+/// A definition that has been derived before, read once more.
+fn read_again(definition: &Definition) -> Result<Problem, ErrorKind> {
+    let unlimited = Limits { stages: usize::MAX };
+    Problem::read(definition, &unlimited).map_err(|errors| *first(errors).kind)
 }
 
 /// The first of some errors.

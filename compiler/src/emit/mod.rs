@@ -35,7 +35,8 @@ pub struct Header {
 /// The type of a method with its coefficients and its plans.
 ///
 /// # Errors
-/// [`ErrorKind::Overflow`] where a coefficient is beyond the largest double.
+/// [`ErrorKind::Overflow`] where a coefficient is beyond the largest double; [`ErrorKind::ExpressionSize`] where a
+/// fraction of a composition of compositions were too long.
 pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKind> {
     let numbers = tableau.numbers();
     let doubles = numbers.map(Number::to_f64);
@@ -59,8 +60,13 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
     // The plans are named after the method, so that they are not the method.
     let [general_plan, separable_plan] =
         ["General", "Separable"].map(|class| format_ident!("{name}{class}"));
-    let general = plan::implementation(Class::General, tableau, &numbers, &general_plan);
-    let separable = plan::implementation(Class::Separable, tableau, &numbers, &separable_plan);
+    let names = [
+        (Class::General, &general_plan),
+        (Class::Separable, &separable_plan),
+    ];
+    let plans = plan::plans(tableau, &numbers, names)?;
+    let [general, separable] = [&plans[0].name, &plans[1].name];
+    let code = plans.iter().map(|plan| &plan.code);
     Ok(quote! {
         #attributes
         #[doc = #documentation]
@@ -80,13 +86,11 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
                 const STAGES: usize = #stages;
                 const DEFINITION: &'static str = #definition;
                 #coefficients
-                type General = #general_plan;
-                type Separable = #separable_plan;
+                type General = #general;
+                type Separable = #separable;
             }
 
-            #general
-
-            #separable
+            #(#code)*
         };
     })
 }

@@ -287,7 +287,7 @@ const _: () = {
     }
     pub struct ForestRuthGeneral;
     #[allow(unused_variables)]
-    impl ::symplectic::Plan for ForestRuthGeneral {
+    impl ::symplectic::StagePlan for ForestRuthGeneral {
         type Class = ::symplectic::General;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 4, 4>;
@@ -710,7 +710,7 @@ const _: () = {
     }
     pub struct ForestRuthSeparable;
     #[allow(unused_variables)]
-    impl ::symplectic::Plan for ForestRuthSeparable {
+    impl ::symplectic::StagePlan for ForestRuthSeparable {
         type Class = ::symplectic::Separable;
         type Coupling = ::symplectic::Explicit;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Evaluations<V>;

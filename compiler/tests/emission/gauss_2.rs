@@ -99,7 +99,7 @@ const _: () = {
     }
     pub struct Gauss2General;
     #[allow(unused_variables)]
-    impl ::symplectic::Plan for Gauss2General {
+    impl ::symplectic::StagePlan for Gauss2General {
         type Class = ::symplectic::General;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;
@@ -403,7 +403,7 @@ const _: () = {
     }
     pub struct Gauss2Separable;
     #[allow(unused_variables)]
-    impl ::symplectic::Plan for Gauss2Separable {
+    impl ::symplectic::StagePlan for Gauss2Separable {
         type Class = ::symplectic::Separable;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;

@@ -182,7 +182,7 @@ const _: () = {
     }
     pub struct Lobatto3General;
     #[allow(unused_variables)]
-    impl ::symplectic::Plan for Lobatto3General {
+    impl ::symplectic::StagePlan for Lobatto3General {
         type Class = ::symplectic::General;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 3, 3>;
@@ -520,7 +520,7 @@ const _: () = {
     }
     pub struct Lobatto3Separable;
     #[allow(unused_variables)]
-    impl ::symplectic::Plan for Lobatto3Separable {
+    impl ::symplectic::StagePlan for Lobatto3Separable {
         type Class = ::symplectic::Separable;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 3, 3>;

@@ -92,7 +92,7 @@ const _: () = {
     }
     pub struct StoermerVerletGeneral;
     #[allow(unused_variables)]
-    impl ::symplectic::Plan for StoermerVerletGeneral {
+    impl ::symplectic::StagePlan for StoermerVerletGeneral {
         type Class = ::symplectic::General;
         type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;
@@ -255,7 +255,7 @@ const _: () = {
     }
     pub struct StoermerVerletSeparable;
     #[allow(unused_variables)]
-    impl ::symplectic::Plan for StoermerVerletSeparable {
+    impl ::symplectic::StagePlan for StoermerVerletSeparable {
         type Class = ::symplectic::Separable;
         type Coupling = ::symplectic::Explicit;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Evaluations<V>;

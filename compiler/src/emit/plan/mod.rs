@@ -1,6 +1,7 @@
 //! The plan of a step for one class of Hamiltonians, as code.
 
 mod chain;
+mod composed;
 mod form;
 mod stored;
 
@@ -10,9 +11,12 @@ use quote::quote;
 use super::{extrapolation, literal, literal::identifier, relative};
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
-use crate::schedule::{Class, Node, StepGraph};
+use crate::derive::substeps;
+use crate::error::ErrorKind;
+use crate::schedule::{Class, Node, Phases, StepGraph};
 use crate::tableau::Tableau;
 use chain::Chain;
+use composed::Composed;
 use form::Form;
 use stored::Stored;
 
@@ -31,17 +35,58 @@ struct Bodies {
     carried: usize,
 }
 
-/// The type of a plan and its implementation of `Plan`.
-pub(super) fn implementation(
-    class: Class,
+/// The plan of a method for one class of Hamiltonians.
+pub(super) struct Plan {
+    /// Its type.
+    pub(super) name: TokenStream,
+    /// The code that the type is from.
+    pub(super) code: TokenStream,
+}
+
+/// The plans of a method, under these names. Where the stages of a composition are solved for, it is taken step by step.
+///
+/// # Errors
+/// Those of [`substeps`].
+pub(super) fn plans(
     tableau: &Tableau,
     numbers: &Coefficients<Number<'_>>,
-    name: &Ident,
-) -> TokenStream {
-    let graph = StepGraph::new(class, tableau, numbers);
-    let bodies = match Chain::new(&graph) {
+    names: [(Class, &Ident); 2],
+) -> Result<[Plan; 2], ErrorKind> {
+    let (methods, substeps) = substeps(&tableau.provenance().definition)?;
+    let parts: Vec<_> = methods.iter().map(Tableau::numbers).collect();
+    Ok(names.map(|(class, name)| {
+        let graph = StepGraph::new(class, tableau, numbers);
+        if substeps.len() < 2 || Phases::new(&graph).coupled.is_empty() {
+            return Plan {
+                name: quote!(#name),
+                code: of_stages(&graph, name),
+            };
+        }
+        let composed = Composed {
+            class,
+            methods: &methods,
+            numbers: &parts,
+            substeps: &substeps,
+        };
+        Plan {
+            name: quote!(::symplectic::Composition<#name>),
+            code: composed.code(name),
+        }
+    }))
+}
+
+fn class_name(class: Class) -> Ident {
+    identifier(match class {
+        Class::General => "General",
+        Class::Separable => "Separable",
+    })
+}
+
+/// The type of a plan and its implementation of `StagePlan`.
+fn of_stages(graph: &StepGraph<'_>, name: &Ident) -> TokenStream {
+    let bodies = match Chain::new(graph) {
         Some(chain) => chain.bodies(),
-        None => Stored::new(&graph, Form::new(&graph)).bodies(),
+        None => Stored::new(graph, Form::new(graph)).bodies(),
     };
     let Bodies {
         stages,
@@ -50,10 +95,7 @@ pub(super) fn implementation(
         finish,
         ..
     } = bodies;
-    let class = identifier(match class {
-        Class::General => "General",
-        Class::Separable => "Separable",
-    });
+    let class = class_name(graph.class);
     let coupling = identifier(bodies.coupling);
     let [at_begin, at_start, in_sweep, at_finish] = bodies.counts.map(Literal::usize_unsuffixed);
     let carried = Literal::usize_unsuffixed(bodies.carried);
@@ -65,7 +107,7 @@ pub(super) fn implementation(
         pub struct #name;
 
         #[allow(unused_variables)]
-        impl ::symplectic::Plan for #name {
+        impl ::symplectic::StagePlan for #name {
             type Class = ::symplectic::#class;
             type Coupling = ::symplectic::#coupling;
             type Stages<V: ::symplectic::Vector> = #stages;

@@ -1,0 +1,96 @@
+//! The steps that a composition consists of.
+
+use super::composition::Step;
+use super::problem::{Construction, Problem};
+use super::read_again;
+use crate::definition::{Definition, Key};
+use crate::error::ErrorKind;
+use crate::symbolic::Constant;
+use crate::tableau::Tableau;
+
+/// A step `Φ_{γh}` of a composition.
+pub(crate) struct Substep {
+    /// The fraction γ of the whole step.
+    pub fraction: Constant,
+    /// The number of its method in the list of different ones.
+    pub method: usize,
+}
+
+/// The different methods of a composition that is no splitting, and its steps in their order; none of both for a
+/// definition of anything else. Compositions in it are taken apart too.
+///
+/// # Errors
+/// [`ErrorKind::ExpressionSize`] where a fraction of a fraction were too long.
+pub(crate) fn substeps(definition: &Definition) -> Result<(Vec<Tableau>, Vec<Substep>), ErrorKind> {
+    if definition.get(Key::Compose).is_none() && definition.get(Key::Base).is_none() {
+        return Ok((Vec::new(), Vec::new()));
+    }
+    let steps = read_again(definition)?.steps()?.unwrap_or_default();
+    let mut definitions: Vec<Definition> = Vec::new();
+    let mut methods = Vec::new();
+    let mut substeps = Vec::new();
+    for Step { fraction, method } in steps {
+        let definition = method.definition();
+        let known = definitions.iter().position(|known| *known == definition);
+        let number = match known {
+            Some(number) => number,
+            None => {
+                methods.push(method.derive()?);
+                definitions.push(definition);
+                methods.len() - 1
+            }
+        };
+        substeps.push(Substep {
+            fraction,
+            method: number,
+        });
+    }
+    Ok((methods, substeps))
+}
+
+impl Problem {
+    /// The steps of a composition that is no splitting, down to those that are none.
+    fn steps(&self) -> Result<Option<Vec<Step>>, ErrorKind> {
+        if self.sequence().is_some() {
+            return Ok(None);
+        }
+        let outer = match &self.construction {
+            Construction::Composition { steps } => steps.clone(),
+            Construction::Based(based) => match (based.steps(), based.alone()) {
+                (Some(steps), _) => steps,
+                (None, Some(method)) => vec![Step {
+                    fraction: Constant::one(),
+                    method: method.clone(),
+                }],
+                (None, None) => return Ok(None),
+            },
+            _ => return Ok(None),
+        };
+        let mut steps = Vec::new();
+        for Step { fraction, method } in outer {
+            match method.steps()? {
+                Some(inner) => {
+                    for step in inner {
+                        steps.push(Step {
+                            fraction: fraction.multiply(&step.fraction)?,
+                            ..step
+                        });
+                    }
+                }
+                None => steps.push(Step { fraction, method }),
+            }
+        }
+        if self.exchange {
+            steps
+                .iter_mut()
+                .for_each(|step| step.method.exchange ^= true);
+        }
+        if self.adjoint {
+            steps
+                .iter_mut()
+                .for_each(|step| step.method.adjoint ^= true);
+            steps.reverse();
+        }
+        Ok(Some(steps))
+    }
+}

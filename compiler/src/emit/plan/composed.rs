@@ -1,0 +1,148 @@
+//! Steps of other methods one after another, each with stages of its own.
+
+use num_rational::BigRational;
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::{class_name, literal, of_stages};
+use crate::algebra::{Field, Number, Real, Reals};
+use crate::coefficients::Coefficients;
+use crate::derive::Substep;
+use crate::schedule::{Class, StepGraph};
+use crate::tableau::Tableau;
+
+/// A composition of different methods for one class of Hamiltonians.
+pub(super) struct Composed<'a> {
+    pub(super) class: Class,
+    pub(super) methods: &'a [Tableau],
+    pub(super) numbers: &'a [Coefficients<Number<'a>>],
+    pub(super) substeps: &'a [Substep],
+}
+
+impl Composed<'_> {
+    /// The plans of the methods, and the list of the substeps, a type of this name.
+    pub(super) fn code(&self, name: &Ident) -> TokenStream {
+        let count = self.methods.len();
+        let names: Vec<Ident> = (1..=count).map(|k| format_ident!("{name}{k}")).collect();
+        let plans = (0..count).map(|k| {
+            let graph = StepGraph::new(self.class, &self.methods[k], &self.numbers[k]);
+            of_stages(&graph, &names[k])
+        });
+        let class = class_name(self.class);
+        // Pairs of memories of pairs.
+        let memory = names.iter().rev().fold(TokenStream::new(), |rest, plan| {
+            let own = quote!(<#plan as ::symplectic::Plan>::Memory<V>);
+            if rest.is_empty() {
+                own
+            } else {
+                quote!((#own, #rest))
+            }
+        });
+        let place = |method: usize| {
+            let inner = (0..method).map(|_| quote!(.1));
+            let last = (method + 1 < count).then(|| quote!(.0));
+            quote!(memory #(#inner)* #last)
+        };
+        let arms = |call: &dyn Fn(&Ident, TokenStream) -> TokenStream| {
+            let numbers = |method: usize| {
+                let steps = self.substeps.iter().enumerate();
+                let own = steps.filter(move |(_, step)| step.method == method);
+                own.map(|(number, _)| literal::count(number))
+            };
+            // The last plan takes what is left.
+            let arms = (0..count).map(|method| {
+                let call = call(&names[method], place(method));
+                if method + 1 == count {
+                    quote!(_ => #call)
+                } else {
+                    let numbers = numbers(method);
+                    quote!(#(#numbers)|* => #call)
+                }
+            });
+            quote!(match number { #(#arms),* })
+        };
+        let borrowed = |place: TokenStream| {
+            if count == 1 {
+                place
+            } else {
+                quote!(&mut #place)
+            }
+        };
+        let take = arms(&|plan, place| {
+            let place = borrowed(place);
+            quote!(<#plan as ::symplectic::Plan>::take::<R, V, S>(step, system, #place, kept, max_iterations, outcome))
+        });
+        let observe = arms(&|plan, place| {
+            let place = borrowed(place);
+            quote!(<#plan as ::symplectic::Plan>::observe::<R, V, S, W>(step, system, #place, outcome, witness))
+        });
+        let substeps = self.list();
+        let vector = quote!(V: ::symplectic::Vector);
+        let system = quote!(S: ::symplectic::Hamiltonian<V, Class = Self::Class>);
+        quote! {
+            #(#plans)*
+
+            pub struct #name;
+
+            impl ::symplectic::Substeps for #name {
+                type Class = ::symplectic::#class;
+                type Memory<#vector> = #memory;
+
+                const SUBSTEPS: &'static [::symplectic::Substep] = &[#(#substeps),*];
+
+                #[inline]
+                fn take<R: ::symplectic::Summation, #vector, #system>(
+                    number: usize,
+                    step: &::symplectic::Step<'_, V>,
+                    system: &S,
+                    memory: &mut Self::Memory<V>,
+                    kept: ::symplectic::Kept,
+                    max_iterations: u32,
+                    outcome: ::symplectic::Outcome<'_, V>,
+                ) -> ::core::result::Result<::symplectic::Work, ::symplectic::Failure> {
+                    #take
+                }
+
+                fn observe<R: ::symplectic::Summation, #vector, #system, W: ::symplectic::Witness>(
+                    number: usize,
+                    step: &::symplectic::Step<'_, V>,
+                    system: &S,
+                    memory: &mut Self::Memory<V>,
+                    outcome: ::symplectic::Outcome<'_, V>,
+                    witness: &mut W,
+                ) {
+                    #observe
+                }
+            }
+        }
+    }
+
+    /// The substeps as constants.
+    fn list(&self) -> Vec<TokenStream> {
+        let coefficient = |real: &Real| literal::coefficient(&Reals.number(real));
+        let mut start = Real::rational(BigRational::default());
+        let mut stages = 0;
+        // The last one of the step before comes before the first.
+        let mut before = self.substeps.last();
+        let mut list = Vec::new();
+        for substep in self.substeps {
+            let fraction = Real::constant(substep.fraction.clone());
+            let follows = before.is_some_and(|before| before.method == substep.method);
+            let equal = follows && before.is_some_and(|before| before.fraction == substep.fraction);
+            let (at, size) = (coefficient(&start), coefficient(&fraction));
+            let count = literal::count(stages);
+            list.push(quote! {
+                ::symplectic::Substep {
+                    start: #at,
+                    fraction: #size,
+                    kept: ::symplectic::Kept { evaluation: #follows, stages: #equal },
+                    stages: #count,
+                }
+            });
+            start = Reals.add(&start, &fraction);
+            stages += self.methods[substep.method].stages();
+            before = Some(substep);
+        }
+        list
+    }
+}

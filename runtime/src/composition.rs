@@ -1,0 +1,218 @@
+//! Steps of other methods one after another.
+
+use core::marker::PhantomData;
+
+use crate::diagnosis::FirstFault;
+use crate::stage::is_finite;
+use crate::{
+    Class, Coefficient, Failure, Hamiltonian, Kept, Outcome, Plan, Quantity, StageStorage, Step,
+    Summation, Vector, Witness, Work,
+};
+
+/// A step `Φ_{γh}` of a composition.
+#[derive(Clone, Copy, Debug)]
+pub struct Substep {
+    /// The sum of the fractions before it: where it starts, as a fraction of the whole step.
+    pub start: Coefficient,
+    /// The fraction γ of the whole step.
+    pub fraction: Coefficient,
+    /// What the memory of its plan holds from the step before it, or from the last one of the whole step before.
+    pub kept: Kept,
+    /// The stages of the substeps before it, for error messages.
+    pub stages: usize,
+}
+
+/// The steps `Φ_{γ_m h} ∘ … ∘ Φ_{γ_1 h}` of a composition, as the macro emits them.
+pub trait Substeps {
+    /// The class of systems that they step.
+    type Class: Class;
+    /// The memory of the plans that they are taken by.
+    type Memory<V: Vector>: StageStorage<V>;
+
+    /// The steps in their order.
+    const SUBSTEPS: &'static [Substep];
+
+    /// [`Plan::take`] of the substep with this number, from 0.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`]
+    fn take<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
+        number: usize,
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<V>,
+        kept: Kept,
+        max_iterations: u32,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>;
+
+    /// [`Plan::observe`] of the substep with this number, from 0.
+    fn observe<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>, W: Witness>(
+        number: usize,
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<V>,
+        outcome: Outcome<'_, V>,
+        witness: &mut W,
+    );
+}
+
+/// A composition at the level of steps: each finds its own stages, from the result of the one before.
+///
+/// So the work of an iteration is that of one substep, and it converges as that of the base method does with `γh`. The
+/// sums between the substeps are those of a step: compensated ones lose nothing there either. Compositions of explicit
+/// splittings are no `Composition` but one splitting, in which neighbouring drifts and kicks are merged.
+#[derive(Clone, Copy, Debug)]
+pub struct Composition<L>(PhantomData<L>);
+
+/// The memory of a [`Composition`].
+#[derive(Clone, Debug)]
+pub struct CompositionMemory<V, T> {
+    /// That of the plans of the substeps.
+    plans: T,
+    /// A state between two substeps: position, what it leaves out, momentum, what it leaves out.
+    between: [V; 4],
+}
+
+impl<V: Vector, T: StageStorage<V>> StageStorage<V> for CompositionMemory<V, T> {
+    fn like(prototype: &V) -> Self {
+        Self {
+            plans: T::like(prototype),
+            between: core::array::from_fn(|_| prototype.zeros_like()),
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.plans.non_finite()
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        self.plans.mismatch(dimension)
+    }
+}
+
+impl<L: Substeps> Plan for Composition<L> {
+    type Class = L::Class;
+    type Memory<V: Vector> = CompositionMemory<V, L::Memory<V>>;
+
+    #[inline]
+    fn take<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<V>,
+        kept: Kept,
+        max_iterations: u32,
+        mut outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure> {
+        let CompositionMemory {
+            plans,
+            between: [q, q_low, p, p_low],
+        } = memory;
+        let mut between = Outcome { q, q_low, p, p_low };
+        let mut outcome = outcome.reborrow();
+        let mut work = Work::default();
+        let count = L::SUBSTEPS.len();
+        for (number, substep) in L::SUBSTEPS.iter().enumerate() {
+            // Results go to one of two places in turn, the last one to where it belongs.
+            let (here, there) = if (count - number) % 2 == 1 {
+                (&mut outcome, &between)
+            } else {
+                (&mut between, &outcome)
+            };
+            let start = if number == 0 {
+                Part::of_step(step)
+            } else {
+                Part::of_outcome(there)
+            };
+            let part = start.step(step, substep);
+            let kept = Kept {
+                evaluation: substep.kept.evaluation && (number > 0 || kept.evaluation),
+                stages: substep.kept.stages && (number > 0 || kept.stages),
+            };
+            let taken = L::take::<R, V, S>(
+                number,
+                &part,
+                system,
+                plans,
+                kept,
+                max_iterations,
+                here.reborrow(),
+            );
+            let taken = taken.and_then(|taken| {
+                if is_finite(here.q) && is_finite(here.p) {
+                    return Ok(taken);
+                }
+                let part_of_state = if is_finite(here.q) {
+                    Quantity::Momentum
+                } else {
+                    Quantity::Position
+                };
+                let mut fault = FirstFault::new(step.q.dimension());
+                L::observe::<R, V, S, _>(number, &part, system, plans, here.reborrow(), &mut fault);
+                let culprit = fault.non_finite().or_else(|| plans.non_finite());
+                Err(Failure::NonFinite {
+                    what: culprit.map_or(part_of_state, |(what, _)| what),
+                    stage: culprit.map(|(_, stage)| stage),
+                })
+            });
+            let taken = taken.map_err(|failure| failure.after(substep.stages))?;
+            work.iterations += taken.iterations;
+            work.evaluations += taken.evaluations;
+        }
+        Ok(work)
+    }
+
+    /// A substep that fails has been observed already.
+    fn observe<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>, W: Witness>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _memory: &mut Self::Memory<V>,
+        _outcome: Outcome<'_, V>,
+        _witness: &mut W,
+    ) {
+    }
+}
+
+/// The state that a substep starts from.
+struct Part<'a, V> {
+    q: &'a V,
+    q_low: &'a V,
+    p: &'a V,
+    p_low: &'a V,
+}
+
+impl<'a, V> Part<'a, V> {
+    #[inline(always)]
+    const fn of_step(step: &Step<'a, V>) -> Self {
+        Self {
+            q: step.q,
+            q_low: step.q_low,
+            p: step.p,
+            p_low: step.p_low,
+        }
+    }
+
+    #[inline(always)]
+    const fn of_outcome(outcome: &'a Outcome<'_, V>) -> Self {
+        Self {
+            q: outcome.q,
+            q_low: outcome.q_low,
+            p: outcome.p,
+            p_low: outcome.p_low,
+        }
+    }
+
+    #[inline(always)]
+    fn step(self, whole: &Step<'_, V>, substep: &Substep) -> Step<'a, V> {
+        Step {
+            time: whole.time + substep.start.double() * whole.size,
+            size: substep.fraction.double() * whole.size,
+            q: self.q,
+            q_low: self.q_low,
+            p: self.p,
+            p_low: self.p_low,
+        }
+    }
+}
