@@ -9,7 +9,7 @@ use crate::stage::is_finite;
 use crate::time::{Clock, uniform};
 use crate::{
     Class, Compensated, Error, Failure, Hamiltonian, Kept, Method, Outcome, Plain, Plan, Quantity,
-    Scalar, StageStorage, State, States, Statistics, Step, Summation, Vector, Work,
+    Retry, Scalar, StageStorage, State, States, Statistics, Step, Summation, Vector, Work,
 };
 #[cfg(feature = "alloc")]
 use crate::{GeneratingFunction, generating_function::generating};
@@ -67,6 +67,7 @@ pub struct Integrator<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation = Co
     clock: Clock,
     step_size: f64,
     max_iterations: u32,
+    retry: Retry,
     statistics: Statistics,
     method: PhantomData<(M, R)>,
 }
@@ -140,6 +141,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Integrator<M, S, V, 
             state,
             step_size,
             max_iterations: Self::DEFAULT_MAX_ITERATIONS,
+            retry: Retry::default(),
             statistics: Statistics::default(),
             method: PhantomData,
         })
@@ -319,6 +321,30 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Integrator<M, S, V, 
         };
     }
 
+    /// Sets what is done about a step that fails; at first nothing, [`Retry::Never`].
+    ///
+    /// ```
+    /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
+    /// # use symplectic::nalgebra::Vector2;
+    /// # use symplectic::{Error, Integrator, Retry, State, separable};
+    /// # fn main() -> Result<(), Error> {
+    /// let kepler = separable(
+    ///     |_time, p: &Vector2<f64>, velocity| *velocity = *p,
+    ///     |_time, q, force| *force = -q / q.norm().powi(3),
+    /// );
+    /// // From the apocentre of an orbit with eccentricity 0.99; at the pericentre steps of 1/16 do not converge.
+    /// let start = State::new(0.0, Vector2::new(1.99, 0.0), Vector2::new(0.0, (0.01_f64 / 1.99).sqrt()));
+    /// let mut integrator = Integrator::new(Midpoint, kepler, start, 0.0625)?;
+    /// integrator.set_retry(Retry::Split { halvings: 8 });
+    /// integrator.integrate_to(6.0)?;
+    /// assert!(integrator.statistics().rejected > 0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub const fn set_retry(&mut self, retry: Retry) {
+        self.retry = retry;
+    }
+
     /// The system.
     pub const fn system(&self) -> &S {
         &self.system
@@ -348,8 +374,46 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Integrator<M, S, V, 
     /// One step of size `size`, to the time `time`. The clock is the caller's.
     #[inline]
     fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
-        let work = self.prepare(size, time)?;
-        self.accept(size, time, work);
+        match self.prepare(size, time) {
+            Ok(work) => {
+                self.accept(size, time, work);
+                Ok(())
+            }
+            Err(error) => self.take_again(size, time, error),
+        }
+    }
+
+    /// Takes a step that failed with `error` once more in parts, if it is to be.
+    #[cold]
+    fn take_again(&mut self, size: f64, time: f64, error: Error) -> Result<(), Error> {
+        let of_the_size = matches!(error, Error::NoConvergence { .. } | Error::NonFinite { .. });
+        if !of_the_size || self.retry == Retry::Never {
+            return Err(error);
+        }
+        let (state, low) = (self.state.clone(), self.low.clone());
+        let statistics = self.statistics;
+        for (failed, parts) in (1..).zip(self.retry.parts()) {
+            if self.take_in_parts(size, time, parts).is_ok() {
+                self.statistics.rejected += failed;
+                return Ok(());
+            }
+            self.state = state.clone();
+            self.low = low.clone();
+            self.statistics = statistics;
+        }
+        Err(error)
+    }
+
+    /// Takes a step as several equal ones; where one fails, the state is that before it.
+    fn take_in_parts(&mut self, size: f64, end: f64, parts: u32) -> Result<(), Error> {
+        let part = size / f64::from(parts);
+        let mut clock = Clock::new(self.state.time, part);
+        for number in 1..=parts {
+            let time = if number == parts { end } else { clock.next() };
+            let work = self.prepare(part, time)?;
+            self.accept(part, time, work);
+            clock.tick();
+        }
         Ok(())
     }
 

@@ -17,7 +17,7 @@
 //! | The system: a trait, or two closures | [`Hamiltonian`], [`SeparableHamiltonian`], [`separable`], [`hamiltonian`] |
 //! | What it computes with | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors) |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`] |
-//! | Running it | [`State`], [`Integrator`], [`Error`] |
+//! | Running it | [`State`], [`Integrator`], [`Error`], [`Retry`], [`Statistics`] |
 //! | What generates a step | [`generating_function`], of Type II |
 //! | The method, as the macro emits it | [`Method`], [`StagePlan`], [`Composition`], [`Stages`], [`Coefficient`], [`combine`], [`relax`] |
 //!
@@ -78,6 +78,7 @@ mod hamiltonian;
 mod integrator;
 mod kernel;
 mod method;
+mod retry;
 mod scalar;
 mod splitting_macros;
 mod stage;
@@ -108,6 +109,7 @@ pub use kernel::{
 pub use method::{Method, Plan, StagePlan};
 pub use nalgebra;
 pub use num_traits;
+pub use retry::Retry;
 pub use scalar::Scalar;
 pub use splitting_macros::{composition, splitting};
 pub use stage::{Evaluations, StageStorage, Stages};

@@ -23,8 +23,10 @@ use crate::Work;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Statistics {
-    /// Steps taken.
+    /// Steps taken; of one that was [split](crate::Retry::Split), its parts.
     pub steps: u64,
+    /// Attempts at a step, or at its parts, that failed and were made good by shorter steps.
+    pub rejected: u64,
     /// Fixed-point sweeps; 0 for an explicit method.
     pub iterations: u64,
     /// The most sweeps that one step took.
