@@ -1,0 +1,61 @@
+//! Integrations in a crate without the standard library and without an allocator: static vectors, elementary functions
+//! from `libm`.
+//!
+//! Built alone, `cargo test -p symplectic-no-std`: in a build of the whole workspace the runtime has its default features.
+
+#![no_std]
+
+use symplectic::nalgebra::Vector1;
+use symplectic::{Error, Integrator, Method, Scalar, SeparableHamiltonian, State};
+
+symplectic::tableau! {
+    /// Explicit for separable systems, order 2.
+    pub StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) }
+
+    /// Implicit, order 8.
+    pub Gauss4 { basis: polynomial(4), nodes: gauss(4) }
+}
+
+symplectic::composition! {
+    /// Explicit, order 6.
+    pub TripleJump { base: velocity-verlet, weights: triple_jump(6) }
+}
+
+/// H = p²/2 − cos q
+#[derive(Clone, Copy, Debug)]
+pub struct Pendulum;
+
+impl<T: Scalar> SeparableHamiltonian<Vector1<T>> for Pendulum {
+    fn velocity(&self, _time: T, p: &Vector1<T>, velocity: &mut Vector1<T>) {
+        *velocity = *p;
+    }
+
+    fn force(&self, _time: T, q: &Vector1<T>, force: &mut Vector1<T>) {
+        force[0] = -q[0].sin();
+    }
+
+    fn energy(&self, _time: T, q: &Vector1<T>, p: &Vector1<T>) -> Option<T> {
+        Some(p[0] * p[0] * T::from_f64(0.5) - q[0].cos())
+    }
+}
+
+/// The largest error of the energy of a swing from rest at `angle`, over 1000 steps.
+///
+/// # Errors
+/// Those of a step.
+pub fn energy_error<M: Method>(method: M, angle: f64, step_size: f64) -> Result<f64, Error> {
+    let start = State::new(0.0, Vector1::new(angle), Vector1::new(0.0));
+    let mut integrator = Integrator::new(method, Pendulum, start, step_size)?;
+    let energy = -angle.cos();
+    let mut largest = 0.0;
+    for _ in 0..1000 {
+        integrator.step()?;
+        let error = integrator
+            .energy()
+            .map_or(f64::NAN, |now| (now - energy).abs());
+        if error > largest || error.is_nan() {
+            largest = error;
+        }
+    }
+    Ok(largest)
+}
