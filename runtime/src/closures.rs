@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use nalgebra::SVector;
 
-use crate::{General, Hamiltonian, Scalar, SeparableHamiltonian, Vector};
+use crate::{General, Hamiltonian, Scalar, SeparableHamiltonian, Vector, copy};
 
 /// A separable system of two closures, `|time, p, velocity| …` and `|time, q, force| …`, that write their result
 /// into the last argument.
@@ -40,6 +40,34 @@ where
         energy: NoEnergy,
         vector: PhantomData,
     }
+}
+
+/// A second-order system `q'' = acceleration(t, q)` of one closure, `|time, q, acceleration| …`, with `p = q'`.
+///
+/// It is the separable system `H = |p|²/2 + U(q)` with `acceleration = −∂U/∂q`; where the acceleration is no gradient there
+/// is no Hamiltonian, and nothing is conserved.
+///
+/// ```
+/// use symplectic::acceleration;
+/// use symplectic::nalgebra::Vector2;
+///
+/// let kepler = acceleration(|_time, q: &Vector2<f64>, acceleration| *acceleration = -q / q.norm().powi(3))
+///     .with_energy(|_time, q, p| p.norm_squared() / 2.0 - q.norm().recip());
+/// # let mut velocity = Vector2::zeros();
+/// # symplectic::SeparableHamiltonian::velocity(&kepler, 0.0, &Vector2::new(1.0, 2.0), &mut velocity);
+/// # assert_eq!(velocity, Vector2::new(1.0, 2.0));
+/// ```
+pub const fn acceleration<V, G>(
+    acceleration: G,
+) -> SeparableClosures<V, impl Fn(V::Scalar, &V, &mut V) + Copy, G>
+where
+    V: Vector,
+    G: Fn(V::Scalar, &V, &mut V),
+{
+    separable(
+        |_time, p: &V, velocity: &mut V| copy(velocity, p),
+        acceleration,
+    )
 }
 
 /// A system with any Hamiltonian of two closures, `|time, q, p, velocity| …` and `|time, q, p, force| …`, that write

@@ -14,7 +14,7 @@
 //!
 //! | What | Where |
 //! |---|---|
-//! | The system: a trait, or two closures | [`Hamiltonian`], [`SeparableHamiltonian`], [`separable`], [`hamiltonian`] |
+//! | The system: a trait, or closures | [`Hamiltonian`], [`SeparableHamiltonian`], [`separable`], [`hamiltonian`], [`acceleration`] |
 //! | What it computes with | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors) |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`] |
 //! | Running it | [`State`], [`Integrator`], [`Error`], [`Retry`], [`Statistics`] |
@@ -93,7 +93,9 @@ mod vector;
 
 pub use change::{Change, PartChange};
 pub use class::{Class, General, Separable};
-pub use closures::{HamiltonianClosures, NoEnergy, SeparableClosures, hamiltonian, separable};
+pub use closures::{
+    HamiltonianClosures, NoEnergy, SeparableClosures, acceleration, hamiltonian, separable,
+};
 pub use coefficient::{Coefficient, Coefficients};
 pub use composition::{Composition, CompositionMemory, Substep, Substeps};
 pub use coupling::{Coupled, Coupling, Explicit, Failure, Work};

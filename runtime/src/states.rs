@@ -7,9 +7,12 @@ use crate::{Compensated, Error, Hamiltonian, Integrator, Method, State, Summatio
 
 /// The endless iterator that [`Integrator::states`] returns.
 ///
-/// Every item is the state after one more step, cloned. After an error there are no more items.
+/// Every item is the state after one more step, or after [some more](Self::every), cloned. After an error there are no
+/// more items.
 pub struct States<'a, M: Method, S: Hamiltonian<V>, V: Vector, R: Summation = Compensated> {
     integrator: &'a mut Integrator<M, S, V, R>,
+    /// Steps from one state to the next.
+    stride: u64,
     failed: bool,
 }
 
@@ -17,8 +20,39 @@ impl<'a, M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> States<'a, M, S,
     pub(crate) const fn new(integrator: &'a mut Integrator<M, S, V, R>) -> Self {
         Self {
             integrator,
+            stride: 1,
             failed: false,
         }
+    }
+
+    /// Only the states after every `steps` steps, without a copy of those between; 0 counts as 1.
+    ///
+    /// ```
+    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, acceleration};
+    /// # fn main() -> Result<(), Error> {
+    /// let oscillator = acceleration::<Vector1<f64>, _>(|_, q, acceleration| *acceleration = -q);
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+    /// let mut integrator = Integrator::new(StoermerVerlet, oscillator, start, 0.125)?;
+    /// let states: Result<Vec<_>, _> = integrator.states().every(8).take(3).collect();
+    /// let times: Vec<f64> = states?.iter().map(|state| state.time).collect();
+    /// assert_eq!(times, [1.0, 2.0, 3.0]);
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[must_use]
+    pub const fn every(mut self, steps: u64) -> Self {
+        self.stride = if steps == 0 { 1 } else { steps };
+        self
+    }
+
+    /// Takes the steps to the next state.
+    fn advance(&mut self) -> Result<State<V>, Error> {
+        for _ in 1..self.stride {
+            self.integrator.step()?;
+        }
+        self.integrator.step().cloned()
     }
 }
 
@@ -29,7 +63,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Iterator for States<
         if self.failed {
             return None;
         }
-        let state = self.integrator.step().cloned();
+        let state = self.advance();
         self.failed = state.is_err();
         Some(state)
     }
@@ -45,6 +79,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> fmt::Debug for State
         formatter
             .debug_struct("States")
             .field("integrator", self.integrator)
+            .field("stride", &self.stride)
             .field("failed", &self.failed)
             .finish()
     }
