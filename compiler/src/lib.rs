@@ -20,6 +20,7 @@
 //! | adjoint methods and compositions | [`Tableau::adjoint`], [`Tableau::scale`], [`Tableau::compose`], [`Tableau::concatenate`] |
 //! | what is proved about them | [`Properties`], each a [`Property`] with its [`Evidence`] |
 //! | the order for each class of Hamiltonians, trees, the modified equation | [`order`] |
+//! | the order of splittings for perturbed systems | [`Tableau::perturbed_order`] |
 //! | linear stability on the oscillator | [`stability`] |
 //! | what a user requires of a method | [`Requirement`], [`Tableau::require`], [`assert_order!`] |
 //! | text, JSON, TOML; reading and checking files | [`export`], [`check`] |

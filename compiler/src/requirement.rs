@@ -1,5 +1,7 @@
 //! What a user can require of a method: `symplectic`, `order(separable) == 6`, `stable_to(2)`.
 
+mod perturbed;
+
 use std::fmt;
 
 use num_rational::BigRational;
@@ -7,7 +9,7 @@ use num_traits::Signed;
 
 use crate::error::{Error, ErrorKind};
 use crate::expression::{ExpressionKind, Input, parse_list, shown};
-use crate::order::{HamiltonianClass, OrderOptions};
+use crate::order::{HamiltonianClass, OrderOptions, listed};
 use crate::properties::{Evidence, Properties, SeparableProperties};
 use crate::tableau::Tableau;
 
@@ -27,6 +29,14 @@ pub enum Requirement {
         /// The order.
         order: usize,
     },
+    /// `order(perturbed) >= (8, 4)`: the orders in `ε`, `ε²`, … of a splitting for `H_A + εH_B`, the last one in all
+    /// higher powers too.
+    PerturbedOrder {
+        /// Whether these are the orders exactly, or at least.
+        exactly: bool,
+        /// The orders.
+        orders: Vec<usize>,
+    },
     /// Stable on the oscillator for every step size.
     PStable,
     /// Stable on the oscillator for `0 < hω ≤ bound`.
@@ -34,7 +44,7 @@ pub enum Requirement {
 }
 
 /// The requirements beside the properties, as messages list them.
-const OTHERS: &str = "symplectic(separable), symmetric(separable), order >= 4, order(separable) == 6, p_stable, stable_to(2)";
+const OTHERS: &str = "symplectic(separable), symmetric(separable), order >= 4, order(separable) == 6, order(perturbed) >= (8, 4), p_stable, stable_to(2)";
 
 impl Requirement {
     /// Reads a requirement.
@@ -59,6 +69,11 @@ impl Requirement {
         for (sign, exactly) in [(">=", false), ("==", true)] {
             if let Some((left, right)) = text.split_once(sign) {
                 let start = left.len() + sign.len();
+                if perturbed::is_meant(left) {
+                    let orders = perturbed::read(right)
+                        .map_err(|kind| input.error(&(start..text.len()), kind))?;
+                    return Ok(Requirement::PerturbedOrder { exactly, orders });
+                }
                 let number = right.trim().parse().map_err(|_| {
                     let found = match right.trim() {
                         "" => "nothing".to_owned(),
@@ -157,7 +172,7 @@ fn class(input: Input<'_>, text: &str) -> Result<HamiltonianClass, Error> {
         let kind = ErrorKind::Unknown {
             what: "requirement",
             name: shown(text.trim()),
-            known: format!("order, {}", classes.join(", ")),
+            known: format!("order, {}, order(perturbed)", classes.join(", ")),
         };
         input.error(&whole, kind)
     })
@@ -177,6 +192,10 @@ impl fmt::Display for Requirement {
             } => {
                 let sign = if *exactly { "==" } else { ">=" };
                 write!(f, "order({class}) {sign} {order}")
+            }
+            Requirement::PerturbedOrder { exactly, orders } => {
+                let sign = if *exactly { "==" } else { ">=" };
+                write!(f, "order(perturbed) {sign} {}", listed(orders))
             }
             Requirement::PStable => f.write_str("p_stable"),
             Requirement::StableTo(bound) => write!(f, "stable_to({bound})"),
@@ -227,6 +246,9 @@ impl Tableau {
                 exactly,
                 order,
             } => return self.require_order(*class, *exactly, *order, accepted),
+            Requirement::PerturbedOrder { exactly, orders } => {
+                return self.require_perturbed(requirement, *exactly, orders, accepted);
+            }
             Requirement::PStable => {
                 let stability = self.stability();
                 let message = format!(
@@ -341,20 +363,20 @@ pub fn require(
 /// `assert_order!(Waves, general == 2, accept: verified(100 bits))`.
 ///
 /// The classes are those of [`HamiltonianClass`](crate::order::HamiltonianClass): `general`, `separable`,
-/// `nystrom`. With `symplectic-compiler` as a dev-dependency, order conditions are decided in a crate's
+/// `nystrom`; and `assert_order!(Saba4, perturbed == (8, 2))` for splittings. With `symplectic-compiler` as a dev-dependency, order conditions are decided in a crate's
 /// tests, and its normal dependencies stay free of big numbers.
 ///
 /// # Panics
 /// Where the order is another one: with the condition that is violated.
 #[macro_export]
 macro_rules! assert_order {
-    ($method:ty, $class:ident == $order:literal $(, accept: verified($bits:literal bits))? $(,)?) => {
+    ($method:ty, $class:ident == $order:tt $(, accept: verified($bits:literal bits))? $(,)?) => {
         $crate::assert_order!(@ $method, $class, "==", $order, [$($bits)?])
     };
-    ($method:ty, $class:ident >= $order:literal $(, accept: verified($bits:literal bits))? $(,)?) => {
+    ($method:ty, $class:ident >= $order:tt $(, accept: verified($bits:literal bits))? $(,)?) => {
         $crate::assert_order!(@ $method, $class, ">=", $order, [$($bits)?])
     };
-    (@ $method:ty, $class:ident, $sign:literal, $order:literal, [$($bits:literal)?]) => {{
+    (@ $method:ty, $class:ident, $sign:literal, $order:tt, [$($bits:literal)?]) => {{
         let mut accepted: ::core::option::Option<u32> = ::core::option::Option::None;
         $(accepted = ::core::option::Option::Some($bits);)?
         let _ = &mut accepted;
@@ -367,7 +389,7 @@ macro_rules! assert_order {
         };
         if let ::core::result::Result::Err(error) = $crate::require(
             <$method as ::symplectic::Method>::DEFINITION,
-            ::core::concat!("order(", ::core::stringify!($class), ") ", $sign, " ", $order),
+            ::core::concat!("order(", ::core::stringify!($class), ") ", $sign, " ", ::core::stringify!($order)),
             accepted,
             &limits,
         ) {
@@ -400,6 +422,22 @@ mod tests {
             ),
             ("stable_to(1 +)", "require, column 14: "),
             ("stable_t(1)", "unknown property `stable_t(1)`"),
+            (
+                "order(perturbed) >= (4, 8)",
+                "require, column 20: (4, 8) where an order in each power of ε, none above the one before, as in (8, 4), is needed",
+            ),
+            (
+                "order(perturbed) == (8, two)",
+                "require, column 20: (8, two) where",
+            ),
+            (
+                "order(perturbed) >= ()",
+                "() where an order in each power of ε",
+            ),
+            (
+                "order(perturbed) >=",
+                "nothing where an order in each power of ε",
+            ),
         ] {
             let error = Requirement::parse(text).expect_err(text).to_string();
             assert!(error.contains(message), "{text}: {error}");

@@ -1,6 +1,7 @@
 //! Which stages coincide, which need which, and in what order they can be computed.
 
 mod phases;
+mod splitting;
 mod unused;
 
 pub use phases::{Evaluations, Phases};

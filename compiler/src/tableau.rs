@@ -6,7 +6,7 @@ use crate::algebra::{Constants, Dense, NodeAlgebra, Number, Reals, StageAlgebra}
 use crate::certify::Claim;
 use crate::coefficients::Coefficients;
 use crate::definition::Definition;
-use crate::order::{OrderOptions, OrderReport};
+use crate::order::{OrderOptions, OrderReport, PerturbedOrder};
 use crate::pair::Pair;
 use crate::properties::{Properties, SeparableProperties};
 use crate::stability::Stability;
@@ -39,6 +39,7 @@ pub struct Tableau {
     properties: OnceLock<Properties>,
     separable: OnceLock<SeparableProperties>,
     orders: OnceLock<OrderReport>,
+    pub(crate) perturbed: OnceLock<Option<PerturbedOrder>>,
     stability: OnceLock<Stability>,
 }
 
@@ -137,6 +138,7 @@ impl Tableau {
             properties: OnceLock::new(),
             separable: OnceLock::new(),
             orders: OnceLock::new(),
+            perturbed: OnceLock::new(),
             stability: OnceLock::new(),
         }
     }

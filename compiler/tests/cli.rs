@@ -246,6 +246,7 @@ fn toml_is_readable() {
         general = { order = 2, evidence = "proved", refuted_by = "q[q,q]", value = "1/2", wanted = "1/3", residual = "1/6", error_constant = "0.358430219460" }
         separable = { order = 2, evidence = "proved", refuted_by = "q[p,p]", value = "1/4", wanted = "1/3", residual = "-1/12", error_constant = "0.208333333333" }
         nystrom = { order = 2, evidence = "proved", refuted_by = "p[q,q]", value = "1/2", wanted = "1/3", residual = "1/6", error_constant = "0.204124145232" }
+        perturbed = [{ order = 2, evidence = "proved", refuted_by = "A^2B", value = "1/4", wanted = "1/6", residual = "1/12" }, { order = 2, evidence = "proved", refuted_by = "A^2B", value = "1/4", wanted = "1/6", residual = "1/12" }]
 
         [stability]
         trace = "2 − ν²"

@@ -33,7 +33,7 @@
 /// | `exchange` | `true` where positions and momenta are exchanged in the end |
 /// | `adjoint` | `true` for the adjoint of the method |
 /// | `file` | instead of all these: a TOML file with a definition or a whole tableau, relative to the crate: `"tableaux/gauss-4.toml"`; it is derived and proved anew, and an edit of it rebuilds the crate |
-/// | `require` | properties that have to be proved: `symplectic`, `symmetric`, `consistent`, `equal_matrices`, `explicit`, `first_row_zero`, `stiffly_accurate`, `first_same_as_last`, `positive_weights`; `symplectic(separable)` and `symmetric(separable)` for separable systems only; orders for a class of Hamiltonians: `order >= 4`, `order(separable) == 6`, `order(nystrom) >= 4`; stability on the oscillator: `p_stable`, `stable_to(14/5)`, that is for 0 < hω ≤ 14/5 |
+/// | `require` | properties that have to be proved: `symplectic`, `symmetric`, `consistent`, `equal_matrices`, `explicit`, `first_row_zero`, `stiffly_accurate`, `first_same_as_last`, `positive_weights`; `symplectic(separable)` and `symmetric(separable)` for separable systems only; orders for a class of Hamiltonians: `order >= 4`, `order(separable) == 6`, `order(nystrom) >= 4`; of splittings for perturbed systems `H_A + εH_B`, drifts for `H_A` and kicks for `εH_B`, in `ε`, `ε²`, …: `order(perturbed) >= (8, 4)`; stability on the oscillator: `p_stable`, `stable_to(14/5)`, that is for 0 < hω ≤ 14/5 |
 /// | `accept` | `verified(100 bits)`: what is verified to as many binary places satisfies a requirement too; only tableaux that no exact arithmetic holds need it |
 /// | `max_stages` | a bound on the number of stages other than 32 |
 ///

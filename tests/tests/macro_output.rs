@@ -341,6 +341,8 @@ fn orders_are_asserted() {
     assert_order!(Lobatto3, nystrom >= 3);
     assert_order!(Gauss8, separable == 16);
     assert_order!(Waves, general == 2);
+    assert_order!(Saba3, perturbed == (6, 2));
+    assert_order!(Saba3, perturbed >= (4, 2));
     let wrong = std::panic::catch_unwind(|| assert_order!(Lobatto3, general == 5));
     let message = wrong.expect_err("the order is 4");
     let message = message.downcast_ref::<String>().expect("a text");
@@ -348,4 +350,12 @@ fn orders_are_asserted() {
         message.starts_with("Lobatto3: the order for general H is 4, not 5: q[q^4] has the weight 5/24 instead of 1/5"),
         "{message}"
     );
+}
+
+symplectic::splitting! {
+    /// Laskar & Robutel's with Gauss nodes.
+    Saba3 {
+        kick: [5/18, 4/9], drift: [1/2 - sqrt(15)/10, sqrt(15)/10], first: drift, symmetric: true,
+        require: [order(separable) == 2, order(perturbed) == (6, 2), order(perturbed) >= (4, 2)],
+    }
 }

@@ -42,8 +42,8 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use super::CertifyError;
-use super::nystrom::{self, Combination, Quotient};
-use super::words::{Alphabet, DRIFT, Word, is_lyndon};
+use super::nystrom::{Combination, Quotient};
+use super::words::{Alphabet, Word, split_lyndon};
 use crate::order::HamiltonianClass;
 
 /// The highest order that can be claimed.
@@ -80,6 +80,22 @@ impl Claim {
         match self {
             Claim::Separable(order) | Claim::Nystrom(order) | Claim::SymmetricBase(order) => *order,
             Claim::Perturbed(orders) => orders.first().copied().unwrap_or(0),
+        }
+    }
+
+    /// The order that follows for the conditions with at most so many letters `B`, one at least: the `s_j` of a method
+    /// for perturbed systems.
+    pub fn order_in_power(&self, power: usize) -> usize {
+        match self {
+            Claim::Separable(order) => *order,
+            // Order 2 is the same for quadratic T.
+            Claim::Nystrom(order) => (*order).min(2),
+            Claim::Perturbed(orders) => {
+                let order = orders.get(power.saturating_sub(1)).or(orders.last());
+                order.copied().unwrap_or(0)
+            }
+            // Whatever the basic method is.
+            Claim::SymmetricBase(_) => 1,
         }
     }
 
@@ -256,15 +272,13 @@ fn perturbed(orders: &[usize], degree: usize) -> Vec<Word> {
     let grade = |kicks: usize| {
         let order = orders.get(kicks - 1).or(orders.last());
         let wanted = order.is_some_and(|order| degree <= *order);
-        let words = if wanted {
-            nystrom::words(degree - kicks, kicks)
+        if wanted {
+            split_lyndon(degree - kicks, kicks)
         } else {
             Vec::new()
-        };
-        words.into_iter().filter(|word| is_lyndon(word))
+        }
     };
     // One letter alone is a Lyndon word of degree 1 only.
-    debug_assert!(!is_lyndon(&[DRIFT, DRIFT]));
     (1..degree).flat_map(grade).collect()
 }
 

@@ -55,6 +55,7 @@ pub use search::{certify, certify_composition};
 pub use splitting::{MAX_STAGES, Splitting};
 pub use structure::{Coefficient, Structure};
 pub use words::{Alphabet, Word};
+pub(crate) use words::{DRIFT, KICK, split_lyndon};
 
 #[cfg(test)]
 mod tests;

@@ -24,7 +24,7 @@ use std::collections::BTreeMap;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::words::{DRIFT, KICK, Word};
+use super::words::{DRIFT, KICK, Word, split_words};
 
 /// A linear form on words, or an element of the free associative algebra.
 pub type Combination = BTreeMap<Word, BigRational>;
@@ -51,7 +51,7 @@ impl Quotient {
         let (ideal, lie) = (self.ideal(grade), self.lie(grade));
         // The ideal is spanned by rows e_p + Σ_c r_pc e_c with pivots p, so e_c − Σ_p r_pc e_p vanishes on it.
         let pivots: Vec<&Word> = ideal.iter().filter_map(first).collect();
-        let mut forms: Vec<Combination> = words(grade.0, grade.1)
+        let mut forms: Vec<Combination> = split_words(grade.0, grade.1)
             .into_iter()
             .filter(|word| !pivots.contains(&word))
             .map(|word| {
@@ -138,20 +138,6 @@ fn predecessors((a, b): (usize, usize)) -> Vec<(u8, (usize, usize))> {
     }
     if b > 0 {
         found.push((KICK, (a, b - 1)));
-    }
-    found
-}
-
-/// All words with `a` drifts and `b` kicks, in lexicographic order.
-pub fn words(drifts: usize, kicks: usize) -> Vec<Word> {
-    if drifts + kicks == 0 {
-        return vec![Word::new()];
-    }
-    let mut found = Vec::new();
-    for (letter, (a, b)) in predecessors((drifts, kicks)) {
-        for rest in words(a, b) {
-            found.push([vec![letter], rest].concat());
-        }
     }
     found
 }

@@ -73,6 +73,31 @@ impl Alphabet {
     }
 }
 
+/// The words with so many drifts and kicks, in lexicographic order.
+pub fn split_words(drifts: usize, kicks: usize) -> Vec<Word> {
+    if drifts + kicks == 0 {
+        return vec![Word::new()];
+    }
+    let mut found = Vec::new();
+    let mut begin_with = |letter: u8, rest: Vec<Word>| {
+        found.extend(rest.into_iter().map(|rest| [vec![letter], rest].concat()));
+    };
+    if drifts > 0 {
+        begin_with(DRIFT, split_words(drifts - 1, kicks));
+    }
+    if kicks > 0 {
+        begin_with(KICK, split_words(drifts, kicks - 1));
+    }
+    found
+}
+
+/// The Lyndon words with so many drifts and kicks, in lexicographic order.
+pub fn split_lyndon(drifts: usize, kicks: usize) -> Vec<Word> {
+    let mut words = split_words(drifts, kicks);
+    words.retain(|word| is_lyndon(word));
+    words
+}
+
 /// Whether a word is smaller than each of its proper right factors.
 pub fn is_lyndon(word: &[u8]) -> bool {
     !word.is_empty() && (1..word.len()).all(|start| word < &word[start..])

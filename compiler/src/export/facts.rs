@@ -1,7 +1,7 @@
 //! Order and stability of a tableau as data, in one shape for all formats.
 
 use super::json::evidence;
-use crate::order::{ClassOrder, HamiltonianClass, SymplecticityOrder};
+use crate::order::{ClassOrder, HamiltonianClass, PerturbedOrder, PowerOrder, SymplecticityOrder};
 use crate::properties::{Evidence, Property};
 use crate::stability::{EndPoint, RungeKuttaStability, Stability};
 use crate::tableau::Tableau;
@@ -75,6 +75,8 @@ pub(super) fn sections(
     let mut order: Vec<(&'static str, Fact)> = HamiltonianClass::ALL
         .map(|class| (class.name(), class_order(report.class(class))))
         .into();
+    let perturbed = tableau.perturbed_order();
+    order.push(("perturbed", perturbed.map_or(Absent, perturbed_order)));
     order.push(("symplecticity", symplecticity(tableau)));
     for (name, _, property) in separable_only(tableau) {
         let (found, bits) = evidence(property.evidence);
@@ -143,6 +145,27 @@ fn class_order(found: &ClassOrder) -> Fact {
             Fact::optional(found.error_constant.as_ref()),
         ),
     ])
+}
+
+/// A table for each power of `ε`.
+fn perturbed_order(found: PerturbedOrder) -> Fact {
+    let power = |power: PowerOrder| {
+        let (name, bits) = evidence(power.evidence);
+        let violated = power.refuted_by.as_ref();
+        Table(vec![
+            ("order", Literal(power.order.to_string())),
+            ("evidence", Text(name.to_owned())),
+            (
+                "bits",
+                bits.map_or(Absent, |bits| Literal(bits.to_string())),
+            ),
+            ("refuted_by", Fact::optional(violated.map(|v| &v.word))),
+            ("value", Fact::optional(violated.map(|v| &v.value))),
+            ("wanted", Fact::optional(violated.map(|v| &v.wanted))),
+            ("residual", Fact::optional(violated.map(|v| &v.residual))),
+        ])
+    };
+    List(found.powers.into_iter().map(power).collect())
 }
 
 /// Up to this order the order of symplecticity is looked for.
@@ -244,6 +267,9 @@ pub(super) fn lines(tableau: &Tableau) -> Vec<String> {
             ));
         }
         lines.push(line);
+    }
+    if let Some(found) = tableau.perturbed_order() {
+        lines.push(format!("  {:10} {found}", "perturbed"));
     }
     if let Some(found) = tableau.symplecticity_order(SYMPLECTICITY_LIMIT) {
         let evidence = match found.evidence {

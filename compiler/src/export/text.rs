@@ -88,7 +88,8 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
 /// let facts = text::write_facts(&derive("polynomial(2)", "lobatto(2)")?);
 /// let lines: Vec<&str> = facts.lines().collect();
 /// assert!(lines[1].starts_with("  general    2, proved; not 3: "));
-/// assert_eq!(lines[6], "  trace: 2 − ν²");
+/// assert_eq!(lines[4], "  perturbed  (2, 2), proved; not 3 in ε: A^2B has the coefficient 1/4 instead of 1/6, a difference of 1/12");
+/// assert_eq!(lines[7], "  trace: 2 − ν²");
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
 pub fn write_facts(tableau: &Tableau) -> String {

@@ -20,6 +20,8 @@
 //! 0.1 s each but for the two of order 9, which take 1 s, and Gauss with 20 stages, order 40, takes 0.2 s. Orders
 //! the conditions of which take more than ten million products of a coefficient and a stage, or four where numbers are
 //! expressions, are not enumerated: what is then known of them is what the simplifying assumptions say.
+//!
+//! Splittings have an order for perturbed systems besides, a [`PerturbedOrder`], from words instead of trees.
 
 mod class;
 mod enumeration;
@@ -27,16 +29,20 @@ mod error_constant;
 #[cfg(test)]
 mod methods;
 mod modified;
+mod perturbed;
 mod report;
 mod simplifying;
 mod symplecticity;
 mod tree;
 mod unrooted;
 mod weights;
+mod words;
 
 pub use class::HamiltonianClass;
 pub use enumeration::{TreeRule, Trees};
 pub use modified::ModifiedTerm;
+pub(crate) use perturbed::listed;
+pub use perturbed::{PerturbedOrder, PowerOrder, ViolatedWord};
 pub use report::{ClassOrder, OrderReport, ViolatedCondition};
 pub use simplifying::SimplifyingAssumptions;
 pub use symplecticity::{SymplecticityOrder, SymplecticityViolation};

@@ -40,7 +40,12 @@ impl OrderReport {
         let (separable, nystrom) = match claim {
             Claim::Separable(_) => (order, order),
             Claim::Nystrom(_) => (order.min(2), order),
-            Claim::SymmetricBase(_) | Claim::Perturbed(_) => (1, 1),
+            // The last number is the order for separable H.
+            Claim::Perturbed(orders) => {
+                let last = orders.last().copied().unwrap_or(1);
+                (last, last)
+            }
+            Claim::SymmetricBase(_) => (1, 1),
         };
         let bounds = [
             (&mut self.general, 1),

@@ -25,6 +25,14 @@ const MOST_PRODUCTS: usize = 10_000_000;
 /// The same where numbers are expressions, about 500 bytes each, which are kept with their enclosures: 2 GB.
 const MOST_EXPRESSIONS: usize = 4_000_000;
 
+/// The most products that are made of numbers with the binary places to which their equations are verified.
+pub(super) fn most_products(verified_bits: Option<u32>) -> usize {
+    match verified_bits {
+        None => MOST_PRODUCTS,
+        Some(_) => MOST_EXPRESSIONS,
+    }
+}
+
 /// The tree of a condition: one vertex, or a product of trees in the enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Condition {
@@ -101,10 +109,7 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
         let algebra = &*self.pair.algebra;
         let stages = algebra.stages();
         self.grow(order - 1);
-        let most = match algebra.constants().verified_bits() {
-            None => MOST_PRODUCTS,
-            Some(_) => MOST_EXPRESSIONS,
-        };
+        let most = most_products(algebra.constants().verified_bits());
         self.trees.len() * stages * stages <= most
     }
 

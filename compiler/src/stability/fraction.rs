@@ -226,7 +226,8 @@ impl fmt::Display for RationalFunction {
     }
 }
 
-fn superscript(power: usize) -> String {
+/// A power with raised digits.
+pub(crate) fn superscript(power: usize) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let digits = power.to_string();
     digits

@@ -40,6 +40,7 @@ use crate::properties::Evidence;
 
 pub use dispersion::Dispersion;
 pub use end_point::EndPoint;
+pub(crate) use fraction::superscript;
 pub use fraction::{Coefficient, RationalFunction, Variable};
 pub use intervals::StabilityInterval;
 pub use runge_kutta::RungeKuttaStability;

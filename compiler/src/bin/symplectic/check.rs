@@ -113,6 +113,10 @@ fn facts(tableau: &Tableau) -> String {
         };
         format!("{class} {at_least}{}", found.order)
     });
+    let perturbed = match tableau.perturbed_order() {
+        Some(found) => format!(", perturbed {}", found.numbers()),
+        None => String::new(),
+    };
     let stable = if tableau.stages() > STABILITY_STAGES {
         String::new()
     } else {
@@ -120,7 +124,7 @@ fn facts(tableau: &Tableau) -> String {
         format!(", stable for hω in {intervals}")
     };
     format!(
-        "{called} with {stages}, order {}{stable}",
+        "{called} with {stages}, order {}{perturbed}{stable}",
         orders.join(", ")
     )
 }

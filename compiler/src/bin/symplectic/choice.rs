@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use clap::{Args, ValueEnum};
 use symplectic_compiler::order::HamiltonianClass;
-use symplectic_compiler::{Error, Evidence, Tableau, catalogue};
+use symplectic_compiler::{Error, ErrorKind, Evidence, Tableau, catalogue};
 
 use crate::list::aligned;
 
@@ -14,12 +14,13 @@ pub(crate) struct Choice {
     /// The Hamiltonians that orders and errors are for [default: separable].
     #[arg(long, value_enum)]
     class: Option<Class>,
-    /// Methods of at least this order.
-    #[arg(long, value_name = "P")]
-    min_order: Option<usize>,
-    /// Methods of at most this order.
-    #[arg(long, value_name = "P")]
-    max_order: Option<usize>,
+    /// Methods of at least this order; with `--class perturbed` of at least these orders in ε, ε², …: `8,4`, where the
+    /// last one is for all higher powers too.
+    #[arg(long, value_name = "P", value_parser = orders)]
+    min_order: Option<Orders>,
+    /// Methods of at most this order, or these orders.
+    #[arg(long, value_name = "P", value_parser = orders)]
+    max_order: Option<Orders>,
     /// Explicit methods with at most so many force evaluations a step.
     #[arg(long, value_name = "N")]
     max_evaluations: Option<usize>,
@@ -40,16 +41,42 @@ enum Class {
     Separable,
     /// H = p²/2m + U(q).
     Nystrom,
+    /// H = H_A + εH_B: splittings, with drifts for H_A and kicks for εH_B.
+    Perturbed,
 }
 
-impl From<Class> for HamiltonianClass {
-    fn from(class: Class) -> Self {
-        match class {
-            Class::General => HamiltonianClass::General,
-            Class::Separable => HamiltonianClass::Separable,
-            Class::Nystrom => HamiltonianClass::Nystrom,
+impl Class {
+    /// The class of Hamiltonians, if orders for it are single numbers.
+    fn hamiltonians(self) -> Option<HamiltonianClass> {
+        match self {
+            Class::General => Some(HamiltonianClass::General),
+            Class::Separable => Some(HamiltonianClass::Separable),
+            Class::Nystrom => Some(HamiltonianClass::Nystrom),
+            Class::Perturbed => None,
         }
     }
+}
+
+/// An order, or those in ε, ε², …; the last one is for all higher powers too.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Orders(Vec<usize>);
+
+impl Orders {
+    /// Whether none of them is less than that of the others.
+    fn reach(&self, others: &Orders) -> bool {
+        let at = |orders: &Orders, power: usize| {
+            let order = orders.0.get(power).or(orders.0.last());
+            order.copied().unwrap_or(0)
+        };
+        let powers = self.0.len().max(others.0.len());
+        (0..powers).all(|power| at(self, power) >= at(others, power))
+    }
+}
+
+fn orders(text: &str) -> Result<Orders, String> {
+    let orders: Option<Vec<usize>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
+    let orders = orders.map(Orders);
+    orders.ok_or_else(|| "expected an order such as 6, or orders such as 8,4".to_owned())
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -77,11 +104,33 @@ fn tolerance(text: &str) -> Result<f64, String> {
 impl Choice {
     /// Whether anything is asked for.
     pub(crate) fn is_made(&self) -> bool {
-        let limits = [self.min_order, self.max_order, self.max_evaluations];
         self.class.is_some()
             || self.sort.is_some()
             || self.tolerance.is_some()
-            || limits.iter().any(Option::is_some)
+            || self.max_evaluations.is_some()
+            || self.min_order.is_some()
+            || self.max_order.is_some()
+    }
+
+    /// Refuses what the class does not have.
+    fn check(&self) -> Result<(), Error> {
+        let refused = |message: &str| {
+            let message = message.to_owned();
+            Err(ErrorKind::Definition { message }.into())
+        };
+        let several = |orders: &Option<Orders>| orders.as_ref().is_some_and(|o| o.0.len() > 1);
+        if self.class != Some(Class::Perturbed) {
+            if several(&self.min_order) || several(&self.max_order) {
+                return refused("several orders are those of `--class perturbed`; give one");
+            }
+            return Ok(());
+        }
+        if matches!(self.sort, Some(Sort::Error | Sort::Efficiency)) || self.tolerance.is_some() {
+            return refused(
+                "there is no error constant for `--class perturbed`: sort by name, order or evaluations",
+            );
+        }
+        Ok(())
     }
 
     /// Whether a method evaluates seldom enough; the first question, because orders take longer.
@@ -90,9 +139,17 @@ impl Choice {
         self.max_evaluations.is_none_or(|most| forces <= most)
     }
 
-    fn takes_order(&self, order: usize) -> bool {
-        self.min_order.is_none_or(|least| order >= least)
-            && self.max_order.is_none_or(|most| order <= most)
+    fn takes_order(&self, order: &Orders) -> bool {
+        let (least, most) = (self.min_order.as_ref(), self.max_order.as_ref());
+        least.is_none_or(|least| order.reach(least)) && most.is_none_or(|most| most.reach(order))
+    }
+}
+
+fn words(evidence: Evidence) -> &'static str {
+    match evidence {
+        Evidence::Verified { .. } => "verified",
+        Evidence::Certified => "certified",
+        Evidence::Proved | Evidence::Refuted => "proved",
     }
 }
 
@@ -100,7 +157,9 @@ impl Choice {
 struct Method {
     name: String,
     title: String,
-    order: usize,
+    order: Orders,
+    /// The order as it is printed.
+    shown: String,
     /// What is known of the order: proved, or verified; of that order or more.
     evidence: String,
     /// Force evaluations a step; `None` for methods that solve for their stages.
@@ -118,11 +177,7 @@ impl Method {
     ) -> Self {
         let report = tableau.orders();
         let found = report.class(class);
-        let known = match found.evidence {
-            Evidence::Verified { .. } => "verified",
-            Evidence::Certified => "certified",
-            Evidence::Proved | Evidence::Refuted => "proved",
-        };
+        let known = words(found.evidence);
         let at_least = if found.refuted_by.is_none() {
             "≥, "
         } else {
@@ -133,7 +188,8 @@ impl Method {
         Method {
             name: entry.name,
             title: entry.title,
-            order: found.order,
+            order: Orders(vec![found.order]),
+            shown: found.order.to_string(),
             evidence: format!("{at_least}{known}"),
             forces: tableau.evaluations().map(|evaluations| evaluations.forces),
             error_constant: constant.and_then(|constant| constant.parse().ok()),
@@ -141,11 +197,28 @@ impl Method {
         }
     }
 
+    /// A splitting, with its orders for perturbed systems.
+    fn perturbed(entry: catalogue::Entry, tableau: &Tableau) -> Option<Self> {
+        let found = tableau.perturbed_order()?;
+        let mut known: Vec<&str> = found.powers.iter().map(|p| words(p.evidence)).collect();
+        known.dedup();
+        Some(Method {
+            name: entry.name,
+            title: entry.title,
+            order: Orders(found.orders()),
+            shown: found.numbers(),
+            evidence: known.join(", "),
+            forces: tableau.evaluations().map(|evaluations| evaluations.forces),
+            error_constant: None,
+            cost: None,
+        })
+    }
+
     fn row(self) -> [String; 7] {
         let or_dash = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
         [
             self.name,
-            self.order.to_string(),
+            self.shown,
             self.evidence,
             or_dash(self.forces.map(|forces| forces.to_string())),
             or_dash(
@@ -160,19 +233,19 @@ impl Method {
 
 /// The methods that are asked for, with what they are compared by.
 pub(crate) fn table(choice: &Choice) -> Result<String, Error> {
-    let class = choice
-        .class
-        .map_or(HamiltonianClass::Separable, HamiltonianClass::from);
+    choice.check()?;
+    let class = choice.class.unwrap_or(Class::Separable).hamiltonians();
     let tolerance = choice.tolerance.unwrap_or(1e-8);
     let mut methods = Vec::new();
     for entry in catalogue::entries() {
         let tableau = entry.derive()?;
         let forces = tableau.evaluations().map(|evaluations| evaluations.forces);
         if choice.takes_evaluations(forces) {
-            let method = Method::new(entry, &tableau, class, tolerance);
-            if choice.takes_order(method.order) {
-                methods.push(method);
-            }
+            let method = match class {
+                Some(class) => Some(Method::new(entry, &tableau, class, tolerance)),
+                None => Method::perturbed(entry, &tableau),
+            };
+            methods.extend(method.filter(|method| choice.takes_order(&method.order)));
         }
     }
     // What is not known comes last.
@@ -183,7 +256,7 @@ pub(crate) fn table(choice: &Choice) -> Result<String, Error> {
     match choice.sort {
         None => {}
         Some(Sort::Name) => methods.sort_by(|x, y| x.name.cmp(&y.name)),
-        Some(Sort::Order) => methods.sort_by_key(|method| std::cmp::Reverse(method.order)),
+        Some(Sort::Order) => methods.sort_by_key(|method| std::cmp::Reverse(method.order.clone())),
         Some(Sort::Evaluations) => {
             methods.sort_by_key(|method| method.forces.unwrap_or(usize::MAX));
         }
@@ -194,6 +267,9 @@ pub(crate) fn table(choice: &Choice) -> Result<String, Error> {
         }),
         Some(Sort::Efficiency) => methods.sort_by(|x, y| smaller(x.cost, y.cost)),
     }
+    let Some(class) = class else {
+        return Ok(perturbed(methods));
+    };
     let cost = format!("cost at {tolerance:e}");
     let mut rows = vec![
         [
@@ -214,4 +290,19 @@ pub(crate) fn table(choice: &Choice) -> Result<String, Error> {
     );
     text.push_str(&aligned(&rows));
     Ok(text)
+}
+
+/// The table of splittings for perturbed systems.
+fn perturbed(methods: Vec<Method>) -> String {
+    let mut rows = vec![["name", "order", "", "forces", "title"].map(str::to_owned)];
+    rows.extend(methods.into_iter().map(|method| {
+        let [name, order, evidence, forces, _, _, title] = method.row();
+        [name, order, evidence, forces, title]
+    }));
+    let mut text = String::from(
+        "Splittings for H = H_A + εH_B with drifts for H_A and kicks for εH_B; with `exchange: true` the other way round.\n\
+         Order: (s1, s2, …) for local errors of O(ε h^(s1+1) + ε² h^(s2+1) + …), the last one in all higher powers of ε.\n\n",
+    );
+    text.push_str(&aligned(&rows));
+    text
 }

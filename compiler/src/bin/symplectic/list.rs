@@ -62,7 +62,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
 /// The facts about every method.
 fn facts() -> Result<String, Error> {
     let mut text = String::from(
-        "| method | order: general, separable, Nyström | | stable for hω in |\n|---|---|---|---|\n",
+        "| method | order: general, separable, Nyström | perturbed | | stable for hω in |\n|---|---|---|---|---|\n",
     );
     for entry in catalogue::entries() {
         let tableau = entry.derive()?;
@@ -76,6 +76,7 @@ fn facts() -> Result<String, Error> {
             };
             format!("{at_least}{}", found.order)
         });
+        let perturbed = tableau.perturbed_order();
         let properties = tableau.properties();
         let separable = tableau.separable_properties();
         let held: Vec<&str> = [
@@ -94,9 +95,10 @@ fn facts() -> Result<String, Error> {
             first_interval(&tableau)
         };
         text.push_str(&format!(
-            "| {} | {} | {} | {stable} |\n",
+            "| {} | {} | {} | {} | {stable} |\n",
             entry.name,
             orders.join(", "),
+            perturbed.map_or_else(String::new, |found| found.numbers()),
             held.join(", "),
         ));
     }

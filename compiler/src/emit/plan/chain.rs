@@ -1,13 +1,10 @@
 //! Splittings: each evaluation is applied to the state as soon as it is made, so that no stage is stored.
-//!
-//! Where every stage of a separable system has each earlier evaluation in it in full or not at all, a step is a
-//! sequence of drifts `q += h b_j velocity(p)` and kicks `p += h b̃_j force(q)` (MW 2.6.4).
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::{Bodies, base, evaluation_name, literal};
-use crate::schedule::{Class, Node, Phases, StageValue, StepGraph};
+use crate::schedule::{Node, Phases, StepGraph};
 
 /// The evaluations of a splitting in their order.
 pub(super) struct Chain<'g, 'a> {
@@ -18,51 +15,8 @@ pub(super) struct Chain<'g, 'a> {
 impl<'g, 'a> Chain<'g, 'a> {
     /// The order of the evaluations, if the step is a splitting.
     pub(super) fn new(graph: &'g StepGraph<'a>) -> Option<Self> {
-        if graph.class != Class::Separable {
-            return None;
-        }
-        let forces = (0..graph.forces.len()).map(Node::Force);
-        let velocities = (0..graph.velocities.len()).map(Node::Velocity);
-        let nodes = forces.chain(velocities);
-        let mut rest: Vec<Node> = nodes
-            .filter(|&node| !graph.evaluation(node).weight.is_zero())
-            .collect();
-        let mut chain = Chain {
-            graph,
-            evaluations: Vec::new(),
-        };
-        while !rest.is_empty() {
-            let mut ready = rest.iter().enumerate();
-            let mut ready = ready
-                .by_ref()
-                .filter(|&(_, &node)| chain.is_ready(node).unwrap_or(false));
-            // Were two ready, the one would have to come before the other and the other before the one.
-            let (next, None) = (ready.next()?.0, ready.next()) else {
-                return None;
-            };
-            chain.evaluations.push(rest.remove(next));
-        }
-        Some(chain)
-    }
-
-    /// Whether exactly those evaluations have been applied that an evaluation waits for.
-    fn is_ready(&self, node: Node) -> Option<bool> {
-        let argument = self.argument(node)?.applied.as_deref()?;
-        let term = match node {
-            Node::Force(_) => Node::Velocity,
-            _ => Node::Force,
-        };
-        let mut applied = argument.iter().enumerate();
-        Some(applied.all(|(j, applied)| self.evaluations.contains(&term(j)) == *applied))
-    }
-
-    /// The value that an evaluation sees.
-    fn argument(&self, node: Node) -> Option<&'g StageValue<'a>> {
-        let evaluation = self.graph.evaluation(node);
-        match node {
-            Node::Force(_) => self.graph.positions.get(evaluation.position?),
-            _ => self.graph.momenta.get(evaluation.momentum?),
-        }
+        let evaluations = graph.splitting()?;
+        Some(Chain { graph, evaluations })
     }
 
     /// The code of the step.

@@ -1,0 +1,349 @@
+//! The order of a splitting for perturbed systems `H = H_A + εH_B`.
+//!
+//! Drifts integrate `H_A` and kicks integrate `εH_B`, as in the `SABA` and `SBAB` of Laskar & Robutel (2001); with
+//! positions and momenta exchanged it is the other way round. A method has the order `(s₁, s₂, …)`, `s₁ ≥ s₂ ≥ …`, if
+//! its modified Hamiltonian differs from `H` by
+//!
+//! ```text
+//! O(ε h^{s₁} + ε² h^{s₂} + ε³ h^{s₃} + ⋯):
+//! ```
+//!
+//! the terms of `log S` with `j` letters `B` vanish up to the degree `s_j`, apart from `A + B` (Blanes, Casas, Farrés,
+//! Laskar, Makazaga & Murua 2013). That is so if and only if the Lyndon words with `j` letters `B`, of degree `s_j` at
+//! most, have in `S` the coefficients that they have in `exp(A + B)`, `1/|w|!`; [`crate::certify`] says why. So `s_m`
+//! is the largest degree up to which the conditions with at most `m` letters `B` hold, and the condition that refutes
+//! `s_m + 1` has a word.
+//!
+//! The words with one letter `B` ask for a quadrature, `Σ k_i c_iⁿ = 1/(n + 1)` with the kicks `k_i` at the times `c_i`:
+//! `s₁` is its degree plus 1. The conditions of all words together are those for separable `H`, so that the
+//! numbers fall to the order `p` for these, `s_{p−1} = p` at the latest.
+
+use std::fmt;
+use std::ops::RangeInclusive;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::One;
+
+use super::weights::most_products;
+use super::words::Product;
+use super::{SHORT, short};
+use crate::algebra::{Dense, Field, Rationals, Zero};
+use crate::certify::{Claim, DRIFT, KICK, MAX_ORDER, MAX_PERTURBED_ORDER, Word, split_lyndon};
+use crate::pair::Pair;
+use crate::properties::Evidence;
+use crate::schedule::{Class, Node, StepGraph};
+use crate::stability::superscript;
+use crate::tableau::{Exact, Tableau};
+
+/// The order `(s₁, s₂, …)` of a splitting for `H = H_A + εH_B` with drifts for `H_A` and kicks for `εH_B`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PerturbedOrder {
+    /// The orders in `ε`, `ε²`, …, two at least; the last one is that in all higher powers, and so the order for
+    /// separable `H`.
+    pub powers: Vec<PowerOrder>,
+}
+
+/// The order in a power of `ε`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PowerOrder {
+    /// All conditions of this power and the lower ones hold up to this degree.
+    pub order: usize,
+    /// How it is known that they hold.
+    pub evidence: Evidence,
+    /// A condition of this power or a lower one and of the next degree that does not hold. Where there is none the
+    /// order is at least the number: conditions of higher degrees were not looked at.
+    pub refuted_by: Option<ViolatedWord>,
+}
+
+/// A condition on the coefficient of a word that does not hold.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ViolatedWord {
+    /// The word: `A^2B` for `AAB`.
+    pub word: String,
+    /// Its coefficient, exact where that is short, otherwise its first digits and `…`.
+    pub value: String,
+    /// What it should be, `1/|w|!`.
+    pub wanted: BigRational,
+    /// The value less what it should be, written like the value.
+    pub residual: String,
+}
+
+impl PerturbedOrder {
+    /// The numbers `s₁, s₂, …`.
+    pub fn orders(&self) -> Vec<usize> {
+        self.powers.iter().map(|power| power.order).collect()
+    }
+
+    /// What is known of the order in a power of `ε`, 1 at least.
+    pub fn power(&self, power: usize) -> Option<&PowerOrder> {
+        let known = self.powers.get(power.saturating_sub(1));
+        known.or(self.powers.last())
+    }
+
+    /// The numbers as they are printed, `(8, 2)`, with `≥` where a number is a bound.
+    pub fn numbers(&self) -> String {
+        let number = |power: &PowerOrder| {
+            let at_least = if power.refuted_by.is_none() {
+                "≥ "
+            } else {
+                ""
+            };
+            format!("{at_least}{}", power.order)
+        };
+        let numbers: Vec<String> = self.powers.iter().map(number).collect();
+        format!("({})", numbers.join(", "))
+    }
+}
+
+impl fmt::Display for PerturbedOrder {
+    /// `(4, 2), proved; not 5 in ε: …; not 3 in ε²: …`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.numbers())?;
+        let evidence = |power: &PowerOrder| match power.evidence {
+            Evidence::Verified { bits } => format!("verified to 2^-{bits}"),
+            Evidence::Certified => "certified".to_owned(),
+            Evidence::Proved | Evidence::Refuted => "proved".to_owned(),
+        };
+        let mut known: Vec<String> = self.powers.iter().map(evidence).collect();
+        // One word for all, or one for each number.
+        if known.iter().all(|word| *word == known[0]) {
+            known.truncate(1);
+        }
+        write!(f, ", {}", known.join(" and "))?;
+        let mut before = None;
+        for (index, power) in self.powers.iter().enumerate() {
+            if let Some(violated) = &power.refuted_by
+                && before != Some(power.order)
+            {
+                let exponent = match index {
+                    0 => String::new(),
+                    _ => superscript(index + 1),
+                };
+                write!(f, "; not {} in ε{exponent}: {violated}", power.order + 1)?;
+            }
+            before = Some(power.order);
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for ViolatedWord {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ViolatedWord {
+            word,
+            value,
+            wanted,
+            residual,
+        } = self;
+        write!(
+            f,
+            "{word} has the coefficient {value} instead of {wanted}, a difference of {residual}"
+        )
+    }
+}
+
+impl Tableau {
+    /// The order `(s₁, s₂, …)` for perturbed systems `H = H_A + εH_B` with drifts for `H_A` and kicks for `εH_B`,
+    /// decided at the first call; `None` for a method that is no splitting for separable `H`.
+    ///
+    /// The first number is looked for up to [`MAX_PERTURBED_ORDER`], the others up to [`MAX_ORDER`].
+    ///
+    /// ```
+    /// use symplectic_compiler::catalogue;
+    ///
+    /// let order = |name| Some(catalogue::find(name)?.derive().ok()?.perturbed_order()?.orders());
+    /// assert_eq!(order("saba-4"), Some(vec![8, 2]));
+    /// assert_eq!(order("stormer-verlet"), Some(vec![2, 2]));
+    /// assert_eq!(order("gauss-2"), None);
+    /// ```
+    pub fn perturbed_order(&self) -> Option<PerturbedOrder> {
+        self.perturbed
+            .get_or_init(|| {
+                // A splitting is explicit, which is known sooner.
+                let explicit = self.properties().explicit.holds;
+                explicit.then(|| perturbed_order(self)).flatten()
+            })
+            .clone()
+    }
+}
+
+fn perturbed_order(tableau: &Tableau) -> Option<PerturbedOrder> {
+    let numbers = tableau.numbers();
+    let graph = StepGraph::new(Class::Separable, tableau, &numbers);
+    let chain = graph.splitting()?;
+    let claim = tableau.certified.as_ref();
+    match &tableau.exact {
+        // There are splittings among these with one or two nodes only, which are 0 and 1.
+        Exact::Nodes(_) => {
+            let rational = |&node: &Node| {
+                let weight = graph.evaluation(node).weight.short_rational()?;
+                Some((letter(node), weight))
+            };
+            let letters: Option<Vec<_>> = chain.iter().map(rational).collect();
+            Some(of_letters(&Rationals, letters?, claim))
+        }
+        Exact::Field(pair) => {
+            let letters = letters(pair, &graph, &chain);
+            Some(of_letters(pair.algebra.field(), letters, claim))
+        }
+        Exact::Reals(pair) => {
+            let letters = letters(pair, &graph, &chain);
+            Some(of_letters(pair.algebra.field(), letters, claim))
+        }
+    }
+}
+
+/// Orders in `ε`, `ε²`, … as they are printed: `(8, 4)`.
+pub(crate) fn listed(orders: &[usize]) -> String {
+    let orders: Vec<String> = orders.iter().map(usize::to_string).collect();
+    format!("({})", orders.join(", "))
+}
+
+fn letter(node: Node) -> u8 {
+    match node {
+        Node::Force(_) => KICK,
+        _ => DRIFT,
+    }
+}
+
+/// Kicks and drifts with their fractions of the step: the weights of the stages that coincide, together.
+fn letters<F: Field>(
+    pair: &Pair<Dense<F>>,
+    graph: &StepGraph<'_>,
+    chain: &[Node],
+) -> Vec<(u8, F::Element)> {
+    let field = pair.algebra.field();
+    let fraction = |&node: &Node| {
+        let weights = match letter(node) {
+            KICK => &pair.b_tilde,
+            _ => &pair.b,
+        };
+        let stages = graph.argument(node).map_or(&[][..], |value| &value.stages);
+        let zero = field.rational(&BigRational::default());
+        let sum = stages
+            .iter()
+            .fold(zero, |sum, &stage| field.add(&sum, &weights[stage]));
+        (letter(node), sum)
+    };
+    chain.iter().map(fraction).collect()
+}
+
+fn of_letters<F: Field>(
+    field: &F,
+    letters: Vec<(u8, F::Element)>,
+    claim: Option<&Claim>,
+) -> PerturbedOrder {
+    let mut product = Product::new(field, letters);
+    let first = power_order(&mut product, 1, 1..=MAX_PERTURBED_ORDER, None);
+    let mut powers = vec![first];
+    // In degree m there is no word with m letters B but B itself.
+    let mut power = 2;
+    while let Some(before) = powers.last()
+        && (power == 2 || power < before.order)
+    {
+        let degrees = power + 1..=before.order.min(MAX_ORDER);
+        let next = power_order(&mut product, power, degrees, Some(before));
+        powers.push(next);
+        power += 1;
+    }
+    if let Some(claim) = claim {
+        for (index, found) in powers.iter_mut().enumerate() {
+            if found.order <= claim.order_in_power(index + 1)
+                && matches!(found.evidence, Evidence::Verified { .. })
+            {
+                found.evidence = Evidence::Certified;
+            }
+        }
+    }
+    // The last one is that of all higher powers.
+    while powers.len() > 2
+        && powers[powers.len() - 1].order == powers[powers.len() - 2].order
+        && let Some(last) = powers.pop()
+        && let Some(kept) = powers.last_mut()
+    {
+        kept.evidence = kept.evidence.and(last.evidence);
+    }
+    PerturbedOrder { powers }
+}
+
+/// The order in a power of `ε`, from the conditions of some degrees and what is known of the power before.
+fn power_order<F: Field>(
+    product: &mut Product<'_, F>,
+    power: usize,
+    degrees: RangeInclusive<usize>,
+    before: Option<&PowerOrder>,
+) -> PowerOrder {
+    let verified = product.field().verified_bits();
+    let known = |order, refuted_by| PowerOrder {
+        order,
+        evidence: verified.map_or(Evidence::Proved, |bits| Evidence::Verified { bits }),
+        refuted_by,
+    };
+    let limit = *degrees.end();
+    for degree in degrees {
+        if product.cost() > most_products(verified) {
+            return known(degree - 1, None);
+        }
+        if let Some(violated) = violated(product, power, degree) {
+            return known(degree - 1, Some(violated));
+        }
+    }
+    match before {
+        Some(before) if before.order <= limit => known(before.order, before.refuted_by.clone()),
+        _ => known(limit, None),
+    }
+}
+
+/// A condition with so many letters `B`, of a degree, that does not hold.
+fn violated<F: Field>(
+    product: &mut Product<'_, F>,
+    power: usize,
+    degree: usize,
+) -> Option<ViolatedWord> {
+    let field = product.field();
+    let wanted = exact_flow(degree);
+    conditions(power, degree).into_iter().find_map(|word| {
+        let value = product.coefficient(&word);
+        let residual = field.subtract(&value, &field.rational(&wanted));
+        (field.zero(&residual) == Zero::No).then(|| ViolatedWord {
+            word: text(&word),
+            value: exact_or_short(field, &value),
+            wanted: wanted.clone(),
+            residual: exact_or_short(field, &residual),
+        })
+    })
+}
+
+/// The words whose coefficients are the conditions with so many letters `B`, in a degree.
+fn conditions(power: usize, degree: usize) -> Vec<Word> {
+    match degree {
+        1 => vec![vec![DRIFT], vec![KICK]],
+        _ => split_lyndon(degree - power, power),
+    }
+}
+
+/// `1/n!`, the coefficient of a word with `n` letters in `exp(A + B)`.
+fn exact_flow(degree: usize) -> BigRational {
+    let factorial: BigInt = (1..=degree).fold(BigInt::one(), |n, k| n * k);
+    BigRational::new(BigInt::one(), factorial)
+}
+
+/// A word with powers for letters that follow one another: `A^2B`.
+fn text(word: &[u8]) -> String {
+    let run = |run: &[u8]| {
+        let name = if run[0] == DRIFT { 'A' } else { 'B' };
+        match run.len() {
+            1 => name.to_string(),
+            length => format!("{name}^{length}"),
+        }
+    };
+    word.chunk_by(PartialEq::eq).map(run).collect()
+}
+
+fn exact_or_short<F: Field>(field: &F, x: &F::Element) -> String {
+    match field.exact(x) {
+        Some(exact) if exact.chars().count() <= SHORT => exact,
+        _ => short(&field.number(x)),
+    }
+}
