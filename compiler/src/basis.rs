@@ -404,7 +404,7 @@ mod tests {
             ),
             (
                 "polynomial(99)",
-                "basis, column 1: 99 stages exceed the limit of 32",
+                "basis, column 1: 99 stages exceed the limit of 36",
             ),
             (
                 "fourier(3)",

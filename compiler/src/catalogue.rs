@@ -1,5 +1,8 @@
 //! The known methods, by name: one row a method or a family.
 
+mod compositions;
+mod decimals;
+mod perturbed;
 mod splittings;
 
 use crate::definition::Definition;
@@ -254,9 +257,16 @@ const COINCIDENCES: &[&[&str]] = &[
 
 /// All methods, in the order of the catalogue.
 pub fn entries() -> impl Iterator<Item = Entry> {
-    ROWS.iter()
-        .chain(splittings::ROWS)
-        .flat_map(|row| row.stages.iter().map(move |&stages| row.entry(stages)))
+    [
+        ROWS,
+        splittings::ROWS,
+        decimals::ROWS,
+        compositions::ROWS,
+        perturbed::ROWS,
+    ]
+    .into_iter()
+    .flatten()
+    .flat_map(|row| row.stages.iter().map(move |&stages| row.entry(stages)))
 }
 
 /// The method of this name. Case, hyphens and how the ö of Störmer is written do not matter: `StoermerVerlet` and

@@ -38,8 +38,9 @@ pub enum Key {
     Drift,
     /// `drift` where each drift of a splitting comes before the kick of the same number; `kick` otherwise.
     First,
-    /// What printed kicks and drifts claim: `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`. The coefficients are
-    /// then those of the exact method that is proved to be near the digits, see [`certify`](crate::certify).
+    /// What printed kicks and drifts claim: `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`, or printed weights of a
+    /// composition, `separable(8)`. The coefficients are then those of the exact method that is proved to be near the
+    /// digits, see [`certify`](crate::certify).
     Claim,
     /// Steps of other methods one after another, each with its fraction of the step and its own
     /// definition: `[[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]]`.
@@ -118,8 +119,9 @@ impl Key {
 /// | `basis`, `quadrature`, perhaps `weights` | rectangular Galerkin: at least as many nodes (T §2.2) |
 /// | `a`, `b`, perhaps `a_tilde`, `b_tilde` | given coefficients |
 /// | `kick`, `drift`, perhaps `first`, `symmetric` | a splitting `H = T(p) + U(q)`: kicks and drifts one after another (MW 2.6.4) |
-/// | `kick`, `drift`, `claim` | the exact splitting behind printed digits, certified |
+/// | `kick`, `drift`, `claim`, perhaps `first`, `symmetric` | the exact splitting behind printed digits, certified |
 /// | `base`, perhaps `weights`, `symmetric` | a method of the catalogue, or steps of it one after another (GNI II.4) |
+/// | `base`, `weights`, `claim`, perhaps `symmetric` | the exact composition behind printed weights, certified |
 /// | `compose` | `Φ_{γ_m h} ∘ … ∘ Φ_{γ_1 h}` (MW 2.5): a list of `[γ_k, definition of Φ_k]`, the first step first |
 ///
 /// Each may have `exchange: true` and `adjoint: true`. Every value is text in the grammar of

@@ -6,12 +6,13 @@
 /// nodes (the README has measured figures).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// The largest number of stages; 32 unless changed.
+    /// The largest number of stages; 36 unless changed, as the longest
+    /// methods of the [`catalogue`](crate::catalogue) have.
     pub stages: usize,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits { stages: 32 }
+        Limits { stages: 36 }
     }
 }

@@ -1,8 +1,10 @@
 //! Definitions by printed digits: the tableau of the exact method that is proved to be near them.
 
+use serde_json::Value;
+use symplectic_compiler::certify::{Claim, Coefficient, Splitting, certify};
 use symplectic_compiler::export::{json, toml};
 use symplectic_compiler::{
-    Definition, Evidence, Limits, Requirement, Tableau, Tier, check, refine,
+    Definition, Evidence, Limits, Requirement, Tableau, Tier, catalogue, check,
 };
 
 fn derive(text: &str) -> Tableau {
@@ -24,7 +26,7 @@ const JUMP: &str = "kick: [0.675603595979829, -0.175603595979829, -0.17560359597
 fn a_certified_method_is_that_of_the_closed_form() {
     let tableau = derive(JUMP);
     assert_eq!(tableau.tier(), Tier::Enclosure);
-    let exact = symplectic_compiler::catalogue::find("forest-ruth-1990").expect("known");
+    let exact = catalogue::find("forest-ruth-1990").expect("known");
     let exact = exact.derive().expect("derived");
     assert_eq!(tableau.to_f64(), exact.to_f64());
     let digits = |tableau: &Tableau| {
@@ -124,60 +126,99 @@ fn definitions_and_files_come_back() {
     }
 }
 
-/// The methods that are known by their decimals only: what is derived is what `refine` finds.
+/// The kicks and drifts that a paper prints lead to the method that the catalogue derives from half of them, or from the
+/// weights of a composition.
 #[test]
 fn methods_of_the_literature_are_derived() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/printed");
+    let data: Value =
+        serde_json::from_str(include_str!("data/explicit-methods.json")).expect("JSON");
     let mut count = 0;
-    for entry in std::fs::read_dir(folder).expect("the folder") {
-        let path = entry.expect("an entry").path();
-        let name = path.display().to_string();
-        let text = std::fs::read_to_string(&path).expect(&name);
-        let refinement = refine(&name, &text).expect(&name);
-        let file: ::toml::Table = text.parse().expect(&name);
-        let list = |key: &str| {
-            let list = file["printed"][key].as_array().expect(key).iter();
-            let list: Vec<&str> = list.filter_map(::toml::Value::as_str).collect();
-            list.join(", ")
+    for method in data["methods"].as_array().expect("a list") {
+        let name = method["name"].as_str().expect("a name");
+        let entry = catalogue::find(name).expect(name);
+        let Some((_, claim)) = entry.definition.split_once("claim: ") else {
+            continue;
         };
-        let (class, order) = (
-            file["claim"]["class"].as_str(),
-            file["claim"]["order"].as_integer(),
-        );
-        let (class, order) = (class.expect(&name), order.expect(&name));
-        let definition = format!(
-            "kick: [{}], drift: [{}], claim: {class}({order})",
-            list("kick"),
-            list("drift")
-        );
-        let tableau = derive(&definition);
-        assert_eq!(tableau.provenance().definition.to_string(), definition);
-        let orders = tableau.orders();
-        let found = match class {
-            "separable" => &orders.separable,
-            _ => &orders.nystrom,
+        let list = |key: &str| -> Vec<&str> {
+            let list = method[key].as_array().into_iter().flatten();
+            list.filter_map(Value::as_str).collect()
         };
-        assert_eq!(found.order, order as usize, "{name}");
-        assert_eq!(found.evidence, Evidence::Certified, "{name}");
-        assert!(found.refuted_by.is_some(), "{name}");
-        assert!(tableau.separable_properties().symplectic.holds, "{name}");
-        // The kicks, less those of no time at all.
-        let weights = tableau.numbers().b_tilde;
-        let kicks = refinement.printed().iter().filter_map(|(coefficient, _)| {
-            let decimal = refinement.certificate().decimal(*coefficient, 50);
-            let decimal = decimal.expect(&name)?.to_string();
-            let kick = matches!(
-                coefficient,
-                symplectic_compiler::certify::Coefficient::Kick(_)
+        let (kick, drift) = (list("kick"), list("drift"));
+        let order = method["order"].as_u64().expect(name) as usize;
+        let claim = match claim.split_once('(').expect(claim) {
+            ("nystrom", _) => Claim::Nystrom(order),
+            _ => Claim::Separable(order),
+        };
+        let printed = Splitting::parse(&kick, &drift).expect(name);
+        let certificate = certify(&printed, &claim).expect(name);
+        let digits = |coefficient: Coefficient| {
+            let decimal = certificate.decimal(coefficient, 50).expect(name);
+            decimal.expect(name).to_string()
+        };
+        let numbers = entry.derive().expect(name);
+        let numbers = numbers.numbers();
+        for (weights, name) in [
+            (
+                numbers.b_tilde,
+                Coefficient::Kick as fn(usize) -> Coefficient,
+            ),
+            (numbers.b, Coefficient::Drift),
+        ] {
+            let weights = weights.iter().map(|weight| weight.decimal(50).to_string());
+            let certified = (0..kick.len()).map(|index| digits(name(index)));
+            let nonzero = |digits: &String| digits != "0";
+            assert!(
+                weights.filter(nonzero).eq(certified.filter(nonzero)),
+                "{}",
+                entry.name
             );
-            (kick && decimal != "0").then_some(decimal)
-        });
-        let weights = weights.iter().map(|weight| weight.decimal(50).to_string());
-        let weights: Vec<String> = weights.filter(|weight| weight != "0").collect();
-        assert_eq!(weights, kicks.collect::<Vec<_>>(), "{name}");
+        }
         count += 1;
     }
     assert_eq!(count, 19);
+}
+
+/// Halves and whole lists, drifts first and kicks first.
+#[test]
+fn printed_halves_are_mirrored() {
+    let half = "kick: [0.675603595979829, -0.175603595979829], drift: [1.351207191959658, -1.702414383919315], \
+                symmetric: true, claim: separable(4)";
+    let drifts = |tableau: &Tableau| {
+        tableau
+            .numbers()
+            .b
+            .iter()
+            .map(|x| x.decimal(50).to_string())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(drifts(&derive(half)), drifts(&derive(JUMP)));
+    assert_eq!(derive(half).evaluations(), derive(JUMP).evaluations());
+    let position = "kick: [1.351207191959658, -1.702414383919315], drift: [0.675603595979829, -0.175603595979829], \
+                    first: drift, symmetric: true, claim: separable(4)";
+    let tableau = derive(position);
+    assert_eq!(tableau.stages(), 4);
+    assert_eq!(tableau.orders().separable.evidence, Evidence::Certified);
+    assert_eq!(
+        derive(&tableau.provenance().definition.to_string()),
+        tableau
+    );
+}
+
+/// `(10, 6, 4)` in the size of a perturbation and the step is order 4 for all separable systems.
+#[test]
+fn methods_for_perturbed_systems_have_their_last_order() {
+    for (name, order, evidence) in [
+        ("blanes-2013-aba-10-6-4", 4, Evidence::Certified),
+        ("saba-8", 2, Evidence::Certified),
+        ("saba-5", 2, Evidence::Proved),
+    ] {
+        let tableau = catalogue::find(name).and_then(|entry| entry.derive().ok());
+        let orders = tableau.expect(name).orders();
+        for found in [orders.separable, orders.nystrom] {
+            assert_eq!((found.order, found.evidence), (order, evidence), "{name}");
+            assert!(found.refuted_by.is_some(), "{name}");
+        }
+    }
 }
 
 #[test]
@@ -207,8 +248,15 @@ fn what_does_not_fit_is_told_at_its_part() {
     );
     let told = wrong("0.0]", "sqrt(2)]");
     assert!(told.contains("`sqrt(2)` is not a decimal"), "{told}");
-    let told = wrong("claim", "symmetric: true, claim");
-    assert!(told.contains("leave out `symmetric`"), "{told}");
+    let told = wrong("claim", "nodes: [0], claim");
+    assert!(told.contains("leave out `nodes`"), "{told}");
     let told = refused("claim: separable(4)");
-    assert!(told.contains("`kick` is missing"), "{told}");
+    assert!(
+        told.contains(
+            "`kick` and `drift` of a splitting, or the `weights` of a `base`, which are missing"
+        ),
+        "{told}"
+    );
+    let told = refused("kick: [0.5, 0.5], claim: separable(2)");
+    assert!(told.contains("`drift` is missing beside `kick`"), "{told}");
 }

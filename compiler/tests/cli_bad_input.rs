@@ -185,7 +185,7 @@ fn bad_expressions_are_refused_with_a_caret() {
         "polynomial(40)",
         "gauss(40)",
         expect![[r#"
-        error: 40 stages exceed the limit of 32, beyond which a derivation may run for very long; raise it with `--max-stages 40` (in the macro `max_stages: 40`)
+        error: 40 stages exceed the limit of 36, beyond which a derivation may run for very long; raise it with `--max-stages 40` (in the macro `max_stages: 40`)
          --> basis:1:1
           |
         1 | polynomial(40)

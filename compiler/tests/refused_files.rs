@@ -62,9 +62,9 @@ fn files_that_are_no_tables_are_refused_at_the_place() {
         ),
         (
             "stages = 2",
-            "stages = 33",
-            "33 stages exceed the limit of 32",
-            "33",
+            "stages = 37",
+            "37 stages exceed the limit of 36",
+            "37",
         ),
         ("b = [\"1/2\", \"0\"]\n", "", "missing field `b`", "[exact]"),
         (
@@ -444,7 +444,7 @@ fn json_of_another_shape_is_refused() {
         (
             "\"stages\": 2",
             "\"stages\": 1000",
-            "1000 stages exceed the limit of 32",
+            "1000 stages exceed the limit of 36",
         ),
         ("\"stages\": 2", "\"stage\": 2", "unknown field `stage`"),
         ("\"stages\": 2,", "", "missing field `stages`"),

@@ -31,6 +31,7 @@ impl Form {
                 Key::Base,
                 Key::Weights,
                 Key::Compose,
+                Key::Claim,
                 Key::Symmetric,
                 Key::Exchange,
                 Key::Adjoint,

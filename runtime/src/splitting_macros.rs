@@ -84,6 +84,21 @@ pub use symplectic_macros::splitting;
 ///     /// Symplectic Euler and its adjoint: Störmer–Verlet.
 ///     pub Verlet { base: symplectic-euler, weights: [1/2, adjoint(1/2)], require: [symmetric, order == 2] }
 ///
+///     /// Kahan & Li's nine steps, as they are printed.
+///     pub KahanLi6 {
+///         base: velocity-verlet,
+///         weights: [
+///             0.39216144400731413928,
+///             0.33259913678935943860,
+///             -0.70624617255763935981,
+///             0.082213596293550800230,
+///             0.79854399093482996340,
+///         ],
+///         symmetric: true,
+///         claim: separable(6),
+///         require: [order(separable) == 6],
+///     }
+///
 ///     /// A step of midpoint between two of Gauss.
 ///     pub Mixed { compose: [[1/4, base: gauss-2], [1/2, base: midpoint], [1/4, base: gauss-2]], require: [symmetric] }
 /// }
@@ -94,6 +109,7 @@ pub use symplectic_macros::splitting;
 /// | `base` | a method of the catalogue (`symplectic list`; `StoermerVerlet` and `stormer-verlet` are one name), or a definition in brackets: `[kick: [1/2, 1/2], drift: [1, 0]]` |
 /// | `weights` | the fractions `γ_i` of the step, of sum 1; `adjoint(1/2)` for a step of the adjoint. Or `triple_jump(p)`, `suzuki(p)` for an even order `p` up to 10 from a symmetric base |
 /// | `symmetric` | `true` where the weights are the first half: what is written last stands in the middle, once. The base has to be symmetric |
+/// | `claim` | `separable(8)`: the weights are digits as printed, and the method has the exact ones near them that are proved to exist, with which every symmetric base of order 2 gives that order. The base is one of kicks and drifts |
 /// | `compose` | instead of these: steps of several methods, `[[γ_1, definition], …]` |
 /// | `exchange`, `adjoint`, `require`, `accept`, `max_stages` | as in [`tableau!`](crate::tableau) |
 ///

@@ -28,14 +28,14 @@
 /// | `a`, `b` | instead of `basis`: given coefficients, `[[0, 0], [1/2, 1/2]]` and `[1/2, 1/2]` |
 /// | `a_tilde`, `b_tilde` | with them: those for momenta, or `a_tilde: symplectic_partner`; the same as for positions if left out |
 /// | `kick`, `drift`, `first`, `symmetric`, `claim` | instead of all these: a splitting, as in [`splitting!`](crate::splitting) |
-/// | `base`, `weights`, `symmetric` | instead of all these: a method of the catalogue, or a composition of steps of it, as in [`composition!`](crate::composition) |
+/// | `base`, `weights`, `symmetric`, `claim` | instead of all these: a method of the catalogue, or a composition of steps of it, as in [`composition!`](crate::composition) |
 /// | `compose` | instead of all these: steps of other methods one after another, each with its fraction of the step and its definition: `[[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]]` |
 /// | `exchange` | `true` where positions and momenta are exchanged in the end |
 /// | `adjoint` | `true` for the adjoint of the method |
 /// | `file` | instead of all these: a TOML file with a definition or a whole tableau, relative to the crate: `"tableaux/gauss-4.toml"`; it is derived and proved anew, and an edit of it rebuilds the crate |
 /// | `require` | properties that have to be proved: `symplectic`, `symmetric`, `consistent`, `equal_matrices`, `explicit`, `first_row_zero`, `stiffly_accurate`, `first_same_as_last`, `positive_weights`; `symplectic(separable)` and `symmetric(separable)` for separable systems only; orders for a class of Hamiltonians: `order >= 4`, `order(separable) == 6`, `order(nystrom) >= 4`; of splittings for perturbed systems `H_A + εH_B`, drifts for `H_A` and kicks for `εH_B`, in `ε`, `ε²`, …: `order(perturbed) >= (8, 4)`; stability on the oscillator: `p_stable`, `stable_to(14/5)`, that is for 0 < hω ≤ 14/5 |
 /// | `accept` | `verified(100 bits)`: what is verified to as many binary places satisfies a requirement too; only tableaux that no exact arithmetic holds need it |
-/// | `max_stages` | a bound on the number of stages other than 32 |
+/// | `max_stages` | a bound on the number of stages other than 36 |
 ///
 /// The coefficients are those of Leok & Zhang, *Discrete Hamiltonian variational integrators*, §4.4: with
 /// `M = [ψ_i(c_j)]` and `B_i = ∫_0^1 ψ_i`, `b = M⁻¹B`, `a = A_ψ M⁻ᵀ` where `(A_ψ)_ij = ∫_0^{c_i} ψ_j`, and

@@ -1,6 +1,6 @@
 //! What is known of the exact method behind printed digits.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -35,8 +35,27 @@ pub(super) struct Facts {
     pub distance: BigRational,
     /// The binary places with which digits are compared.
     pub digit_bits: u32,
-    pub uniqueness: Option<BigRational>,
+    pub uniqueness: Option<Uniqueness>,
     pub solution: Solution,
+}
+
+/// How far around printed values a solution is the only one, found when it is asked for.
+#[derive(Debug)]
+pub(super) struct Uniqueness {
+    proof: Proof,
+    start: Vec<BigRational>,
+    radius: OnceLock<Option<BigRational>>,
+}
+
+impl Uniqueness {
+    /// Around the values of the free unknowns.
+    pub fn around(start: Vec<BigRational>, proof: Proof) -> Self {
+        Uniqueness {
+            proof,
+            start,
+            radius: OnceLock::new(),
+        }
+    }
 }
 
 /// A coefficient that the conditions leave free, and its exact value in the certified method.
@@ -202,7 +221,13 @@ impl Certificate {
     /// How far around the printed values of the free unknowns the solution is the only one, with the others
     /// fixed; `None` if the method is exact, or if the digits are too far away for a proof.
     pub fn uniqueness_radius(&self) -> Option<&BigRational> {
-        self.0.uniqueness.as_ref()
+        let Uniqueness {
+            proof,
+            start,
+            radius,
+        } = self.0.uniqueness.as_ref()?;
+        let radius = radius.get_or_init(|| proof.unique_around(start));
+        radius.as_ref()
     }
 
     /// Whether all coefficients are known rational numbers.

@@ -99,6 +99,16 @@ impl Claim {
         }
     }
 
+    /// The order for a class of Hamiltonians that follows, at least. Kicks and drifts which sum to 1 are of order 1
+    /// for all.
+    pub(crate) fn order_for(&self, class: HamiltonianClass) -> usize {
+        match (class, self) {
+            (HamiltonianClass::General, _) => 1,
+            (HamiltonianClass::Nystrom, Claim::Nystrom(order)) => *order,
+            _ => self.order_in_power(usize::MAX),
+        }
+    }
+
     /// The same claim one order higher, if that is a single claim.
     pub(super) fn next(&self, step: usize) -> Option<Claim> {
         match self {

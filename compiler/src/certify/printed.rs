@@ -66,6 +66,15 @@ impl Printed {
         })
     }
 
+    /// The number 0.
+    pub(crate) fn zero() -> Self {
+        Printed {
+            text: "0".to_owned(),
+            value: BigRational::zero(),
+            places: Some(0),
+        }
+    }
+
     /// The text.
     pub fn text(&self) -> &str {
         &self.text

@@ -28,10 +28,14 @@ use super::linear::{Dyadics, ball, magnitude, middle, point, rescaled};
 use super::newton::{Square, largest, points};
 use crate::arithmetic::interval::Interval;
 
-/// A proof is given up if evaluating the conditions loses more binary places than this, whatever their number.
-const ROUNDING_BITS: u64 = 64;
+/// A proof is given up if evaluating the conditions loses more binary places than this, whatever their number. Those of
+/// degree 20 are divided by 20!, which is 62 places.
+const ROUNDING_BITS: u64 = 128;
 /// The binary places of a refined solution which are not known.
-pub const LOST_BITS: u32 = 96;
+pub const LOST_BITS: u32 = 160;
+
+/// The radius `2⁻⁶⁴` of the cube that is tried first.
+const SMALL_RADIUS_BITS: u32 = 64;
 
 /// A cube with exactly one solution, which a point approximates.
 #[derive(Debug, Clone)]
@@ -62,14 +66,23 @@ impl Proof {
         if delta.bits() > ROUNDING_BITS {
             return None;
         }
-        // The contraction ε grows with the radius: the largest power of two with ε ≤ 1/2 is found first, by
-        // bisection, and is then tested for what matters.
+        // The contraction ε grows with the radius. A small one will do; where it does not, the largest power of two with
+        // ε ≤ 1/2 is found by bisection.
         let half = BigInt::one() << (bits - 1);
-        let exponent = largest_power(bits, |radius| {
-            proof.contraction(&proof.center, radius) <= half
-        })?;
+        let contraction = |exponent: u32| {
+            let radius = BigInt::one() << exponent;
+            proof.contraction(&proof.center, &radius)
+        };
+        let small = bits - SMALL_RADIUS_BITS;
+        let exponent = if contraction(small) <= half {
+            small
+        } else {
+            largest_power(bits, |radius| {
+                proof.contraction(&proof.center, radius) <= half
+            })?
+        };
         let radius = BigInt::one() << exponent;
-        let image = (delta << bits) + proof.contraction(&proof.center, &radius) * &radius;
+        let image = (delta << bits) + contraction(exponent) * &radius;
         proof.radius = radius;
         (image < (&proof.radius << bits)).then_some(proof)
     }
@@ -145,7 +158,7 @@ impl Proof {
 
     /// A point with more binary places, and the enclosure of the solution around it.
     ///
-    /// The width is at most `2^(96 − bits)`.
+    /// The width is at most `2^(160 − bits)`.
     pub fn refine(&self, at: &[BigInt], from: u32, bits: u32) -> (Vec<BigInt>, Vec<Interval>) {
         let mut at = self.square.polish(at, from, bits);
         let outside = |at: &[BigInt]| {
@@ -252,7 +265,7 @@ mod tests {
     fn what_is_no_solution_is_not_proved() {
         let square = triple_jump();
         let mut center = square.solve(&near(), BITS).expect("convergence");
-        center[0] += BigInt::one() << (BITS / 2);
+        center[0] += BigInt::one() << (BITS - 60);
         assert!(Proof::new(square, center, BITS).is_none());
         // x = y = 1/3 satisfies the first condition only.
         let third = |_| middle(&Interval::enclosing(&ratio(1, 3), BITS));

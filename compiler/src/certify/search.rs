@@ -3,7 +3,7 @@
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::certificate::{Certificate, Enclosed, Facts, Fixed, Solution, distance};
+use super::certificate::{Certificate, Enclosed, Facts, Fixed, Solution, Uniqueness, distance};
 use super::conditions::{Claim, Conditions};
 use super::error::CertifyError;
 use super::newton::Square;
@@ -263,7 +263,7 @@ fn certified(
     };
     let system = square.system.clone();
     let proof = Proof::new(square, center, PROOF_BITS).ok_or_else(|| not_found(&system))?;
-    let uniqueness = proof.unique_around(&start);
+    let uniqueness = Some(Uniqueness::around(start, proof.clone()));
     if let Some(values) = recognised(&proof) {
         return Ok(certificate(fixed, uniqueness, Solution::Exact(values)));
     }

@@ -6,7 +6,7 @@ use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rounding::to_f64;
 
 /// Pivots below this share of the largest entry of their row count as zero.
-const RANK_THRESHOLD: f64 = 1e-7;
+const RANK_THRESHOLD: f64 = 1e-12;
 
 /// The unknowns to solve for, as many as there are conditions.
 ///

@@ -2,18 +2,23 @@
 
 use std::ops::Range;
 
+use super::certified::Factors;
+use super::claim;
 use super::composition::{Step, check_depth, in_text, inner, separated};
 use super::problem::{Construction, Errors, Problem, misfit, misfit_at, switch};
 use super::scheme::{MAX_ORDER, Scheme};
-use super::sequence::Sequence;
+use super::sequence::{Factor, Sequence};
 use super::sum::off_one;
+use super::tiers::outside;
 use crate::catalogue;
+use crate::certify::{Claim, Coefficient, Printed, certify_composition};
 use crate::definition::{Definition, Key, read_parts, trimmed};
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Expression, ExpressionKind, Input, parse_list, shown};
 use crate::limits::Limits;
 use crate::operations::concatenate;
 use crate::order::OrderOptions;
+use crate::properties::Evidence;
 use crate::quadrature::check_stages;
 use crate::symbolic::Constant;
 use crate::tableau::{Exact, Tableau};
@@ -41,19 +46,21 @@ struct Weights {
     /// Whether only the first half is written.
     symmetric: bool,
     components: Vec<Component>,
+    /// What is certified of printed weights.
+    claim: Option<Claim>,
 }
 
 /// A step of the base method.
 #[derive(Clone)]
 struct Component {
     /// The fraction of the whole step.
-    fraction: Constant,
+    fraction: Factor,
     /// Whether it is a step of the adjoint.
     adjoint: bool,
 }
 
 impl Based {
-    /// Reads `base`, `weights` and `symmetric`.
+    /// Reads `base`, `weights`, `symmetric` and `claim`.
     pub fn read(definition: &Definition, limits: &Limits, errors: &mut Errors) -> Option<Self> {
         let text = definition.get(Key::Base).unwrap_or_default();
         let base = match Base::read(text, limits) {
@@ -66,12 +73,21 @@ impl Based {
         let symmetric = errors.note(switch(definition, Key::Symmetric))?;
         let weights = match definition.get(Key::Weights) {
             Some(text) => {
-                let read = Weights::read(text, symmetric, &base, definition, limits);
+                let read = match definition.get(Key::Claim) {
+                    None => Weights::read(text, symmetric, &base, definition, limits),
+                    Some(_) => Weights::certified(text, symmetric, &base, definition, limits),
+                };
                 Some(errors.note(read)?)
             }
             None if symmetric => {
                 let message =
                     "`symmetric` mirrors the `weights` of a composition, which are missing";
+                errors.push(misfit(message.to_owned()));
+                return None;
+            }
+            None if definition.get(Key::Claim).is_some() => {
+                let message =
+                    "beside a `base` a `claim` is about its printed `weights`, which are missing";
                 errors.push(misfit(message.to_owned()));
                 return None;
             }
@@ -99,8 +115,16 @@ impl Based {
             if weights.symmetric {
                 parts.push((Key::Symmetric, "true".to_owned()));
             }
+            if let Some(claim) = &weights.claim {
+                parts.push((Key::Claim, claim::text(claim)));
+            }
         }
         parts
+    }
+
+    /// What is certified of the method.
+    pub fn claim(&self) -> Option<&Claim> {
+        self.weights.as_ref()?.claim.as_ref()
     }
 
     pub fn stages(&self) -> usize {
@@ -127,22 +151,22 @@ impl Based {
             } else {
                 step
             };
-            (&component.fraction, Some(step))
+            (component.fraction.clone(), Some(step))
         }))
     }
 
-    /// The steps, if there are weights.
+    /// The steps, if there are weights; those of certified weights are no constants, but there the base is a splitting.
     pub fn steps(&self) -> Option<Vec<Step>> {
         let components = &self.weights.as_ref()?.components;
         let step = |component: &Component| {
             let mut method = self.base.method.clone();
             method.adjoint ^= component.adjoint;
-            Step {
-                fraction: component.fraction.clone(),
+            Some(Step {
+                fraction: component.fraction.constant()?.clone(),
                 method,
-            }
+            })
         };
-        Some(components.iter().map(step).collect())
+        components.iter().map(step).collect()
     }
 
     /// The base method, if there are no weights.
@@ -162,9 +186,10 @@ impl Based {
         let adjoint = method.adjoint();
         let steps = weights.components.iter().map(|component| {
             let method = if component.adjoint { &adjoint } else { &method };
-            (&component.fraction, method)
+            Some((component.fraction.constant()?, method))
         });
-        concatenate(&steps.collect::<Vec<_>>())
+        let steps: Option<Vec<_>> = steps.collect();
+        concatenate(&steps.ok_or_else(outside)?)
     }
 }
 
@@ -216,6 +241,25 @@ impl Base {
         })
     }
 
+    /// Proves what certified weights need: a symmetric base of kicks and drifts.
+    fn proved_symmetric_splitting(&self, definition: &Definition) -> Result<(), Error> {
+        let refused = |message| Err(misfit_at(definition, Key::Base, message));
+        if self.method.sequence().is_none() {
+            return refused(format!(
+                "a `claim` takes a base of kicks and drifts, such as velocity-verlet, and {} is none",
+                self.text
+            ));
+        }
+        let tableau = self.symmetric("a `claim`", definition)?;
+        match tableau.separable_properties().symmetric.evidence {
+            Evidence::Proved => Ok(()),
+            _ => refused(format!(
+                "a `claim` takes a base that is proved to be symmetric, and {} is only verified to be",
+                self.text
+            )),
+        }
+    }
+
     /// The tableau, which what a composition needs of its base is decided from, if it is symmetric.
     fn symmetric(&self, what: &str, definition: &Definition) -> Result<Tableau, Error> {
         let at_base = |message: String| misfit_at(definition, Key::Base, message);
@@ -260,26 +304,70 @@ impl Weights {
         };
         let whole = 0..text.len();
         check_stages(&count.into(), limits).map_err(|kind| input.error(&whole, kind))?;
-        let components = items.iter().map(|item| Component::read(item, input));
-        let mut components: Vec<Component> = components.collect::<Result<_, _>>()?;
-        let texts: Vec<String> = components.iter().map(Component::text).collect();
+        let fractions = items.iter().map(|item| read_fraction(item, input));
+        let mut fractions: Vec<(Constant, bool)> = fractions.collect::<Result<_, _>>()?;
+        let texts: Vec<String> = fractions.iter().map(fraction_text).collect();
         if symmetric {
             base.symmetric("`symmetric`", definition)?;
-            // The mirror image of a symmetric method is the method itself.
-            components.extend_from_within(..items.len() - 1);
-            components[items.len()..].reverse();
+            mirror(&mut fractions);
         }
-        if let Some(sum) = off_one(components.iter().map(|component| &component.fraction)) {
+        if let Some(sum) = off_one(fractions.iter().map(|(fraction, _)| fraction)) {
             let mirrored = if symmetric { ", mirrored," } else { "" };
             let message = format!(
                 "the weights{mirrored} sum to {sum}, and a step makes fractions that sum to 1; give exact numbers, one of them as 1 minus the others"
             );
             return Err(misfit_at(definition, Key::Weights, message));
         }
+        let component = |(fraction, adjoint)| Component {
+            fraction: Factor::Constant(fraction),
+            adjoint,
+        };
         Ok(Weights {
             text: texts.join(", "),
             symmetric,
-            components,
+            components: fractions.into_iter().map(component).collect(),
+            claim: None,
+        })
+    }
+
+    /// Reads printed weights and certifies what is claimed of them.
+    ///
+    /// What is proved holds for any symmetric base of order 2; that the base is one for separable Hamiltonians is
+    /// proved of it.
+    fn certified(
+        text: &str,
+        symmetric: bool,
+        base: &Base,
+        definition: &Definition,
+        limits: &Limits,
+    ) -> Result<Self, Error> {
+        let claim = claim::read(definition)?;
+        let Claim::Separable(order) = claim else {
+            let message = "printed `weights` claim an order that they give every symmetric base: `separable(8)`";
+            return Err(misfit_at(definition, Key::Claim, message.to_owned()));
+        };
+        let mut printed = claim::read_printed(Key::Weights, text)?;
+        let texts: Vec<&str> = printed.iter().map(Printed::text).collect();
+        let canonical = texts.join(", ");
+        if symmetric {
+            mirror(&mut printed);
+        }
+        let name = Key::Weights.name();
+        check_stages(&printed.len().into(), limits)
+            .map_err(|kind| Input { name, text }.error(&(0..text.len()), kind))?;
+        base.proved_symmetric_splitting(definition)?;
+        let certificate = certify_composition(&printed, order)
+            .map_err(|error| claim::refused(definition, &error))?;
+        let mut factors = Factors::new(certificate);
+        let component = |index| Component {
+            fraction: factors.get(Coefficient::Weight(index)),
+            adjoint: false,
+        };
+        Ok(Weights {
+            text: canonical,
+            symmetric,
+            components: (0..printed.len()).map(component).collect(),
+            claim: Some(claim),
         })
     }
 
@@ -322,59 +410,61 @@ impl Weights {
             .fractions(start, wanted)
             .map_err(|kind| input.error(&(0..input.text.len()), kind))?;
         let component = |fraction| Component {
-            fraction,
+            fraction: Factor::Constant(fraction),
             adjoint: false,
         };
         Ok(Weights {
             text: format!("{name}({wanted})"),
             symmetric: false,
             components: fractions.into_iter().map(component).collect(),
+            claim: None,
         })
     }
 }
 
-impl Component {
-    /// Reads `1/2` or `adjoint(1/2)`.
-    fn read(item: &Expression, input: Input<'_>) -> Result<Self, Error> {
-        if let ExpressionKind::Call {
-            function,
-            arguments,
-            ..
-        } = &item.kind
-        {
-            if function == "adjoint" {
-                let [fraction] = arguments.as_slice() else {
-                    let kind = ErrorKind::Arguments {
-                        function: function.clone(),
-                        expected: "one fraction of the step".to_owned(),
-                        found: format!("{} of them", arguments.len()),
-                    };
-                    return Err(input.error(&item.span, kind));
-                };
-                return Ok(Component {
-                    fraction: fraction.constant(input)?,
-                    adjoint: true,
-                });
-            }
-            if Scheme::NAMES.contains(&function.as_str()) {
-                let kind = ErrorKind::Type {
-                    found: format!("`{function}` among others"),
-                    expected: format!("`weights: {function}(4)` alone, or a list of fractions,"),
+/// Makes the first half of a list that reads the same from both ends the whole: its last item stands in the middle.
+/// The mirror image of a symmetric method is the method itself.
+fn mirror<T: Clone>(half: &mut Vec<T>) {
+    let count = half.len();
+    half.extend_from_within(..count.saturating_sub(1));
+    half[count..].reverse();
+}
+
+/// Reads `1/2` or `adjoint(1/2)`: the fraction, and whether it is one of the adjoint.
+fn read_fraction(item: &Expression, input: Input<'_>) -> Result<(Constant, bool), Error> {
+    if let ExpressionKind::Call {
+        function,
+        arguments,
+        ..
+    } = &item.kind
+    {
+        if function == "adjoint" {
+            let [fraction] = arguments.as_slice() else {
+                let kind = ErrorKind::Arguments {
+                    function: function.clone(),
+                    expected: "one fraction of the step".to_owned(),
+                    found: format!("{} of them", arguments.len()),
                 };
                 return Err(input.error(&item.span, kind));
-            }
+            };
+            return Ok((fraction.constant(input)?, true));
         }
-        Ok(Component {
-            fraction: item.constant(input)?,
-            adjoint: false,
-        })
+        if Scheme::NAMES.contains(&function.as_str()) {
+            let kind = ErrorKind::Type {
+                found: format!("`{function}` among others"),
+                expected: format!("`weights: {function}(4)` alone, or a list of fractions,"),
+            };
+            return Err(input.error(&item.span, kind));
+        }
     }
+    Ok((item.constant(input)?, false))
+}
 
-    fn text(&self) -> String {
-        match self.adjoint {
-            true => format!("adjoint({})", self.fraction),
-            false => self.fraction.to_string(),
-        }
+/// A fraction as it is written.
+fn fraction_text((fraction, adjoint): &(Constant, bool)) -> String {
+    match adjoint {
+        true => format!("adjoint({fraction})"),
+        false => fraction.to_string(),
     }
 }
 

@@ -55,8 +55,9 @@ impl Kind {
             Key::Exchange | Key::Adjoint => true,
             Key::Weights => matches!(self, Kind::Derived | Kind::Based),
             Key::Kick | Key::Drift => matches!(self, Kind::Splitting | Kind::Certified),
-            Key::First => self == Kind::Splitting,
-            Key::Symmetric => matches!(self, Kind::Splitting | Kind::Based),
+            Key::First => matches!(self, Kind::Splitting | Kind::Certified),
+            Key::Symmetric => matches!(self, Kind::Splitting | Kind::Certified | Kind::Based),
+            Key::Claim => matches!(self, Kind::Certified | Kind::Based),
             _ => self.telling().contains(&key),
         }
     }
@@ -66,7 +67,7 @@ impl Kind {
         let name = key.name();
         match (self, key) {
             (Kind::Certified, _) => format!(
-                "with a `claim`, `kick` and `drift` are all that is printed, each drift after the kick of the same number: leave out `{name}`"
+                "a `claim` is about printed `kick` and `drift`, or about `weights` of a `base`: leave out `{name}`"
             ),
             (_, Key::First | Key::Symmetric) => format!(
                 "`{name}` goes with the `kick` and `drift` of a splitting{}: leave it out",

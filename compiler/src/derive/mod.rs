@@ -8,6 +8,7 @@
 
 mod based;
 mod certified;
+mod claim;
 mod composition;
 mod dense;
 mod kind;

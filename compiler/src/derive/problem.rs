@@ -4,7 +4,7 @@ use super::based::Based;
 use super::certified::Certified;
 use super::composition::{self, Step};
 use super::kind::Kind;
-use super::sequence::Sequence;
+use super::sequence::{Factor, Sequence};
 use super::splitting::Splitting;
 use crate::basis::Basis;
 use crate::certify::Claim;
@@ -60,11 +60,12 @@ impl Construction {
             Construction::Splitting(splitting) => Some(splitting.sequence()),
             Construction::Certified(certified) => Some(certified.sequence()),
             Construction::Based(based) => based.sequence(),
-            Construction::Composition { steps } => Sequence::joined(
-                steps
-                    .iter()
-                    .map(|step| (&step.fraction, step.method.sequence())),
-            ),
+            Construction::Composition { steps } => Sequence::joined(steps.iter().map(|step| {
+                (
+                    Factor::Constant(step.fraction.clone()),
+                    step.method.sequence(),
+                )
+            })),
             Construction::Collocation { .. }
             | Construction::Galerkin { .. }
             | Construction::Given { .. } => None,
@@ -114,7 +115,7 @@ impl Problem {
             }
             Kind::Based => Based::read(definition, limits, &mut errors).map(Construction::from),
             Kind::Splitting => {
-                Splitting::read(definition, limits, &mut errors).map(Construction::Splitting)
+                Splitting::read_exact(definition, limits, &mut errors).map(Construction::Splitting)
             }
             Kind::Certified => {
                 Certified::read(definition, limits, &mut errors).map(Construction::Certified)
@@ -183,7 +184,7 @@ impl Problem {
                 let parts = composition.parts();
                 parts.map(|(key, text)| (key, text.to_owned())).collect()
             }
-            Construction::Splitting(splitting) => splitting.parts(),
+            Construction::Splitting(splitting) => splitting.parts(ToString::to_string),
             Construction::Certified(certified) => certified.parts(),
             Construction::Based(based) => based.parts(),
         };
@@ -211,11 +212,12 @@ impl Problem {
 
     /// The order that is certified, where the definition claims one.
     pub fn certified(&self) -> Option<Claim> {
-        let Construction::Certified(certified) = &self.construction else {
-            return None;
-        };
-        // With positions and momenta exchanged, it is U that is quadratic.
-        let claim = certified.claim();
+        let claim = match &self.construction {
+            Construction::Certified(certified) => Some(certified.claim()),
+            Construction::Based(based) => based.claim(),
+            _ => None,
+        }?;
+        // With positions and momenta exchanged, it is U that is quadratic, or the perturbation of T.
         let separable = matches!(claim, Claim::Separable(_));
         (separable || !self.exchange).then(|| claim.clone())
     }

@@ -30,7 +30,8 @@ pub enum Factor {
 }
 
 impl Factor {
-    fn constant(&self) -> Option<&Constant> {
+    /// The constant, for one with a closed form.
+    pub fn constant(&self) -> Option<&Constant> {
         match self {
             Factor::Constant(constant) => Some(constant),
             Factor::Real(_) => None,
@@ -79,14 +80,12 @@ impl Sequence {
 
     /// The sequences of methods one after another, each with its fraction of the step; `None` where one of the
     /// methods is no such sequence.
-    pub fn joined<'a>(
-        parts: impl IntoIterator<Item = (&'a Constant, Option<Sequence>)>,
-    ) -> Option<Self> {
+    pub fn joined(parts: impl IntoIterator<Item = (Factor, Option<Sequence>)>) -> Option<Self> {
         let mut all: Option<Sequence> = None;
         for (fraction, part) in parts {
             let mut part = part?;
             for substep in &mut part.substeps {
-                substep.factors.push(Factor::Constant(fraction.clone()));
+                substep.factors.push(fraction.clone());
             }
             match &mut all {
                 Some(all) => all.substeps.append(&mut part.substeps),
@@ -115,8 +114,7 @@ impl Sequence {
 
     /// The number of stages, if no fraction vanishes; more than there are otherwise.
     pub fn stages(&self) -> usize {
-        let mut flows: Vec<Flow> = self.substeps.iter().map(|substep| substep.flow).collect();
-        flows.dedup();
+        let flows = self.runs();
         let first = flows.first().copied();
         let [this, other] = [self.first, self.first.other()]
             .map(|layout| (flows.len() + usize::from(first != Some(layout))).div_ceil(2));
@@ -207,5 +205,12 @@ impl Sequence {
             }
         }
         Some(merged)
+    }
+
+    /// The flows, each once where several of a kind come one after another.
+    fn runs(&self) -> Vec<Flow> {
+        let mut flows: Vec<Flow> = self.substeps.iter().map(|substep| substep.flow).collect();
+        flows.dedup();
+        flows
     }
 }

@@ -12,7 +12,7 @@ use super::problem::{Errors, misfit, misfit_at, read_vector, switch};
 use super::sequence::{Sequence, Substep};
 use super::sum::off_one;
 use crate::definition::{Definition, Key};
-use crate::error::ErrorKind;
+use crate::error::{Error, ErrorKind};
 use crate::expression::{Input, shown};
 use crate::limits::Limits;
 use crate::quadrature::check_stages;
@@ -45,62 +45,63 @@ impl Flow {
     }
 }
 
-/// A splitting as it is written.
+/// A splitting with exact coefficients.
+pub type Splitting = Lists<Constant>;
+
+/// A splitting as it is written, with coefficients of any kind.
 #[derive(Clone)]
-pub struct Splitting {
-    kick: Vec<Constant>,
-    drift: Vec<Constant>,
+pub struct Lists<T> {
+    kick: Vec<T>,
+    drift: Vec<T>,
     /// Which of the two of the same number comes first.
     first: Flow,
     /// Whether the lists are the first half of a sequence that reads the same from both ends.
     symmetric: bool,
 }
 
-impl Splitting {
-    /// Reads `kick`, `drift`, `first` and `symmetric`.
+impl<T> Lists<T> {
+    /// Reads `kick` and `drift`, each list by `read`, `first` and `symmetric`.
     ///
     /// Both lists have the same length, but where they are mirrored, the first flow may come once more than the
     /// other: it stands in the middle then.
-    pub fn read(definition: &Definition, limits: &Limits, errors: &mut Errors) -> Option<Self> {
+    pub fn read(
+        definition: &Definition,
+        limits: &Limits,
+        errors: &mut Errors,
+        read: impl Fn(Key, &str) -> Result<Vec<T>, Error>,
+    ) -> Option<Self> {
         let first = errors.note(read_first(definition));
         let symmetric = errors.note(switch(definition, Key::Symmetric));
-        let mut list = |key: Key, other: Key| match definition.get(key) {
-            Some(text) => errors.note(read_vector(key, text)),
+        let mut list = |flow: Flow| match definition.get(flow.key()) {
+            Some(text) => errors.note(read(flow.key(), text)),
             None => {
                 errors.push(misfit(format!(
                     "a splitting has `kick` and `drift`, two lists of the same length: `{}` is missing beside `{}`",
-                    key.name(),
-                    other.name()
+                    flow.key().name(),
+                    flow.other().key().name()
                 )));
                 None
             }
         };
-        let (kick, drift) = (list(Key::Kick, Key::Drift), list(Key::Drift, Key::Kick));
-        let splitting = Splitting {
+        let (kick, drift) = (list(Flow::Kick), list(Flow::Drift));
+        let lists = Lists {
             kick: kick?,
             drift: drift?,
             first: first?,
             symmetric: symmetric?,
         };
-        let valid = splitting
-            .check_lengths(definition, limits)
-            .and_then(|()| splitting.check_sums(definition));
-        errors.note(valid)?;
-        Some(splitting)
+        errors.note(lists.check_lengths(definition, limits))?;
+        Some(lists)
     }
 
-    fn list(&self, flow: Flow) -> &[Constant] {
+    fn list(&self, flow: Flow) -> &[T] {
         match flow {
             Flow::Kick => &self.kick,
             Flow::Drift => &self.drift,
         }
     }
 
-    fn check_lengths(
-        &self,
-        definition: &Definition,
-        limits: &Limits,
-    ) -> Result<(), crate::error::Error> {
+    fn check_lengths(&self, definition: &Definition, limits: &Limits) -> Result<(), Error> {
         let second = self.first.other();
         let [n, m] = [self.first, second].map(|flow| self.list(flow).len());
         if n != m && !(self.symmetric && n == m + 1) {
@@ -132,25 +133,8 @@ impl Splitting {
             })
     }
 
-    /// Both have to sum to 1, or the method has order 0.
-    fn check_sums(&self, definition: &Definition) -> Result<(), crate::error::Error> {
-        let flows = self.flows();
-        for flow in [Flow::Kick, Flow::Drift] {
-            let values = flows.iter().filter(|(kind, _)| *kind == flow);
-            if let Some(sum) = off_one(values.map(|(_, value)| *value)) {
-                let mirrored = if self.symmetric { ", mirrored," } else { "" };
-                let message = format!(
-                    "the {}s{mirrored} sum to {sum}, and a step makes them for a time of 1 together; give exact numbers, one of them as 1 minus the others",
-                    flow.key().name(),
-                );
-                return Err(misfit_at(definition, flow.key(), message));
-            }
-        }
-        Ok(())
-    }
-
     /// Kicks and drifts in the order in which they are made.
-    fn flows(&self) -> Vec<(Flow, &Constant)> {
+    pub fn flows(&self) -> Vec<(Flow, &T)> {
         let second = self.first.other();
         let mut flows = Vec::new();
         for i in 0..self.list(self.first).len() {
@@ -166,16 +150,15 @@ impl Splitting {
         flows
     }
 
-    /// What the step does.
-    pub fn sequence(&self) -> Sequence {
-        let substep = |(flow, value): (Flow, &Constant)| Substep::new(flow, value.clone());
-        Sequence::new(self.first, self.flows().into_iter().map(substep).collect())
+    /// Which of the two of the same number comes first.
+    pub fn first(&self) -> Flow {
+        self.first
     }
 
     /// The parts in canonical form.
-    pub fn parts(&self) -> Vec<(Key, String)> {
-        let list = |values: &[Constant]| {
-            let values: Vec<String> = values.iter().map(ToString::to_string).collect();
+    pub fn parts(&self, text: impl Fn(&T) -> String) -> Vec<(Key, String)> {
+        let list = |values: &[T]| {
+            let values: Vec<String> = values.iter().map(&text).collect();
             values.join(", ")
         };
         let mut parts = vec![
@@ -192,11 +175,47 @@ impl Splitting {
     }
 }
 
+impl Splitting {
+    /// Reads exact coefficients.
+    pub fn read_exact(
+        definition: &Definition,
+        limits: &Limits,
+        errors: &mut Errors,
+    ) -> Option<Self> {
+        let splitting = Splitting::read(definition, limits, errors, read_vector)?;
+        errors.note(splitting.check_sums(definition))?;
+        Some(splitting)
+    }
+
+    /// Both have to sum to 1, or the method has order 0.
+    fn check_sums(&self, definition: &Definition) -> Result<(), Error> {
+        let flows = self.flows();
+        for flow in [Flow::Kick, Flow::Drift] {
+            let values = flows.iter().filter(|(kind, _)| *kind == flow);
+            if let Some(sum) = off_one(values.map(|(_, value)| *value)) {
+                let mirrored = if self.symmetric { ", mirrored," } else { "" };
+                let message = format!(
+                    "the {}s{mirrored} sum to {sum}, and a step makes them for a time of 1 together; give exact numbers, one of them as 1 minus the others",
+                    flow.key().name(),
+                );
+                return Err(misfit_at(definition, flow.key(), message));
+            }
+        }
+        Ok(())
+    }
+
+    /// What the step does.
+    pub fn sequence(&self) -> Sequence {
+        let substep = |(flow, value): (Flow, &Constant)| Substep::new(flow, value.clone());
+        Sequence::new(self.first, self.flows().into_iter().map(substep).collect())
+    }
+}
+
 fn plural(count: usize) -> &'static str {
     if count == 1 { "" } else { "s" }
 }
 
-fn read_first(definition: &Definition) -> Result<Flow, crate::error::Error> {
+fn read_first(definition: &Definition) -> Result<Flow, Error> {
     match definition.get(Key::First) {
         None | Some("kick") => Ok(Flow::Kick),
         Some("drift") => Ok(Flow::Drift),

@@ -29,7 +29,7 @@ pub const TEXT_DIGITS: usize = 16;
 /// The most significant digits of a decimal that can be asked for.
 pub const MAX_DIGITS: usize = 10_000;
 
-/// The largest table file that is read, in bytes; one of 32 stages has about 1 MB.
+/// The largest table file that is read, in bytes; one of 36 stages has about 1 MB.
 const MAX_FILE: u64 = 64 << 20;
 
 /// The text of a table file.

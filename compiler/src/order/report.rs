@@ -7,7 +7,6 @@ use num_rational::BigRational;
 use super::class::HamiltonianClass;
 use super::tree::BicolouredTree;
 use crate::arithmetic::rounding::Decimal;
-use crate::certify::Claim;
 use crate::properties::Evidence;
 
 /// The order of a method for each class of Hamiltonians.
@@ -32,40 +31,12 @@ impl OrderReport {
     }
 }
 
-impl OrderReport {
-    /// Takes the orders that follow from a certified claim for certified, where enclosures only verify them.
-    pub(super) fn certify(&mut self, claim: &Claim) {
-        let order = claim.order();
-        // Kicks and drifts that sum to 1 are order 1 for all, and order 2 is the same for the other classes.
-        let (separable, nystrom) = match claim {
-            Claim::Separable(_) => (order, order),
-            Claim::Nystrom(_) => (order.min(2), order),
-            // The last number is the order for separable H.
-            Claim::Perturbed(orders) => {
-                let last = orders.last().copied().unwrap_or(1);
-                (last, last)
-            }
-            Claim::SymmetricBase(_) => (1, 1),
-        };
-        let bounds = [
-            (&mut self.general, 1),
-            (&mut self.separable, separable),
-            (&mut self.nystrom, nystrom),
-        ];
-        for (found, bound) in bounds {
-            if found.order <= bound && matches!(found.evidence, Evidence::Verified { .. }) {
-                found.evidence = Evidence::Certified;
-            }
-        }
-    }
-}
-
 /// The order of a method for one class of Hamiltonians.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ClassOrder {
     /// The order `p`: all conditions up to it hold.
     pub order: usize,
-    /// How it is known that they hold: proved, or verified to some binary places.
+    /// How it is known that they hold: proved, certified by a claim, or verified to some binary places.
     pub evidence: Evidence,
     /// A condition of order `p + 1` that does not hold. Where there is none, the order is at least `p`:
     /// trees of higher order were not looked at.

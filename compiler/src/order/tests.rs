@@ -13,6 +13,10 @@ use super::*;
 use crate::catalogue;
 use crate::tableau::Exact;
 
+fn order<A: StageAlgebra>(pair: &Pair<A>, options: &OrderOptions) -> OrderReport {
+    super::order(pair, options, None)
+}
+
 const QUICK: OrderOptions = OrderOptions {
     limit: 7,
     all_conditions: false,

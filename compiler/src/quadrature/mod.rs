@@ -353,8 +353,8 @@ mod tests {
                 "nodes, column 1: `gauss` takes one number, the number of stages, found 0 arguments",
             ),
             (
-                "gauss(33)",
-                "nodes, column 1: 33 stages exceed the limit of 32",
+                "gauss(37)",
+                "nodes, column 1: 37 stages exceed the limit of 36",
             ),
             (
                 "gauss(10^300)",

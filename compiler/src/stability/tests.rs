@@ -564,8 +564,10 @@ fn the_catalogue_agrees_with_floating_point_arithmetic() {
             if tableau.stages() > 8 && exact.abs() > 1e6 {
                 continue;
             }
+            // With more than 30 stages doubles lose half of them.
+            let tolerance = if tableau.stages() > 30 { 1e-4 } else { 1e-6 };
             assert!(
-                (trace - exact).abs() < 1e-6 * exact.abs().max(1.0),
+                (trace - exact).abs() < tolerance * exact.abs().max(1.0),
                 "{}: ν = {x}, traces {trace}, {exact}",
                 entry.name
             );

@@ -56,8 +56,8 @@ pub(crate) struct Arguments {
     /// Which of the two comes first: kick or drift [default: kick].
     #[arg(long, value_name = "FLOW")]
     first: Option<String>,
-    /// The order that printed kicks and drifts claim: the exact method behind their digits is derived, with a proof
-    /// that it exists. `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`.
+    /// The order that printed kicks and drifts claim, or the printed weights of a composition: the exact method behind
+    /// their digits is derived, with a proof that it exists. `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`.
     #[arg(long, value_name = "CLAIM")]
     claim: Option<String>,
     /// Steps of other methods one after another, each with its fraction of the step:

@@ -29,7 +29,7 @@ pub(crate) struct OutputOptions {
     /// Significant digits of decimals [default: 40, in text 16].
     #[arg(long, value_name = "D", value_parser = digits)]
     digits: Option<usize>,
-    /// The most stages that are derived [default: 32].
+    /// The most stages that are derived [default: 36].
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
     max_stages: Option<u16>,
 }

@@ -4,7 +4,9 @@ use num_bigint::BigInt;
 
 use super::*;
 use crate::arithmetic::rounding::Decimal;
+use crate::catalogue;
 use crate::certify::{Printed, certify_composition};
+use crate::definition::{Definition, Key};
 
 /// Some more digits than are compared.
 const DIGITS: u32 = 600;
@@ -53,28 +55,51 @@ fn digits_are_those_of_the_closed_forms() {
     assert_digits(&found, Coefficient::Kick(0), &k);
 }
 
-fn composition(half: &[&str], order: usize) -> Certificate {
-    let printed = |text: &&str| Printed::parse(text).expect(text);
-    let mut weights: Vec<Printed> = half.iter().map(printed).collect();
-    let mirrored: Vec<Printed> = weights.iter().rev().skip(1).cloned().collect();
-    weights.extend(mirrored);
+/// The list of a method of the catalogue, mirrored, with its last item once.
+fn mirrored(name: &str, key: Key) -> Vec<String> {
+    let entry = catalogue::find(name).expect(name);
+    let definition = Definition::parse(&entry.definition).expect(name);
+    let list = definition.get(key).expect(name);
+    let list = list.trim_matches(['[', ']']).split(", ");
+    let mut all: Vec<String> = list.map(str::to_owned).collect();
+    let back: Vec<String> = all.iter().rev().skip(1).cloned().collect();
+    all.extend(back);
+    all
+}
+
+fn composition(weights: &[String], order: usize) -> Certificate {
+    let printed = |text: &String| Printed::parse(text).expect(text);
+    let weights: Vec<Printed> = weights.iter().map(printed).collect();
     certify_composition(&weights, order).expect("certified")
 }
 
-/// Kahan & Li 1997, with the digits of GNI V.3.2; s15odr8 is Suzuki & Umeno's and McLachlan's SS15.
+/// Kahan & Li 1997, with the digits of GNI V.3.2, and Sofroniou & Spaletta 2005.
 #[test]
-fn compositions_of_kahan_and_li_are_certified() {
-    let six = [
-        "0.39216144400731413927925056",
-        "0.33259913678935943859974864",
-        "-0.70624617255763935980996482",
-        "0.08221359629355080023149045",
-        "0.79854399093482996339895035",
-    ];
-    let found = composition(&six, 6);
-    assert_eq!((found.conditions(), found.unknowns()), (4, 5));
-    assert!(found.distance() < &ratio(1, 10i64.pow(18)));
-    assert_eq!(found.sharp(), Some(true));
+fn compositions_are_certified() {
+    let places = |n: u32| BigRational::new(1.into(), BigInt::from(10).pow(n));
+    for (name, order, [conditions, unknowns]) in [
+        ("kahan-li-1997-s9odr6-a", 6, [4, 5]),
+        ("kahan-li-1997-s17odr8-a", 8, [8, 9]),
+        ("sofroniou-spaletta-2005-s35odr10", 10, [16, 18]),
+    ] {
+        let found = composition(&mirrored(name, Key::Weights), order);
+        assert_eq!(
+            [found.conditions(), found.unknowns()],
+            [conditions, unknowns]
+        );
+        assert!(
+            found.distance() < &places(17),
+            "{name}: {}",
+            found.distance_text()
+        );
+        assert_eq!(found.sharp(), Some(true), "{name}");
+    }
+}
+
+/// s15odr8 of Kahan & Li is Suzuki & Umeno's and McLachlan's SS15: the digits of GNI V.3.2, more than the catalogue has,
+/// are those of the exact method.
+#[test]
+fn refined_digits_are_those_of_a_longer_list() {
     let fifteen = [
         "0.74167036435061295344822780",
         "-0.40910082580003159399730010",
@@ -85,107 +110,38 @@ fn compositions_of_kahan_and_li_are_certified() {
         "0.31529309239676659663205666",
         "-0.79688793935291635401978884",
     ];
-    let found = composition(&fifteen, 8);
-    assert!(
-        found.wrong_digits().is_empty(),
-        "{:?}",
-        found.wrong_digits()
-    );
-    // The other list, refined, has these digits too.
-    let mclachlan = certificate("McLachlan1995SS15");
-    for index in 0..8 {
-        let ours = digits(&mclachlan, Coefficient::Drift(index), 40);
-        assert_eq!(ours, digits(&found, Coefficient::Weight(index), 40));
+    let mclachlan = composition(&mirrored("mclachlan-1995-ss15", Key::Weights), 8);
+    for (index, printed) in fifteen.into_iter().enumerate() {
+        let places = printed.trim_start_matches(['-', '0', '.']).len();
+        assert_eq!(
+            digits(&mclachlan, Coefficient::Weight(index), places),
+            printed
+        );
     }
-    let seventeen = [
-        "0.13020248308889008087881763",
-        "0.56116298177510838456196441",
-        "-0.38947496264484728640807860",
-        "0.15884190655515560089621075",
-        "-0.39590389413323757733623154",
-        "0.18453964097831570709183254",
-        "0.25837438768632204729397911",
-        "0.29501172360931029887096624",
-        "-0.60550853383003451169892108",
-    ];
-    let found = composition(&seventeen, 8);
-    assert!(found.distance() < &ratio(1, 10i64.pow(17)));
-}
-
-/// Sofroniou & Spaletta 2005, order 10 with 35 stages (GNI V.3.2).
-#[test]
-fn a_composition_of_order_10_is_certified() {
-    let half = [
-        "0.07879572252168641926390768",
-        "0.31309610341510852776481247",
-        "0.02791838323507806610952027",
-        "-0.22959284159390709415121340",
-        "0.13096206107716486317465686",
-        "-0.26973340565451071434460973",
-        "0.07497334315589143566613711",
-        "0.11199342399981020488957508",
-        "0.36613344954622675119314812",
-        "-0.39910563013603589787862981",
-        "0.10308739852747107731580277",
-        "0.41143087395589023782070412",
-        "-0.00486636058313526176219566",
-        "-0.39203335370863990644808194",
-        "0.05194250296244964703718290",
-        "0.05066509075992449633587434",
-        "0.04967437063972987905456880",
-        "0.04931773575959453791768001",
-    ];
-    let found = composition(&half, 10);
-    assert_eq!((found.conditions(), found.unknowns()), (16, 18));
-    assert!(
-        found.distance() < &ratio(1, 10i64.pow(17)),
-        "{}",
-        found.distance_text()
-    );
-}
-
-fn perturbed(drift: &[&str], kick: &[&str], orders: &[usize]) -> Certificate {
-    let mut kicks = vec!["0"];
-    kicks.extend(kick);
-    let splitting = Splitting::parse(&kicks, drift).expect("coefficients");
-    certify(&splitting, &Claim::Perturbed(orders.to_vec())).expect("certified")
 }
 
 /// Laskar & Robutel 2001, `SABA₂`: the nodes of Gauss, order (4, 2); and Blanes et al. 2013, `ABA(10,6,4)`.
 #[test]
 fn methods_for_perturbed_systems_are_certified() {
-    let drift = [
+    let perturbed = |kick: &[String], drift: &[String], orders: &[usize]| {
+        let claim = Claim::Perturbed(orders.to_vec());
+        certify(&splitting(kick, drift), &claim).expect("certified")
+    };
+    let texts = |list: &[&str]| list.iter().map(|&text| text.to_owned()).collect::<Vec<_>>();
+    let drift = texts(&[
         "0.21132486540518711775",
         "0.57735026918962576451",
         "0.21132486540518711775",
-    ];
-    let found = perturbed(&drift, &["0.5", "0.5"], &[4, 2]);
+    ]);
+    let found = perturbed(&texts(&["0", "0.5", "0.5"]), &drift, &[4, 2]);
     assert_digits(&found, Coefficient::Drift(1), &(root(3, 2) * ratio(1, 3)));
     assert!(satisfies(&found, &Claim::Perturbed(vec![4, 2])));
     assert!(!satisfies(&found, &Claim::Perturbed(vec![5, 2])));
     assert!(!satisfies(&found, &Claim::Perturbed(vec![4, 3])));
-    let drift = [
-        "0.03809449742241219545697532230863756534060",
-        "0.1452987161169137492940200726606637497442",
-        "0.2076276957255412507162056113249882065158",
-        "0.4359097036515261592231548624010651844006",
-        "-0.6538612258327867093807117373907094120024",
-        "0.4359097036515261592231548624010651844006",
-        "0.2076276957255412507162056113249882065158",
-        "0.1452987161169137492940200726606637497442",
-        "0.03809449742241219545697532230863756534060",
-    ];
-    let kick = [
-        "0.09585888083707521061077150377145884776921",
-        "0.2044461531429987806805077839164344779763",
-        "0.2170703479789911017143385924306336714532",
-        "-0.01737538195906509300561788011852699719871",
-        "-0.01737538195906509300561788011852699719871",
-        "0.2170703479789911017143385924306336714532",
-        "0.2044461531429987806805077839164344779763",
-        "0.09585888083707521061077150377145884776921",
-    ];
-    let found = perturbed(&drift, &kick, &[10, 6, 4]);
+    let name = "blanes-2013-aba-10-6-4";
+    let half = mirrored(name, Key::Kick);
+    let kick = [&texts(&["0"]), &half[..4], &half[3..]].concat();
+    let found = perturbed(&kick, &mirrored(name, Key::Drift), &[10, 6, 4]);
     assert_eq!((found.conditions(), found.unknowns()), (9, 9));
     assert!(
         found.distance() < &ratio(1, 10i64.pow(18)),
