@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use crate::diagnosis::FirstFault;
+use crate::diagnosis::{FirstFault, culprit};
 use crate::stage::is_finite;
 use crate::{
     Class, Coefficient, Failure, Hamiltonian, Kept, Outcome, Plan, Quantity, StageStorage, Step,
@@ -121,12 +121,19 @@ impl<L: Substeps> Plan for Composition<L> {
             } else {
                 (&mut between, &outcome)
             };
-            let start = if number == 0 {
-                Part::of_step(step)
+            let (q, q_low, p, p_low) = if number == 0 {
+                (step.q, step.q_low, step.p, step.p_low)
             } else {
-                Part::of_outcome(there)
+                (&*there.q, &*there.q_low, &*there.p, &*there.p_low)
             };
-            let part = start.step(step, substep);
+            let part = Step {
+                time: step.time + substep.start.double() * step.size,
+                size: substep.fraction.double() * step.size,
+                q,
+                q_low,
+                p,
+                p_low,
+            };
             let kept = Kept {
                 evaluation: substep.kept.evaluation && (number > 0 || kept.evaluation),
                 stages: substep.kept.stages && (number > 0 || kept.stages),
@@ -144,18 +151,10 @@ impl<L: Substeps> Plan for Composition<L> {
                 if is_finite(here.q) && is_finite(here.p) {
                     return Ok(taken);
                 }
-                let part_of_state = if is_finite(here.q) {
-                    Quantity::Momentum
-                } else {
-                    Quantity::Position
-                };
                 let mut fault = FirstFault::new(step.q.dimension());
                 L::observe::<R, V, S, _>(number, &part, system, plans, here.reborrow(), &mut fault);
-                let culprit = fault.non_finite().or_else(|| plans.non_finite());
-                Err(Failure::NonFinite {
-                    what: culprit.map_or(part_of_state, |(what, _)| what),
-                    stage: culprit.map(|(_, stage)| stage),
-                })
+                let (what, stage) = culprit(&fault, plans, here.q);
+                Err(Failure::NonFinite { what, stage })
             });
             let taken = taken.map_err(|failure| failure.after(substep.stages))?;
             work.iterations += taken.iterations;
@@ -172,47 +171,5 @@ impl<L: Substeps> Plan for Composition<L> {
         _outcome: Outcome<'_, V>,
         _witness: &mut W,
     ) {
-    }
-}
-
-/// The state that a substep starts from.
-struct Part<'a, V> {
-    q: &'a V,
-    q_low: &'a V,
-    p: &'a V,
-    p_low: &'a V,
-}
-
-impl<'a, V> Part<'a, V> {
-    #[inline(always)]
-    const fn of_step(step: &Step<'a, V>) -> Self {
-        Self {
-            q: step.q,
-            q_low: step.q_low,
-            p: step.p,
-            p_low: step.p_low,
-        }
-    }
-
-    #[inline(always)]
-    const fn of_outcome(outcome: &'a Outcome<'_, V>) -> Self {
-        Self {
-            q: outcome.q,
-            q_low: outcome.q_low,
-            p: outcome.p,
-            p_low: outcome.p_low,
-        }
-    }
-
-    #[inline(always)]
-    fn step(self, whole: &Step<'_, V>, substep: &Substep) -> Step<'a, V> {
-        Step {
-            time: whole.time + substep.start.double() * whole.size,
-            size: substep.fraction.double() * whole.size,
-            q: self.q,
-            q_low: self.q_low,
-            p: self.p,
-            p_low: self.p_low,
-        }
     }
 }

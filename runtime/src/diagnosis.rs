@@ -27,7 +27,7 @@ impl FirstFault {
     }
 
     /// The first that is not finite: what, and the number of its stage.
-    pub(crate) fn non_finite(&self) -> Option<(Quantity, usize)> {
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
         match self.found {
             Some((what, stage, Fault::NonFinite)) => Some((what, stage)),
             _ => None,
@@ -54,6 +54,20 @@ impl Witness for FirstFault {
             return;
         };
         self.found.get_or_insert((what, stage, fault));
+    }
+}
+
+/// What is to blame for a result that is not finite, of which `q1` is the position: an evaluation with its stage, in
+/// the stages or `observed`, or else the part of the result.
+pub(crate) fn culprit<V: Vector, T: StageStorage<V>>(
+    observed: &FirstFault,
+    stages: &T,
+    q1: &V,
+) -> (Quantity, Option<usize>) {
+    match observed.non_finite().or_else(|| stages.non_finite()) {
+        Some((what, stage)) => (what, Some(stage)),
+        None if is_finite(q1) => (Quantity::Momentum, None),
+        None => (Quantity::Position, None),
     }
 }
 
@@ -117,18 +131,13 @@ impl Attempt {
                 stage,
             },
             None => {
-                let part = if is_finite(q1) {
-                    Quantity::Momentum
-                } else {
-                    Quantity::Position
-                };
-                let culprit = observed.non_finite().or_else(|| stages.non_finite());
+                let (what, stage) = culprit(observed, stages, q1);
                 Error::NonFinite {
                     time,
                     step_size,
                     step,
-                    what: culprit.map_or(part, |(what, _)| what),
-                    stage: culprit.map(|(_, stage)| stage),
+                    what,
+                    stage,
                 }
             }
         }

@@ -155,9 +155,14 @@ impl Based {
         }))
     }
 
-    /// The steps, if there are weights; those of certified weights are no constants, but there the base is a splitting.
+    /// The steps, one if there are no weights; certified weights are no constants, but there the base is a splitting.
     pub fn steps(&self) -> Option<Vec<Step>> {
-        let components = &self.weights.as_ref()?.components;
+        let Some(Weights { components, .. }) = &self.weights else {
+            return Some(vec![Step {
+                fraction: Constant::one(),
+                method: self.base.method.clone(),
+            }]);
+        };
         let step = |component: &Component| {
             let mut method = self.base.method.clone();
             method.adjoint ^= component.adjoint;
@@ -167,11 +172,6 @@ impl Based {
             })
         };
         components.iter().map(step).collect()
-    }
-
-    /// The base method, if there are no weights.
-    pub fn alone(&self) -> Option<&Problem> {
-        self.weights.is_none().then_some(&self.base.method)
     }
 
     /// The coefficients.

@@ -55,16 +55,12 @@ impl Problem {
             return Ok(None);
         }
         let outer = match &self.construction {
-            Construction::Composition { steps } => steps.clone(),
-            Construction::Based(based) => match (based.steps(), based.alone()) {
-                (Some(steps), _) => steps,
-                (None, Some(method)) => vec![Step {
-                    fraction: Constant::one(),
-                    method: method.clone(),
-                }],
-                (None, None) => return Ok(None),
-            },
-            _ => return Ok(None),
+            Construction::Composition { steps } => Some(steps.clone()),
+            Construction::Based(based) => based.steps(),
+            _ => None,
+        };
+        let Some(outer) = outer else {
+            return Ok(None);
         };
         let mut steps = Vec::new();
         for Step { fraction, method } in outer {
