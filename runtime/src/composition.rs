@@ -5,8 +5,8 @@ use core::marker::PhantomData;
 use crate::diagnosis::{FirstFault, culprit};
 use crate::stage::is_finite;
 use crate::{
-    Class, Coefficient, Failure, Hamiltonian, Kept, Outcome, Plan, Quantity, StageStorage, Step,
-    Summation, Vector, Witness, Work,
+    Class, Coefficient, Failure, Hamiltonian, Kept, Outcome, Plan, Quantity, Solver, StageStorage,
+    Step, Summation, Vector, Witness, Work,
 };
 
 /// A step `Φ_{γh}` of a composition.
@@ -27,7 +27,7 @@ pub trait Substeps {
     /// The class of systems that they step.
     type Class: Class;
     /// The memory of the plans that they are taken by.
-    type Memory<V: Vector>: StageStorage<V>;
+    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>>: StageStorage<V>;
 
     /// The steps in their order.
     const SUBSTEPS: &'static [Substep];
@@ -37,25 +37,35 @@ pub trait Substeps {
     /// # Errors
     ///
     /// [`Failure`]
-    fn take<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
+    fn take<R, V, S, N>(
         number: usize,
         step: &Step<'_, V>,
         system: &S,
-        memory: &mut Self::Memory<V>,
+        memory: &mut Self::Memory<V, S, N>,
         kept: Kept,
         max_iterations: u32,
         outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>;
+    ) -> Result<Work, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>;
 
     /// [`Plan::observe`] of the substep with this number, from 0.
-    fn observe<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>, W: Witness>(
+    fn observe<R, V, S, N, W>(
         number: usize,
         step: &Step<'_, V>,
         system: &S,
-        memory: &mut Self::Memory<V>,
+        memory: &mut Self::Memory<V, S, N>,
         outcome: Outcome<'_, V>,
         witness: &mut W,
-    );
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+        W: Witness;
 }
 
 /// A composition at the level of steps: each finds its own stages, from the result of the one before.
@@ -95,17 +105,24 @@ impl<V: Vector, T: StageStorage<V>> StageStorage<V> for CompositionMemory<V, T> 
 
 impl<L: Substeps> Plan for Composition<L> {
     type Class = L::Class;
-    type Memory<V: Vector> = CompositionMemory<V, L::Memory<V>>;
+    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>> =
+        CompositionMemory<V, L::Memory<V, S, N>>;
 
     #[inline]
-    fn take<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
+    fn take<R, V, S, N>(
         step: &Step<'_, V>,
         system: &S,
-        memory: &mut Self::Memory<V>,
+        memory: &mut Self::Memory<V, S, N>,
         kept: Kept,
         max_iterations: u32,
         mut outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure> {
+    ) -> Result<Work, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
         let CompositionMemory {
             plans,
             between: [q, q_low, p, p_low],
@@ -138,7 +155,7 @@ impl<L: Substeps> Plan for Composition<L> {
                 evaluation: substep.kept.evaluation && (number > 0 || kept.evaluation),
                 stages: substep.kept.stages && (number > 0 || kept.stages),
             };
-            let taken = L::take::<R, V, S>(
+            let taken = L::take::<R, V, S, N>(
                 number,
                 &part,
                 system,
@@ -152,7 +169,14 @@ impl<L: Substeps> Plan for Composition<L> {
                     return Ok(taken);
                 }
                 let mut fault = FirstFault::new(step.q.dimension());
-                L::observe::<R, V, S, _>(number, &part, system, plans, here.reborrow(), &mut fault);
+                L::observe::<R, V, S, N, _>(
+                    number,
+                    &part,
+                    system,
+                    plans,
+                    here.reborrow(),
+                    &mut fault,
+                );
                 let (what, stage) = culprit(&fault, plans, here.q);
                 Err(Failure::NonFinite { what, stage })
             });
@@ -164,12 +188,18 @@ impl<L: Substeps> Plan for Composition<L> {
     }
 
     /// A substep that fails has been observed already.
-    fn observe<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>, W: Witness>(
+    fn observe<R, V, S, N, W>(
         _step: &Step<'_, V>,
         _system: &S,
-        _memory: &mut Self::Memory<V>,
+        _memory: &mut Self::Memory<V, S, N>,
         _outcome: Outcome<'_, V>,
         _witness: &mut W,
-    ) {
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+        W: Witness,
+    {
     }
 }

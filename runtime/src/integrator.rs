@@ -8,8 +8,9 @@ use crate::diagnosis::{Attempt, FirstFault};
 use crate::stage::is_finite;
 use crate::time::{Clock, uniform};
 use crate::{
-    Class, Compensated, Error, Failure, Hamiltonian, Kept, Method, Outcome, Plain, Plan, Quantity,
-    Retry, Scalar, StageStorage, State, States, Statistics, Step, Summation, Vector, Work,
+    Class, Compensated, Error, Failure, FixedPoint, Hamiltonian, Kept, Method, Outcome, Plain,
+    Plan, Quantity, Retry, Scalar, Solver, StageStorage, State, States, Statistics, Step,
+    Summation, Vector, Work,
 };
 #[cfg(feature = "alloc")]
 use crate::{GeneratingFunction, generating_function::generating};
@@ -50,7 +51,13 @@ type PlanOf<M, S, V> = <<S as Hamiltonian<V>>::Class as Class>::Plan<M>;
 /// # Ok(())
 /// # }
 /// ```
-pub struct Integrator<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation = Compensated> {
+pub struct Integrator<
+    M: Method,
+    S: Hamiltonian<V>,
+    V: Vector,
+    R: Summation = Compensated,
+    N: Solver<V, S> = FixedPoint,
+> {
     system: S,
     state: State<V>,
     /// What the position and the momentum of the state leave out.
@@ -59,7 +66,7 @@ pub struct Integrator<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation = Co
     next: (V, V),
     /// What they leave out.
     next_low: (V, V),
-    memory: <PlanOf<M, S, V> as Plan>::Memory<V>,
+    memory: <PlanOf<M, S, V> as Plan>::Memory<V, S, N>,
     /// What `memory` holds for the next step.
     kept: Kept,
     /// Size of the step before.
@@ -69,7 +76,7 @@ pub struct Integrator<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation = Co
     max_iterations: u32,
     retry: Retry,
     statistics: Statistics,
-    method: PhantomData<(M, R)>,
+    method: PhantomData<(M, R, N)>,
 }
 
 impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
@@ -110,7 +117,9 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V, Plain> {
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Integrator<M, S, V, R> {
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+    Integrator<M, S, V, R, N>
+{
     /// A bound on the sweeps of one step, for [`set_max_iterations`](Self::set_max_iterations). An iteration that
     /// needs more gains less than a factor of 1.2 a sweep.
     pub const DEFAULT_MAX_ITERATIONS: u32 = 200;
@@ -261,7 +270,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Integrator<M, S, V, 
     }
 
     /// An endless iterator over the states after each step. [`Iterator::take`] what is needed.
-    pub const fn states(&mut self) -> States<'_, M, S, V, R> {
+    pub const fn states(&mut self) -> States<'_, M, S, V, R, N> {
         States::new(self)
     }
 
@@ -454,7 +463,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Integrator<M, S, V, 
             stages: self.kept.stages && size == self.last_size,
             ..self.kept
         };
-        let work = <PlanOf<M, S, V> as Plan>::take::<R, V, S>(
+        let work = <PlanOf<M, S, V> as Plan>::take::<R, V, S, N>(
             &step(&self.state, &self.low, size),
             &self.system,
             &mut self.memory,
@@ -479,7 +488,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Integrator<M, S, V, 
         };
         let mut fault = FirstFault::new(attempt.dimension);
         if failure.is_none() {
-            <PlanOf<M, S, V> as Plan>::observe::<R, V, S, FirstFault>(
+            <PlanOf<M, S, V> as Plan>::observe::<R, V, S, N, FirstFault>(
                 &step(&self.state, &self.low, size),
                 &self.system,
                 &mut self.memory,
@@ -498,7 +507,9 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Integrator<M, S, V, 
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> fmt::Debug for Integrator<M, S, V, R> {
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Debug
+    for Integrator<M, S, V, R, N>
+{
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter
             .debug_struct("Integrator")

@@ -22,7 +22,7 @@
 //! | The method, as the macro emits it | [`Method`], [`StagePlan`], [`Composition`], [`Stages`], [`Coefficient`], [`combine`], [`relax`] |
 //!
 //! A [`Separable`] system with an [`Explicit`] plan is straight-line code with no solver in it; anything else
-//! goes through the fixed-point iteration of [`Coupled`]. The types of the system and of the method decide
+//! is [`Coupled`] and goes through the iteration of a [`Solver`], of [`FixedPoint`] unless told otherwise. The types of the system and of the method decide
 //! which, not a test at run time.
 //!
 //! ```
@@ -69,9 +69,11 @@ mod class;
 mod closures;
 mod coefficient;
 mod composition;
-mod coupling;
+mod coupled;
 mod diagnosis;
 mod error;
+mod explicit;
+mod fixed_point;
 #[cfg(feature = "alloc")]
 mod generating_function;
 mod hamiltonian;
@@ -80,6 +82,7 @@ mod kernel;
 mod method;
 mod retry;
 mod scalar;
+mod solver;
 mod splitting_macros;
 mod stage;
 mod state;
@@ -90,6 +93,7 @@ mod summation;
 mod tableau_macro;
 mod time;
 mod vector;
+mod work;
 
 pub use change::{Change, PartChange};
 pub use class::{Class, General, Separable};
@@ -98,8 +102,10 @@ pub use closures::{
 };
 pub use coefficient::{Coefficient, Coefficients};
 pub use composition::{Composition, CompositionMemory, Substep, Substeps};
-pub use coupling::{Coupled, Coupling, Explicit, Failure, Work};
+pub use coupled::Coupled;
 pub use error::{Error, Quantity};
+pub use explicit::Explicit;
+pub use fixed_point::FixedPoint;
 #[cfg(feature = "alloc")]
 pub use generating_function::{GeneratingFunction, generating_function};
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
@@ -113,6 +119,7 @@ pub use nalgebra;
 pub use num_traits;
 pub use retry::Retry;
 pub use scalar::Scalar;
+pub use solver::Solver;
 pub use splitting_macros::{composition, splitting};
 pub use stage::{Evaluations, StageStorage, Stages};
 pub use state::State;
@@ -122,3 +129,4 @@ pub use step::{EvaluationCounts, Kept, Outcome, Step, Witness};
 pub use summation::{Compensated, Plain, Summation};
 pub use tableau_macro::tableau;
 pub use vector::Vector;
+pub use work::{Failure, Work};

@@ -3,8 +3,8 @@
 use core::fmt::Debug;
 
 use crate::{
-    Change, Class, Coefficients, Coupling, EvaluationCounts, Failure, General, Hamiltonian, Kept,
-    Outcome, Separable, StageStorage, Step, Summation, Vector, Witness, Work,
+    Change, Class, Coefficients, EvaluationCounts, Failure, General, Hamiltonian, Kept, Outcome,
+    Separable, Solver, StageStorage, Step, Summation, Vector, Witness, Work,
 };
 
 /// A symplectic partitioned Runge–Kutta method: a type without a value, emitted from a proved tableau.
@@ -25,69 +25,56 @@ pub trait Method: Copy + Debug + 'static {
     type Separable: Plan<Class = Separable>;
 }
 
-/// How a [`Method`] goes through one step of a system of one [`Class`]: by the stages of a [`StagePlan`], or by steps of
-/// other methods in a [`Composition`](crate::Composition).
+/// How a [`Method`] goes through one step of a system of one [`Class`]: by stages in their order, [`Explicit`], by stages
+/// that a [`Solver`] finds, [`Coupled`], or by steps of other methods, [`Composition`].
+///
+/// [`Explicit`]: crate::Explicit
+/// [`Coupled`]: crate::Coupled
+/// [`Composition`]: crate::Composition
 pub trait Plan {
     /// The class of systems that it steps.
     type Class: Class;
     /// What it needs beside the state, made once and used for every step.
-    type Memory<V: Vector>: StageStorage<V>;
+    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>>: StageStorage<V>;
 
     /// Takes `step` and writes its result into `outcome`; returns what that took.
     ///
     /// # Errors
     ///
     /// [`Failure`], where the stages cannot be found. That the result is finite is left to the caller to check.
-    fn take<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
+    fn take<R, V, S, N>(
         step: &Step<'_, V>,
         system: &S,
-        memory: &mut Self::Memory<V>,
+        memory: &mut Self::Memory<V, S, N>,
         kept: Kept,
         max_iterations: u32,
         outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>;
+    ) -> Result<Work, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>;
 
     /// Takes a step that failed once more and shows its evaluations to `witness`, if they are not in `memory`.
-    fn observe<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>, W: Witness>(
+    fn observe<R, V, S, N, W>(
         step: &Step<'_, V>,
         system: &S,
-        memory: &mut Self::Memory<V>,
+        memory: &mut Self::Memory<V, S, N>,
         outcome: Outcome<'_, V>,
         witness: &mut W,
-    );
-}
-
-impl<P: StagePlan> Plan for P {
-    type Class = P::Class;
-    type Memory<V: Vector> = P::Stages<V>;
-
-    #[inline(always)]
-    fn take<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
-        step: &Step<'_, V>,
-        system: &S,
-        memory: &mut Self::Memory<V>,
-        kept: Kept,
-        max_iterations: u32,
-        outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure> {
-        P::Coupling::drive::<P, R, V, S>(step, system, memory, kept, max_iterations, outcome)
-    }
-
-    fn observe<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>, W: Witness>(
-        step: &Step<'_, V>,
-        system: &S,
-        memory: &mut Self::Memory<V>,
-        outcome: Outcome<'_, V>,
-        witness: &mut W,
-    ) {
-        P::Coupling::observe::<P, R, V, S, W>(step, system, memory, outcome, witness);
-    }
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+        W: Witness;
 }
 
 /// How the stages of a [`Method`] are found for systems of one [`Class`].
 ///
-/// A step is `begin`, then `sweep` until the stages no longer change (never where the
-/// [`Coupling`](Self::Coupling) is [`Explicit`](crate::Explicit)), then `finish`.
+/// A step is `begin`, then `sweep` until the stages no longer change (never in an [`Explicit`](crate::Explicit) plan), then
+/// `finish`.
 ///
 /// Stage `i` evaluates the force at `t0 + c_i h` and the velocity at `t0 + c̃_i h`: see
 /// [`Hamiltonian`](Hamiltonian#time). Plans of the class [`Separable`] pass for the argument that the system does not
@@ -100,8 +87,6 @@ impl<P: StagePlan> Plan for P {
 pub trait StagePlan {
     /// The class of systems that it steps.
     type Class: Class;
-    /// Whether stages have to be solved for.
-    type Coupling: Coupling;
     /// Where the stage values and evaluations are.
     type Stages<V: Vector>: StageStorage<V>;
 
@@ -121,7 +106,7 @@ pub trait StagePlan {
     /// then new evaluations there. Returns how much the stage values changed.
     ///
     /// For a separable system one half comes after the other and uses its new evaluations: the stopping rule of
-    /// [`Coupled`](crate::Coupled) relies on it.
+    /// [`FixedPoint`](crate::FixedPoint) relies on it.
     fn sweep<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
         step: &Step<'_, V>,
         system: &S,

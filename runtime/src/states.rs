@@ -3,21 +3,33 @@
 use core::fmt;
 use core::iter::FusedIterator;
 
-use crate::{Compensated, Error, Hamiltonian, Integrator, Method, State, Summation, Vector};
+use crate::{
+    Compensated, Error, FixedPoint, Hamiltonian, Integrator, Method, Solver, State, Summation,
+    Vector,
+};
 
 /// The endless iterator that [`Integrator::states`] returns.
 ///
 /// Every item is the state after one more step, or after [some more](Self::every), cloned. After an error there are no
 /// more items.
-pub struct States<'a, M: Method, S: Hamiltonian<V>, V: Vector, R: Summation = Compensated> {
-    integrator: &'a mut Integrator<M, S, V, R>,
+pub struct States<
+    'a,
+    M: Method,
+    S: Hamiltonian<V>,
+    V: Vector,
+    R: Summation = Compensated,
+    N: Solver<V, S> = FixedPoint,
+> {
+    integrator: &'a mut Integrator<M, S, V, R, N>,
     /// Steps from one state to the next.
     stride: u64,
     failed: bool,
 }
 
-impl<'a, M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> States<'a, M, S, V, R> {
-    pub(crate) const fn new(integrator: &'a mut Integrator<M, S, V, R>) -> Self {
+impl<'a, M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+    States<'a, M, S, V, R, N>
+{
+    pub(crate) const fn new(integrator: &'a mut Integrator<M, S, V, R, N>) -> Self {
         Self {
             integrator,
             stride: 1,
@@ -56,7 +68,9 @@ impl<'a, M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> States<'a, M, S,
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Iterator for States<'_, M, S, V, R> {
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>> Iterator
+    for States<'_, M, S, V, R, N>
+{
     type Item = Result<State<V>, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -69,12 +83,14 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> Iterator for States<
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> FusedIterator
-    for States<'_, M, S, V, R>
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>> FusedIterator
+    for States<'_, M, S, V, R, N>
 {
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation> fmt::Debug for States<'_, M, S, V, R> {
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Debug
+    for States<'_, M, S, V, R, N>
+{
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter
             .debug_struct("States")

@@ -4,7 +4,7 @@ use num_rational::BigRational;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{class_name, literal, of_stages};
+use super::{Plan, class_name, literal, of_stages};
 use crate::algebra::{Field, Number, Real, Reals};
 use crate::coefficients::Coefficients;
 use crate::derive::Substep;
@@ -28,10 +28,13 @@ impl Composed<'_> {
             let graph = StepGraph::new(self.class, &self.methods[k], &self.numbers[k]);
             of_stages(&graph, &names[k])
         });
+        let plans: Vec<Plan> = plans.collect();
+        let names: Vec<&TokenStream> = plans.iter().map(|plan| &plan.name).collect();
+        let codes = plans.iter().map(|plan| &plan.code);
         let class = class_name(self.class);
         // Pairs of memories of pairs.
         let memory = names.iter().rev().fold(TokenStream::new(), |rest, plan| {
-            let own = quote!(<#plan as ::symplectic::Plan>::Memory<V>);
+            let own = quote!(<#plan as ::symplectic::Plan>::Memory<V, S, N>);
             if rest.is_empty() {
                 own
             } else {
@@ -43,7 +46,7 @@ impl Composed<'_> {
             let last = (method + 1 < count).then(|| quote!(.0));
             quote!(memory #(#inner)* #last)
         };
-        let arms = |call: &dyn Fn(&Ident, TokenStream) -> TokenStream| {
+        let arms = |call: &dyn Fn(&TokenStream, TokenStream) -> TokenStream| {
             let numbers = |method: usize| {
                 let steps = self.substeps.iter().enumerate();
                 let own = steps.filter(move |(_, step)| step.method == method);
@@ -51,7 +54,7 @@ impl Composed<'_> {
             };
             // The last plan takes what is left.
             let arms = (0..count).map(|method| {
-                let call = call(&names[method], place(method));
+                let call = call(names[method], place(method));
                 if method + 1 == count {
                     quote!(_ => #call)
                 } else {
@@ -70,32 +73,35 @@ impl Composed<'_> {
         };
         let take = arms(&|plan, place| {
             let place = borrowed(place);
-            quote!(<#plan as ::symplectic::Plan>::take::<R, V, S>(step, system, #place, kept, max_iterations, outcome))
+            quote!(<#plan as ::symplectic::Plan>::take::<R, V, S, N>(step, system, #place, kept, max_iterations, outcome))
         });
         let observe = arms(&|plan, place| {
             let place = borrowed(place);
-            quote!(<#plan as ::symplectic::Plan>::observe::<R, V, S, W>(step, system, #place, outcome, witness))
+            quote!(<#plan as ::symplectic::Plan>::observe::<R, V, S, N, W>(step, system, #place, outcome, witness))
         });
         let substeps = self.list();
         let vector = quote!(V: ::symplectic::Vector);
-        let system = quote!(S: ::symplectic::Hamiltonian<V, Class = Self::Class>);
+        let solver = quote!(N: ::symplectic::Solver<V, S>);
+        let arguments = quote! {
+            R: ::symplectic::Summation, #vector, S: ::symplectic::Hamiltonian<V, Class = Self::Class>, #solver
+        };
         quote! {
-            #(#plans)*
+            #(#codes)*
 
             pub struct #name;
 
             impl ::symplectic::Substeps for #name {
                 type Class = ::symplectic::#class;
-                type Memory<#vector> = #memory;
+                type Memory<#vector, S: ::symplectic::Hamiltonian<V>, #solver> = #memory;
 
                 const SUBSTEPS: &'static [::symplectic::Substep] = &[#(#substeps),*];
 
                 #[inline]
-                fn take<R: ::symplectic::Summation, #vector, #system>(
+                fn take<#arguments>(
                     number: usize,
                     step: &::symplectic::Step<'_, V>,
                     system: &S,
-                    memory: &mut Self::Memory<V>,
+                    memory: &mut Self::Memory<V, S, N>,
                     kept: ::symplectic::Kept,
                     max_iterations: u32,
                     outcome: ::symplectic::Outcome<'_, V>,
@@ -103,11 +109,11 @@ impl Composed<'_> {
                     #take
                 }
 
-                fn observe<R: ::symplectic::Summation, #vector, #system, W: ::symplectic::Witness>(
+                fn observe<#arguments, W: ::symplectic::Witness>(
                     number: usize,
                     step: &::symplectic::Step<'_, V>,
                     system: &S,
-                    memory: &mut Self::Memory<V>,
+                    memory: &mut Self::Memory<V, S, N>,
                     outcome: ::symplectic::Outcome<'_, V>,
                     witness: &mut W,
                 ) {

@@ -57,10 +57,7 @@ pub(super) fn plans(
     Ok(names.map(|(class, name)| {
         let graph = StepGraph::new(class, tableau, numbers);
         if substeps.len() < 2 || Phases::new(&graph).coupled.is_empty() {
-            return Plan {
-                name: quote!(#name),
-                code: of_stages(&graph, name),
-            };
+            return of_stages(&graph, name);
         }
         let composed = Composed {
             class,
@@ -82,8 +79,8 @@ fn class_name(class: Class) -> Ident {
     })
 }
 
-/// The type of a plan and its implementation of `StagePlan`.
-fn of_stages(graph: &StepGraph<'_>, name: &Ident) -> TokenStream {
+/// A plan of stages: a type of this name and its implementation of `StagePlan`.
+fn of_stages(graph: &StepGraph<'_>, name: &Ident) -> Plan {
     let bodies = match Chain::new(graph) {
         Some(chain) => chain.bodies(),
         None => Stored::new(graph, Form::new(graph)).bodies(),
@@ -103,13 +100,12 @@ fn of_stages(graph: &StepGraph<'_>, name: &Ident) -> TokenStream {
     let arguments = quote! {
         step: &::symplectic::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>
     };
-    quote! {
+    let code = quote! {
         pub struct #name;
 
         #[allow(unused_variables)]
         impl ::symplectic::StagePlan for #name {
             type Class = ::symplectic::#class;
-            type Coupling = ::symplectic::#coupling;
             type Stages<V: ::symplectic::Vector> = #stages;
 
             const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
@@ -141,6 +137,10 @@ fn of_stages(graph: &StepGraph<'_>, name: &Ident) -> TokenStream {
                 #finish
             }
         }
+    };
+    Plan {
+        name: quote!(::symplectic::#coupling<#name>),
+        code,
     }
 }
 

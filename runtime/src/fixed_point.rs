@@ -1,98 +1,12 @@
-//! How the stages of a step are found: in order, or by iteration.
+//! Coupled stages by fixed-point iteration.
 
 use crate::{
-    Class, Hamiltonian, Kept, Outcome, Quantity, Scalar, Separable, StagePlan, StageStorage, Step,
-    Summation, Vector, Witness,
+    Class, Failure, Hamiltonian, Kept, Outcome, Quantity, Scalar, Separable, Solver, StagePlan,
+    StageStorage, Step, Summation, Vector, Work,
 };
 
-mod sealed {
-    pub trait Sealed {}
-    impl Sealed for super::Explicit {}
-    impl Sealed for super::Coupled {}
-}
-
-/// Whether the stages of a [`StagePlan`] have to be solved for: [`Explicit`] or [`Coupled`]. Sealed.
-pub trait Coupling: sealed::Sealed + Sized + 'static {
-    /// Takes `step` and writes its result into `outcome`; returns what that took.
-    ///
-    /// # Errors
-    ///
-    /// [`Failure`], where the stages cannot be found. That the result is finite is left to the caller to check.
-    fn drive<P, R, V, S>(
-        step: &Step<'_, V>,
-        system: &S,
-        stages: &mut P::Stages<V>,
-        kept: Kept,
-        max_iterations: u32,
-        outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
-    where
-        P: StagePlan<Coupling = Self>,
-        R: Summation,
-        V: Vector,
-        S: Hamiltonian<V, Class = P::Class>;
-
-    /// Takes a step that failed once more and shows its evaluations to `witness`, if they are not in `stages`.
-    fn observe<P, R, V, S, W>(
-        step: &Step<'_, V>,
-        system: &S,
-        stages: &mut P::Stages<V>,
-        outcome: Outcome<'_, V>,
-        witness: &mut W,
-    ) where
-        P: StagePlan<Coupling = Self>,
-        R: Summation,
-        V: Vector,
-        S: Hamiltonian<V, Class = P::Class>,
-        W: Witness;
-}
-
-/// What a step took.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Work {
-    /// Fixed-point sweeps.
-    pub iterations: u32,
-    /// Evaluations of a velocity or a force.
-    pub evaluations: u32,
-}
-
-/// Why the stages of a step could not be found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Failure {
-    /// The iteration did not settle: [`Error::NoConvergence`](crate::Error::NoConvergence).
-    NoConvergence {
-        /// Relative change in the last sweep in which it was finite.
-        residual: f64,
-        /// Sweeps made.
-        iterations: u32,
-    },
-    /// An evaluation at the start of the iteration is not finite: [`Error::NonFinite`](crate::Error::NonFinite).
-    NonFinite {
-        /// What is not finite.
-        what: Quantity,
-        /// The stage of the evaluation, from 1.
-        stage: Option<usize>,
-    },
-}
-
-impl Failure {
-    /// The same in a longer step, in which there are this many stages before.
-    pub(crate) fn after(self, stages: usize) -> Self {
-        match self {
-            Self::NonFinite { what, stage } => Self::NonFinite {
-                what,
-                stage: stage.map(|stage| stages + stage),
-            },
-            Self::NoConvergence { .. } => self,
-        }
-    }
-}
-
-/// Every stage is computed from the ones before it. There is no solver in the code of such a step.
-#[derive(Clone, Copy, Debug)]
-pub struct Explicit;
-
-/// Some stages depend on each other and are found by fixed-point iteration.
+/// Fixed-point iteration: sweep after sweep from the latest evaluations to new stages. It converges where the step size
+/// times the Lipschitz constant of the system is small.
 ///
 /// The iteration runs until it stagnates, for a tolerance above the rounding errors would let the energy drift
 /// (Hairer, McLachlan & Razakarivony, 2008). It has settled when a sweep changes nothing, or when the change has
@@ -101,8 +15,8 @@ pub struct Explicit;
 /// (see [`Class::settling`]). For a general one whose evaluations are noisier than that, it is enough that the
 /// change has shrunk a thousandfold, has not shrunk further in ten sweeps, and one half is down to rounding
 /// errors.
-#[derive(Clone, Copy, Debug)]
-pub struct Coupled;
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FixedPoint;
 
 /// Changes up to this many units of EPSILON can be rounding errors: one sweep rounds s products, s sums and the
 /// evaluations, s ≤ 20 in practice. The change also has to have stopped shrinking, so that an iteration which still
@@ -115,52 +29,11 @@ const PATIENCE: u32 = 10;
 /// What tells an iteration that came down to its noise from one that never got anywhere.
 const CONTRACTION: f64 = 1.0 / 1024.0;
 
-impl Coupling for Explicit {
-    #[inline(always)]
-    fn drive<P, R, V, S>(
-        step: &Step<'_, V>,
-        system: &S,
-        stages: &mut P::Stages<V>,
-        kept: Kept,
-        _max_iterations: u32,
-        outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
-    where
-        P: StagePlan<Coupling = Self>,
-        R: Summation,
-        V: Vector,
-        S: Hamiltonian<V, Class = P::Class>,
-    {
-        P::begin::<R, V, S>(step, system, stages, kept);
-        P::finish::<R, V, S, ()>(step, system, stages, kept, outcome, &mut ());
-        Ok(Work {
-            iterations: 0,
-            evaluations: P::EVALUATIONS.at_begin(kept) + P::EVALUATIONS.finish,
-        })
-    }
+impl<V: Vector, S: Hamiltonian<V>> Solver<V, S> for FixedPoint {
+    type Memory<P: StagePlan> = P::Stages<V>;
 
-    fn observe<P, R, V, S, W>(
-        step: &Step<'_, V>,
-        system: &S,
-        stages: &mut P::Stages<V>,
-        outcome: Outcome<'_, V>,
-        witness: &mut W,
-    ) where
-        P: StagePlan<Coupling = Self>,
-        R: Summation,
-        V: Vector,
-        S: Hamiltonian<V, Class = P::Class>,
-        W: Witness,
-    {
-        *stages = P::Stages::like(step.q);
-        P::begin::<R, V, S>(step, system, stages, Kept::default());
-        P::finish::<R, V, S, W>(step, system, stages, Kept::default(), outcome, witness);
-    }
-}
-
-impl Coupling for Coupled {
     #[inline]
-    fn drive<P, R, V, S>(
+    fn take<P, R>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut P::Stages<V>,
@@ -169,9 +42,8 @@ impl Coupling for Coupled {
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
-        P: StagePlan<Coupling = Self>,
+        P: StagePlan,
         R: Summation,
-        V: Vector,
         S: Hamiltonian<V, Class = P::Class>,
     {
         let mut work = Work::default();
@@ -188,21 +60,6 @@ impl Coupling for Coupled {
         P::finish::<R, V, S, ()>(step, system, stages, kept, outcome, &mut ());
         work.evaluations += P::EVALUATIONS.finish;
         Ok(work)
-    }
-
-    fn observe<P, R, V, S, W>(
-        _step: &Step<'_, V>,
-        _system: &S,
-        _stages: &mut P::Stages<V>,
-        _outcome: Outcome<'_, V>,
-        _witness: &mut W,
-    ) where
-        P: StagePlan<Coupling = Self>,
-        R: Summation,
-        V: Vector,
-        S: Hamiltonian<V, Class = P::Class>,
-        W: Witness,
-    {
     }
 }
 

@@ -1,0 +1,58 @@
+//! Steps whose stages come one after another.
+
+use core::marker::PhantomData;
+
+use crate::{
+    Failure, Hamiltonian, Kept, Outcome, Plan, Solver, StagePlan, StageStorage, Step, Summation,
+    Vector, Witness, Work,
+};
+
+/// The plan of a step in which every stage is computed from the ones before it. There is no solver in its code.
+#[derive(Clone, Copy, Debug)]
+pub struct Explicit<P>(PhantomData<P>);
+
+impl<P: StagePlan> Plan for Explicit<P> {
+    type Class = P::Class;
+    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>> = P::Stages<V>;
+
+    #[inline(always)]
+    fn take<R, V, S, N>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut P::Stages<V>,
+        kept: Kept,
+        _max_iterations: u32,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+    {
+        P::begin::<R, V, S>(step, system, memory, kept);
+        P::finish::<R, V, S, ()>(step, system, memory, kept, outcome, &mut ());
+        Ok(Work {
+            iterations: 0,
+            evaluations: P::EVALUATIONS.at_begin(kept) + P::EVALUATIONS.finish,
+        })
+    }
+
+    fn observe<R, V, S, N, W>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut P::Stages<V>,
+        outcome: Outcome<'_, V>,
+        witness: &mut W,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+        W: Witness,
+    {
+        *memory = P::Stages::like(step.q);
+        P::begin::<R, V, S>(step, system, memory, Kept::default());
+        P::finish::<R, V, S, W>(step, system, memory, Kept::default(), outcome, witness);
+    }
+}

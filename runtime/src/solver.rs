@@ -1,0 +1,33 @@
+//! How coupled stages are found.
+
+use core::fmt::Debug;
+
+use crate::{
+    Failure, Hamiltonian, Kept, Outcome, StagePlan, StageStorage, Step, Summation, Vector, Work,
+};
+
+/// Finds the stages of a [`Coupled`](crate::Coupled) plan, for a system `S` over the vectors `V`.
+///
+/// [`FixedPoint`](crate::FixedPoint) is the one that every system has.
+pub trait Solver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
+    /// What it needs for one plan, made once and used for every step.
+    type Memory<P: StagePlan>: StageStorage<V>;
+
+    /// Takes `step` and writes its result into `outcome`; returns what that took.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`], where the stages cannot be found. That the result is finite is left to the caller to check.
+    fn take<P, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<P>,
+        kept: Kept,
+        max_iterations: u32,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        P: StagePlan,
+        R: Summation,
+        S: Hamiltonian<V, Class = P::Class>;
+}
