@@ -44,6 +44,11 @@ pub struct PartChange {
 }
 
 impl PartChange {
+    /// A change of the size `difference` of values of the size `scale`.
+    pub(crate) const fn new(difference: f64, scale: f64) -> Self {
+        Self { difference, scale }
+    }
+
     /// Notes that a component of a stage value, `base` plus an increment, went from `old` to `new`.
     #[inline(always)]
     pub fn record<T: Scalar>(&mut self, base: T, old: T, new: T) {

@@ -14,6 +14,8 @@ mod sealed {
 pub trait Class: sealed::Sealed + Sized + 'static {
     /// The plan of the method `M` for systems of this class.
     type Plan<M: Method>: Plan<Class = Self>;
+    /// Whether the velocity depends on the momentum only, and the force on the position only.
+    const SEPARABLE: bool;
 
     /// The relative change of the stages that has to be down to rounding errors where an iteration has settled.
     ///
@@ -34,6 +36,7 @@ pub struct Separable;
 
 impl Class for General {
     type Plan<M: Method> = M::General;
+    const SEPARABLE: bool = false;
 
     #[inline]
     fn settling(change: &Change) -> f64 {
@@ -43,6 +46,7 @@ impl Class for General {
 
 impl Class for Separable {
     type Plan<M: Method> = M::Separable;
+    const SEPARABLE: bool = true;
 
     #[inline]
     fn settling(change: &Change) -> f64 {

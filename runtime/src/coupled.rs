@@ -3,15 +3,15 @@
 use core::marker::PhantomData;
 
 use crate::{
-    Failure, Hamiltonian, Kept, Outcome, Plan, Solver, StagePlan, Step, Summation, Vector, Witness,
-    Work,
+    Failure, Hamiltonian, Kept, Outcome, Plan, Solver, StageTableau, Step, Summation, Vector,
+    Witness, Work,
 };
 
 /// The plan of a step some stages of which depend on each other: a [`Solver`] finds them.
 #[derive(Clone, Copy, Debug)]
 pub struct Coupled<P>(PhantomData<P>);
 
-impl<P: StagePlan> Plan for Coupled<P> {
+impl<P: StageTableau> Plan for Coupled<P> {
     type Class = P::Class;
     type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>> = N::Memory<P>;
 

@@ -1,8 +1,10 @@
 //! Coupled stages by fixed-point iteration.
 
+use core::marker::PhantomData;
+
 use crate::{
-    Class, Failure, Hamiltonian, Kept, Outcome, Quantity, Scalar, Separable, Solver, StagePlan,
-    StageStorage, Step, Summation, Vector, Work,
+    Change, Class, EvaluationCounts, Failure, Hamiltonian, Kept, Outcome, Quantity, Scalar,
+    Separable, Solver, StagePlan, StageStorage, StageTableau, Step, Summation, Vector, Work,
 };
 
 /// Fixed-point iteration: sweep after sweep from the latest evaluations to new stages. It converges where the step size
@@ -30,9 +32,9 @@ const PATIENCE: u32 = 10;
 const CONTRACTION: f64 = 1.0 / 1024.0;
 
 impl<V: Vector, S: Hamiltonian<V>> Solver<V, S> for FixedPoint {
-    type Memory<P: StagePlan> = P::Stages<V>;
+    type Memory<P: StageTableau> = P::Stages<V>;
 
-    #[inline]
+    #[inline(always)]
     fn take<P, R>(
         step: &Step<'_, V>,
         system: &S,
@@ -42,58 +44,136 @@ impl<V: Vector, S: Hamiltonian<V>> Solver<V, S> for FixedPoint {
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
-        P: StagePlan,
+        P: StageTableau,
         R: Summation,
         S: Hamiltonian<V, Class = P::Class>,
     {
-        let mut work = Work::default();
-        let mut solved = solve::<P, R, V, S>(step, system, stages, kept, max_iterations, &mut work);
-        if solved.is_err() && kept.stages {
-            // What the step before was like may say nothing about this one: once more without it.
-            let anew = Kept {
-                stages: false,
-                ..kept
-            };
-            solved = solve::<P, R, V, S>(step, system, stages, anew, max_iterations, &mut work);
-        }
-        solved?;
-        P::finish::<R, V, S, ()>(step, system, stages, kept, outcome, &mut ());
-        work.evaluations += P::EVALUATIONS.finish;
-        Ok(work)
+        by_stages::<P, R, V, S>(step, system, stages, kept, max_iterations, outcome)
     }
 }
 
-/// Finds the coupled stages, and adds to `work` what that took.
-#[inline(always)]
-fn solve<P, R, V, S>(
+/// Takes a step stage by stage; returns what it took.
+#[inline]
+pub(crate) fn by_stages<P, R, V, S>(
     step: &Step<'_, V>,
     system: &S,
     stages: &mut P::Stages<V>,
     kept: Kept,
     max_iterations: u32,
-    work: &mut Work,
-) -> Result<(), Failure>
+    outcome: Outcome<'_, V>,
+) -> Result<Work, Failure>
 where
     P: StagePlan,
     R: Summation,
     V: Vector,
     S: Hamiltonian<V, Class = P::Class>,
 {
-    P::begin::<R, V, S>(step, system, stages, kept);
-    work.evaluations += P::EVALUATIONS.at_begin(kept);
-    if let Some((what, stage)) = stages.non_finite() {
+    let mut sweeps = ByStages::<P, R, V, S> {
+        step,
+        system,
+        stages: &mut *stages,
+        sums: PhantomData,
+    };
+    let mut work = settle::<P::Class, V::Scalar>(&mut sweeps, kept, max_iterations)?;
+    P::finish::<R, V, S, ()>(step, system, stages, kept, outcome, &mut ());
+    work.evaluations += P::EVALUATIONS.finish;
+    Ok(work)
+}
+
+/// Stages that are iterated.
+pub(crate) trait Sweeps {
+    /// How many evaluations they make.
+    fn evaluations(&self) -> EvaluationCounts;
+
+    /// Starting values; evaluations that are made once.
+    fn begin(&mut self, kept: Kept);
+
+    /// The first evaluation that is not finite although its argument is.
+    fn non_finite(&self) -> Option<(Quantity, usize)>;
+
+    /// One sweep over all of them.
+    fn sweep(&mut self) -> Change;
+}
+
+/// The stages of a plan, one after another.
+struct ByStages<'a, P: StagePlan, R, V: Vector, S> {
+    step: &'a Step<'a, V>,
+    system: &'a S,
+    stages: &'a mut P::Stages<V>,
+    sums: PhantomData<R>,
+}
+
+impl<P, R, V, S> Sweeps for ByStages<'_, P, R, V, S>
+where
+    P: StagePlan,
+    R: Summation,
+    V: Vector,
+    S: Hamiltonian<V, Class = P::Class>,
+{
+    #[inline(always)]
+    fn evaluations(&self) -> EvaluationCounts {
+        P::EVALUATIONS
+    }
+
+    #[inline(always)]
+    fn begin(&mut self, kept: Kept) {
+        P::begin::<R, V, S>(self.step, self.system, self.stages, kept);
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.stages.non_finite()
+    }
+
+    #[inline(always)]
+    fn sweep(&mut self) -> Change {
+        P::sweep::<R, V, S>(self.step, self.system, self.stages)
+    }
+}
+
+/// Iterates until the stages have settled; returns what that took.
+#[inline(always)]
+pub(crate) fn settle<C: Class, T: Scalar>(
+    sweeps: &mut impl Sweeps,
+    kept: Kept,
+    max_iterations: u32,
+) -> Result<Work, Failure> {
+    let mut work = Work::default();
+    let mut solved = solve::<C, T>(sweeps, kept, max_iterations, &mut work);
+    if solved.is_err() && kept.stages {
+        // What the step before was like may say nothing about this one: once more without it.
+        let anew = Kept {
+            stages: false,
+            ..kept
+        };
+        solved = solve::<C, T>(sweeps, anew, max_iterations, &mut work);
+    }
+    solved.map(|()| work)
+}
+
+/// Finds the coupled stages, and adds to `work` what that took.
+#[inline(always)]
+fn solve<C: Class, T: Scalar>(
+    sweeps: &mut impl Sweeps,
+    kept: Kept,
+    max_iterations: u32,
+    work: &mut Work,
+) -> Result<(), Failure> {
+    sweeps.begin(kept);
+    let counts = sweeps.evaluations();
+    work.evaluations += counts.at_begin(kept);
+    if let Some((what, stage)) = sweeps.non_finite() {
         return Err(Failure::NonFinite {
             what,
             stage: Some(stage),
         });
     }
-    let solved = iterate::<P, R, V, S>(step, system, stages, max_iterations);
+    let solved = iterate::<C, T>(sweeps, max_iterations);
     let iterations = match solved {
         Ok(iterations) | Err(Failure::NoConvergence { iterations, .. }) => iterations,
         Err(Failure::NonFinite { .. }) => 1,
     };
     work.iterations += iterations;
-    work.evaluations += iterations * P::EVALUATIONS.sweep;
+    work.evaluations += iterations * counts.sweep;
     solved.map(|_| ())
 }
 
@@ -102,25 +182,17 @@ where
 /// A change that grows ends nothing: where the stages are many and their coupling is far from normal, it can
 /// grow for many sweeps and vanish after all. A true divergence ends at the bound or overflows.
 #[inline]
-fn iterate<P, R, V, S>(
-    step: &Step<'_, V>,
-    system: &S,
-    stages: &mut P::Stages<V>,
+fn iterate<C: Class, T: Scalar>(
+    sweeps: &mut impl Sweeps,
     max_iterations: u32,
-) -> Result<u32, Failure>
-where
-    P: StagePlan,
-    R: Summation,
-    V: Vector,
-    S: Hamiltonian<V, Class = P::Class>,
-{
-    let rounding = ROUNDING * V::Scalar::EPSILON;
+) -> Result<u32, Failure> {
+    let rounding = ROUNDING * T::EPSILON;
     let mut smallest = f64::INFINITY;
     let mut largest = 0.0_f64;
     let mut last = f64::INFINITY;
     let mut idle = 0;
     for iteration in 1..=max_iterations {
-        let change = P::sweep::<R, V, S>(step, system, stages);
+        let change = sweeps.sweep();
         let residual = change.residual();
         if residual.is_nan() {
             // In the first sweep the system has been evaluated at the start and next to it: that the state is
@@ -136,7 +208,7 @@ where
             } else {
                 Quantity::Momentum
             };
-            let culprit = stages.non_finite();
+            let culprit = sweeps.non_finite();
             return Err(Failure::NonFinite {
                 what: culprit.map_or(part, |(what, _)| what),
                 stage: culprit.map(|(_, stage)| stage),
@@ -146,7 +218,7 @@ where
         smallest = smallest.min(residual);
         largest = largest.max(residual);
         let exact = residual == 0.0;
-        let rounded = idle > 0 && P::Class::settling(&change) <= rounding;
+        let rounded = idle > 0 && C::settling(&change) <= rounding;
         let noisy = idle >= PATIENCE
             && smallest <= CONTRACTION * largest
             && Separable::settling(&change) <= rounding;

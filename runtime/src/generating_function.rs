@@ -6,12 +6,13 @@ use core::marker::PhantomData;
 use num_traits::Zero;
 
 use crate::diagnosis::{Attempt, FirstFault};
+use crate::fixed_point::by_stages;
 use crate::integrator::{check_state, check_step_size};
 use crate::stage::{first_mismatch, first_non_finite, is_finite};
 use crate::{
-    Change, Class, Coefficient, Coefficients, Error, EvaluationCounts, FixedPoint, Hamiltonian,
-    Integrator, Kept, Method, Outcome, PartChange, Plain, Quantity, Scalar, Solver, StagePlan,
-    StageStorage, Step, Summation, Vector, Witness,
+    Change, Class, Coefficient, Coefficients, Error, EvaluationCounts, Hamiltonian, Integrator,
+    Kept, Method, Outcome, PartChange, Plain, Quantity, Scalar, StagePlan, StageStorage, Step,
+    Summation, Vector, Witness,
 };
 
 /// What [`generating_function`] returns: the value at `(q0, p1)`, and the step that it generates.
@@ -39,7 +40,7 @@ pub struct GeneratingFunction<V: Vector> {
 /// Q_i = q0 + h Σ_j a_ij velocity_j      P_i = p1 − h Σ_j (b̃_j − ã_ij) force_j
 /// ```
 ///
-/// by the iteration of [`FixedPoint`], with its stopping rule. `p0` and `q1` come from these stages; that they are
+/// by the iteration of [`FixedPoint`](crate::FixedPoint), with its stopping rule. `p0` and `q1` come from these stages; that they are
 /// the derivatives is what symplecticity says. **It holds for symplectic methods only**, `b = b̃` and
 /// `b_i ã_ij + b̃_j a_ji = b_i b̃_j`, which is every method that the macro derives; for another one that is written by
 /// hand the value means nothing.
@@ -116,7 +117,7 @@ pub(crate) fn generating<M: Method, S: Hamiltonian<V>, V: Vector>(
     let mut stages = Unknowns::<M, V>::like(step.q);
     let zeros = || step.q.zeros_like();
     let (mut q1, mut p0) = (zeros(), zeros());
-    let outcome = <FixedPoint as Solver<V, S>>::take::<TypeTwo<M, S::Class>, Plain>(
+    let outcome = by_stages::<TypeTwo<M, S::Class>, Plain, V, S>(
         step,
         system,
         &mut stages,

@@ -8,9 +8,9 @@ use crate::diagnosis::{Attempt, FirstFault};
 use crate::stage::is_finite;
 use crate::time::{Clock, uniform};
 use crate::{
-    Class, Compensated, Error, Failure, FixedPoint, Hamiltonian, Kept, Method, Outcome, Plain,
-    Plan, Quantity, Retry, Scalar, Solver, StageStorage, State, States, Statistics, Step,
-    Summation, Vector, Work,
+    Class, Compensated, Error, Failure, FixedPoint, Hamiltonian, HamiltonianInLanes, InLanes, Kept,
+    Method, Outcome, Plain, Plan, Quantity, Retry, Scalar, Solver, StageStorage, State, States,
+    Statistics, Step, Summation, Vector, Work,
 };
 #[cfg(feature = "alloc")]
 use crate::{GeneratingFunction, generating_function::generating};
@@ -117,6 +117,44 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V, Plain> {
     }
 }
 
+impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
+    Integrator<M, S, V, R>
+{
+    /// The same integrator with coupled stages side by side, [`InLanes`]: for a system that is generic over its
+    /// scalar, and vectors with few components. An explicit method stays what it is.
+    ///
+    /// ```
+    /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
+    /// use symplectic::nalgebra::SVector;
+    /// use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, State};
+    ///
+    /// struct Kepler;
+    ///
+    /// impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
+    ///     fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+    ///         *velocity = *p;
+    ///     }
+    ///
+    ///     fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    ///         let square = q.dot(q);
+    ///         *force = -q * (square * square.sqrt()).recip();
+    ///     }
+    /// }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let start = || State::new(0.0, SVector::from([0.4, 0.0]), SVector::from([0.0, 2.0]));
+    /// let mut one_by_one = Integrator::new(Gauss4, Kepler, start(), 0.05)?;
+    /// let mut side_by_side = Integrator::new(Gauss4, Kepler, start(), 0.05)?.in_lanes();
+    /// // The same to the last bit.
+    /// assert_eq!(one_by_one.integrate_to(10.0)?, side_by_side.integrate_to(10.0)?);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn in_lanes(self) -> Integrator<M, S, V, R, InLanes> {
+        self.with_solver(InLanes)
+    }
+}
+
 impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     Integrator<M, S, V, R, N>
 {
@@ -154,6 +192,26 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             statistics: Statistics::default(),
             method: PhantomData,
         })
+    }
+
+    /// The same integrator with another [`Solver`] for coupled stages: from here on, with the counts so far.
+    pub fn with_solver<O: Solver<V, S>>(self, _solver: O) -> Integrator<M, S, V, R, O> {
+        Integrator {
+            memory: StageStorage::like(&self.state.q),
+            kept: Kept::default(),
+            system: self.system,
+            state: self.state,
+            low: self.low,
+            next: self.next,
+            next_low: self.next_low,
+            last_size: self.last_size,
+            clock: self.clock,
+            step_size: self.step_size,
+            max_iterations: self.max_iterations,
+            retry: self.retry,
+            statistics: self.statistics,
+            method: PhantomData,
+        }
     }
 
     /// Takes one step and returns the state after it.

@@ -164,7 +164,7 @@ pub fn advance_in_place<R: Summation, V: Vector>(
     );
     let evaluation = &evaluation.as_slice()[..n];
     for i in 0..n {
-        let (high, rest) = add::<R, _, 1>(out[i], low[i], |_| factor * evaluation[i]);
+        let (high, rest) = add::<R, _>(out[i], low[i], 1, |_| factor * evaluation[i]);
         out[i] = high;
         if R::COMPENSATED {
             low[i] = rest;
@@ -259,7 +259,7 @@ fn sum<R: Summation, V: Vector, const N: usize>(
     );
     let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
     for i in 0..n {
-        let (high, rest) = add::<R, _, N>(base[i], low[i], |j| term(i, j));
+        let (high, rest) = add::<R, _>(base[i], low[i], N, |j| term(i, j));
         out[i] = high;
         if R::COMPENSATED {
             out_low[i] = rest;
@@ -267,25 +267,26 @@ fn sum<R: Summation, V: Vector, const N: usize>(
     }
 }
 
-/// `base + low + Σ_j term(j)` as the nearest number and the rest.
+/// `base + low + Σ_j term(j)`, of so many terms, as the nearest number and the rest.
 #[inline(always)]
-fn add<R: Summation, T: Scalar, const N: usize>(
+pub(crate) fn add<R: Summation, T: Scalar>(
     base: T,
     low: T,
+    count: usize,
     term: impl Fn(usize) -> T,
 ) -> (T, T) {
-    if N == 0 {
+    if count == 0 {
         return (base, low);
     }
     let mut sum = term(0);
     if !R::COMPENSATED {
-        for j in 1..N {
+        for j in 1..count {
             sum += term(j);
         }
         return (base + sum, low);
     }
     let mut rest = low;
-    for j in 1..N {
+    for j in 1..count {
         let (next, error) = two_sum(sum, term(j));
         sum = next;
         rest += error;

@@ -77,14 +77,17 @@ mod fixed_point;
 #[cfg(feature = "alloc")]
 mod generating_function;
 mod hamiltonian;
+mod in_lanes;
 mod integrator;
 mod kernel;
+mod lanes;
 mod method;
 mod retry;
 mod scalar;
 mod solver;
 mod splitting_macros;
 mod stage;
+mod stage_tableau;
 mod state;
 mod states;
 mod statistics;
@@ -109,11 +112,13 @@ pub use fixed_point::FixedPoint;
 #[cfg(feature = "alloc")]
 pub use generating_function::{GeneratingFunction, generating_function};
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
+pub use in_lanes::{InLanes, LaneStages};
 pub use integrator::Integrator;
 pub use kernel::{
     advance, advance_in_place, combine, copy, copy_to, factors, relax, scale, total, transform,
     weighted_total, weights,
 };
+pub use lanes::{F64x4, F64x8, HamiltonianInLanes, Lanes};
 pub use method::{Method, Plan, StagePlan};
 pub use nalgebra;
 pub use num_traits;
@@ -122,6 +127,7 @@ pub use scalar::Scalar;
 pub use solver::Solver;
 pub use splitting_macros::{composition, splitting};
 pub use stage::{Evaluations, StageStorage, Stages};
+pub use stage_tableau::{HalfTableau, StageTableau};
 pub use state::State;
 pub use states::States;
 pub use statistics::Statistics;

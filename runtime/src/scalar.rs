@@ -86,8 +86,22 @@ pub trait Scalar:
     fn sqrt(self) -> Self;
     /// 1/x.
     fn recip(self) -> Self;
-    /// xⁿ.
-    fn powi(self, exponent: i32) -> Self;
+    /// xⁿ, by squaring: the same products in the same order whatever the scalar.
+    #[inline]
+    fn powi(self, exponent: i32) -> Self {
+        let (mut rest, mut square) = (exponent.unsigned_abs(), self);
+        let mut power = Self::one();
+        while rest > 0 {
+            if rest % 2 == 1 {
+                power *= square;
+            }
+            rest /= 2;
+            if rest > 0 {
+                square *= square;
+            }
+        }
+        if exponent < 0 { power.recip() } else { power }
+    }
     /// |x|, whose derivative is the sign of x.
     fn abs(self) -> Self;
     /// Exponential function.
@@ -149,11 +163,6 @@ macro_rules! float {
             #[inline]
             fn magnitude(self) -> f64 {
                 $into(self.abs())
-            }
-
-            #[inline]
-            fn powi(self, exponent: i32) -> Self {
-                Float::powi(self, exponent)
             }
 
             #[inline]

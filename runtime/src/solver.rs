@@ -3,7 +3,7 @@
 use core::fmt::Debug;
 
 use crate::{
-    Failure, Hamiltonian, Kept, Outcome, StagePlan, StageStorage, Step, Summation, Vector, Work,
+    Failure, Hamiltonian, Kept, Outcome, StageStorage, StageTableau, Step, Summation, Vector, Work,
 };
 
 /// Finds the stages of a [`Coupled`](crate::Coupled) plan, for a system `S` over the vectors `V`.
@@ -11,7 +11,7 @@ use crate::{
 /// [`FixedPoint`](crate::FixedPoint) is the one that every system has.
 pub trait Solver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
     /// What it needs for one plan, made once and used for every step.
-    type Memory<P: StagePlan>: StageStorage<V>;
+    type Memory<P: StageTableau>: StageStorage<V>;
 
     /// Takes `step` and writes its result into `outcome`; returns what that took.
     ///
@@ -27,7 +27,7 @@ pub trait Solver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
-        P: StagePlan,
+        P: StageTableau,
         R: Summation,
         S: Hamiltonian<V, Class = P::Class>;
 }

@@ -32,6 +32,8 @@ pub trait Vector: Clone + Debug + PartialEq + 'static {
     fn as_mut_slice(&mut self) -> &mut [Self::Scalar];
     /// The zero vector of the same dimension.
     fn zeros_like(&self) -> Self;
+    /// The zero vector of the same dimension over another scalar.
+    fn zeros_with<T: Scalar>(&self) -> Self::With<T>;
 }
 
 impl<T: Scalar, const N: usize> Vector for SVector<T, N> {
@@ -55,7 +57,12 @@ impl<T: Scalar, const N: usize> Vector for SVector<T, N> {
 
     #[inline]
     fn zeros_like(&self) -> Self {
-        Self::from_element(T::zero())
+        self.zeros_with()
+    }
+
+    #[inline]
+    fn zeros_with<U: Scalar>(&self) -> SVector<U, N> {
+        SVector::from_element(U::zero())
     }
 }
 
@@ -81,6 +88,11 @@ impl<T: Scalar> Vector for nalgebra::DVector<T> {
 
     #[inline]
     fn zeros_like(&self) -> Self {
-        Self::from_element(self.len(), T::zero())
+        self.zeros_with()
+    }
+
+    #[inline]
+    fn zeros_with<U: Scalar>(&self) -> nalgebra::DVector<U> {
+        nalgebra::DVector::from_element(self.len(), U::zero())
     }
 }

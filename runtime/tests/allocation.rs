@@ -56,7 +56,11 @@ impl<T: Scalar> Vector for Counted<T> {
     }
 
     fn zeros_like(&self) -> Self {
-        Self::new(vec![T::zero(); self.0.len()])
+        self.zeros_with()
+    }
+
+    fn zeros_with<U: Scalar>(&self) -> Counted<U> {
+        Counted::new(vec![U::zero(); self.0.len()])
     }
 }
 

@@ -3,6 +3,7 @@
 mod chain;
 mod composed;
 mod form;
+mod matrices;
 mod stored;
 
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -81,9 +82,12 @@ fn class_name(class: Class) -> Ident {
 
 /// A plan of stages: a type of this name and its implementation of `StagePlan`.
 fn of_stages(graph: &StepGraph<'_>, name: &Ident) -> Plan {
-    let bodies = match Chain::new(graph) {
-        Some(chain) => chain.bodies(),
-        None => Stored::new(graph, Form::new(graph)).bodies(),
+    let (bodies, matrices) = match Chain::new(graph) {
+        Some(chain) => (chain.bodies(), None),
+        None => {
+            let stored = Stored::new(graph, Form::new(graph));
+            (stored.bodies(), stored.matrices(name))
+        }
     };
     let Bodies {
         stages,
@@ -137,6 +141,8 @@ fn of_stages(graph: &StepGraph<'_>, name: &Ident) -> Plan {
                 #finish
             }
         }
+
+        #matrices
     };
     Plan {
         name: quote!(::symplectic::#coupling<#name>),

@@ -1,10 +1,10 @@
 //! Steps in which the stages are stored: explicit ones that are no splitting, and coupled ones.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::form::Form;
-use super::{Bodies, base, evaluation_name, extrapolation, index, literal, slot, start};
+use super::{Bodies, base, evaluation_name, extrapolation, index, literal, matrices, slot, start};
 use crate::schedule::{Class, Node, Phases, StageValue, StepGraph};
 
 /// A step that stores its stages.
@@ -58,6 +58,12 @@ impl<'g, 'a> Stored<'g, 'a> {
             ],
             carried: self.carried.len(),
         }
+    }
+
+    /// The stages all together, as matrices of the type of this name, where they are coupled.
+    pub(super) fn matrices(&self, name: &Ident) -> Option<TokenStream> {
+        let coupled = !self.phases.coupled.is_empty();
+        coupled.then(|| matrices::code(self.graph, &self.form, name))
     }
 
     /// The coupled nodes of the kind of a node.

@@ -1,0 +1,84 @@
+//! Coupled stages all together, as the matrices of a `StageTableau`.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+use super::form::Form;
+use super::{extrapolation, literal};
+use crate::schedule::{Evaluation, StepGraph};
+
+/// The implementation of `StageTableau` for the plan of a step, a type of this name.
+pub(super) fn code(graph: &StepGraph<'_>, form: &Form, name: &Ident) -> TokenStream {
+    let most = graph.forces.len().max(graph.velocities.len());
+    let (lanes, width) = if most <= 4 {
+        ("F64x4", 4)
+    } else {
+        ("F64x8", 8)
+    };
+    let groups = most.div_ceil(width);
+    let positions: Vec<usize> = graph.forces.iter().filter_map(|e| e.position).collect();
+    let momenta: Vec<usize> = graph.velocities.iter().filter_map(|e| e.momentum).collect();
+    let position = |i: usize, j: usize| match form {
+        Form::Increments(relative) => relative.positions[positions[i]][j].double,
+        Form::Weighted => graph.positions[positions[i]].coefficients[j].to_f64(),
+    };
+    let momentum = |i: usize, j: usize| match form {
+        Form::Increments(relative) => relative.momenta[momenta[i]][j].double,
+        Form::Weighted => graph.momenta[momenta[i]].coefficients[j].to_f64(),
+    };
+    let lane_count = groups * width;
+    let half = |evaluations: &[Evaluation<'_>],
+                others: usize,
+                entry: &dyn Fn(usize, usize) -> f64| {
+        let count = evaluations.len();
+        // The last stage is repeated to fill the lanes.
+        let padded = |value: &dyn Fn(usize) -> f64| {
+            let values: Vec<f64> = (0..lane_count).map(|i| value(i.min(count - 1))).collect();
+            literal::array(&values)
+        };
+        let columns = (0..others).map(|j| padded(&|i| entry(i, j)));
+        let times = padded(&|i| evaluations[i].time.to_f64());
+        let weights = padded(&|i| evaluations[i].weight.to_f64());
+        let matrix = match form {
+            Form::Increments(_) => extrapolation::matrix(&evaluations.iter().collect::<Vec<_>>()),
+            Form::Weighted => None,
+        };
+        let extrapolation = matrix.map(|rows| {
+            let columns = (0..count).map(|j| padded(&|i| rows[i][j]));
+            columns.collect::<Vec<_>>()
+        });
+        let extrapolation = extrapolation.unwrap_or_default();
+        let count = literal::count(count);
+        quote! {
+            ::symplectic::HalfTableau {
+                count: #count,
+                columns: &[#(&#columns),*],
+                times: &#times,
+                weights: &#weights,
+                extrapolation: &[#(&#extrapolation),*],
+            }
+        }
+    };
+    let position_half = half(&graph.forces, graph.velocities.len(), &position);
+    let momentum_half = half(&graph.velocities, graph.forces.len(), &momentum);
+    let lanes = literal::identifier(lanes);
+    let groups = Literal::usize_unsuffixed(groups);
+    let increments = matches!(form, Form::Increments(_));
+    quote! {
+        impl ::symplectic::StageTableau for #name {
+            type Lanes = ::symplectic::#lanes;
+            type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; #groups];
+
+            const INCREMENTS: bool = #increments;
+            const POSITIONS: ::symplectic::HalfTableau = #position_half;
+            const MOMENTA: ::symplectic::HalfTableau = #momentum_half;
+
+            #[inline(always)]
+            fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+                make: impl ::core::ops::FnMut(usize) -> T,
+            ) -> [T; #groups] {
+                ::core::array::from_fn(make)
+            }
+        }
+    }
+}

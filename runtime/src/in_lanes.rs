@@ -1,0 +1,397 @@
+//! Coupled stages side by side in lanes.
+
+use core::marker::PhantomData;
+
+use crate::fixed_point::{Sweeps, settle};
+use crate::kernel::add;
+use crate::{
+    Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, HamiltonianInLanes, Kept,
+    Lanes, Outcome, PartChange, Quantity, Scalar, Solver, StageStorage, StageTableau, Step,
+    Summation, Vector, Work,
+};
+
+/// The iteration of [`FixedPoint`](crate::FixedPoint) with the stages side by side in [`Lanes`]: one evaluation of the
+/// system is that of four or eight stages.
+///
+/// It needs a system that is generic over its scalar, and is for vectors with few components; with many, those of one
+/// stage fill the lanes as well.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct InLanes;
+
+/// A vector of lanes.
+type Laned<V, P> = <V as Vector>::With<<P as StageTableau>::Lanes>;
+
+/// Stages in lanes.
+#[derive(Clone, Debug)]
+pub struct LaneStages<V: Vector, P: StageTableau> {
+    q: P::Groups<Laned<V, P>>,
+    p: P::Groups<Laned<V, P>>,
+    /// Evaluations, or the increments made of them.
+    velocity: P::Groups<Laned<V, P>>,
+    force: P::Groups<Laned<V, P>>,
+}
+
+impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for LaneStages<V, P> {
+    fn like(prototype: &V) -> Self {
+        let zeros = || P::groups(|_| prototype.zeros_with::<P::Lanes>());
+        Self {
+            q: zeros(),
+            p: zeros(),
+            velocity: zeros(),
+            force: zeros(),
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        let first = |half: &HalfTableau, values: &P::Groups<_>, evaluations: &P::Groups<_>| {
+            (0..half.count).find(|&stage| {
+                is_lane_finite::<V, P>(values, stage) && !is_lane_finite::<V, P>(evaluations, stage)
+            })
+        };
+        let force = first(&P::POSITIONS, &self.q, &self.force);
+        let velocity = first(&P::MOMENTA, &self.p, &self.velocity);
+        match (force, velocity) {
+            (Some(i), Some(j)) if j < i => Some((Quantity::Velocity, j + 1)),
+            (Some(i), _) => Some((Quantity::Force, i + 1)),
+            (None, j) => j.map(|j| (Quantity::Velocity, j + 1)),
+        }
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        let first = |groups: &P::Groups<Laned<V, P>>| {
+            let mut groups = groups.as_ref().iter().map(Vector::dimension).enumerate();
+            groups.find(|&(_, found)| found != dimension)
+        };
+        // A system that gives a wrong dimension gives it in all lanes: the first stage of the group stands for them.
+        let stage = |group: usize| group * P::Lanes::WIDTH + 1;
+        if let Some((group, found)) = first(&self.force) {
+            return Some((Quantity::Force, stage(group), found));
+        }
+        first(&self.velocity).map(|(group, found)| (Quantity::Velocity, stage(group), found))
+    }
+}
+
+/// Whether a vector is finite in the lane of a stage.
+fn is_lane_finite<V: Vector, P: StageTableau>(
+    groups: &P::Groups<Laned<V, P>>,
+    stage: usize,
+) -> bool {
+    let group = &groups.as_ref()[stage / P::Lanes::WIDTH];
+    let lane = stage % P::Lanes::WIDTH;
+    let mut components = group.as_slice().iter();
+    components.all(|component| component.to_array().as_ref()[lane].is_finite())
+}
+
+impl<V, S> Solver<V, S> for InLanes
+where
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    type Memory<P: StageTableau> = LaneStages<V, P>;
+
+    #[inline]
+    fn take<P, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        stages: &mut LaneStages<V, P>,
+        kept: Kept,
+        max_iterations: u32,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        P: StageTableau,
+        R: Summation,
+        S: Hamiltonian<V, Class = P::Class>,
+    {
+        let mut sweeps = ByLanes::<P, R, V, S> {
+            step,
+            system,
+            stages: &mut *stages,
+            sums: PhantomData,
+        };
+        let work = settle::<P::Class, f64>(&mut sweeps, kept, max_iterations)?;
+        let Outcome { q, q_low, p, p_low } = outcome;
+        total::<R, P, V>(
+            (q, q_low),
+            (step.q, step.q_low),
+            &stages.velocity,
+            &P::MOMENTA,
+            step.size,
+        );
+        total::<R, P, V>(
+            (p, p_low),
+            (step.p, step.p_low),
+            &stages.force,
+            &P::POSITIONS,
+            step.size,
+        );
+        Ok(work)
+    }
+}
+
+/// The stages of a plan in lanes.
+struct ByLanes<'a, P: StageTableau, R, V: Vector, S> {
+    step: &'a Step<'a, V>,
+    system: &'a S,
+    stages: &'a mut LaneStages<V, P>,
+    sums: PhantomData<R>,
+}
+
+impl<P, R, V, S> Sweeps for ByLanes<'_, P, R, V, S>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    #[inline(always)]
+    fn evaluations(&self) -> EvaluationCounts {
+        EvaluationCounts {
+            begin: 0,
+            start: P::MOMENTA.count as u32,
+            sweep: (P::POSITIONS.count + P::MOMENTA.count) as u32,
+            finish: 0,
+            carried: 0,
+        }
+    }
+
+    #[inline(always)]
+    fn begin(&mut self, kept: Kept) {
+        let general = !P::Class::SEPARABLE;
+        let (step, stages) = (self.step, &mut *self.stages);
+        let extrapolates = !P::MOMENTA.extrapolation.is_empty()
+            && (P::Class::SEPARABLE || !P::POSITIONS.extrapolation.is_empty());
+        if kept.stages && extrapolates {
+            extrapolate::<P, V>(&P::MOMENTA, &mut stages.velocity);
+            if general {
+                extrapolate::<P, V>(&P::POSITIONS, &mut stages.force);
+                let base = (step.p, step.p_low);
+                values::<P, R, V>(&P::MOMENTA, step.size, &mut stages.p, base, &stages.force);
+            }
+            return;
+        }
+        fill::<P, V>(&mut stages.q, step.q);
+        fill::<P, V>(&mut stages.p, step.p);
+        self.velocities();
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.stages.non_finite()
+    }
+
+    #[inline(always)]
+    fn sweep(&mut self) -> Change {
+        let (step, stages) = (self.step, &mut *self.stages);
+        let (q, p) = ((step.q, step.q_low), (step.p, step.p_low));
+        let q = values::<P, R, V>(&P::POSITIONS, step.size, &mut stages.q, q, &stages.velocity);
+        self.forces();
+        let stages = &mut *self.stages;
+        let p = values::<P, R, V>(&P::MOMENTA, step.size, &mut stages.p, p, &stages.force);
+        self.velocities();
+        Change { q, p }
+    }
+}
+
+impl<P, R, V, S> ByLanes<'_, P, R, V, S>
+where
+    P: StageTableau,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    /// Evaluates all forces.
+    #[inline(always)]
+    fn forces(&mut self) {
+        let LaneStages { q, p, force, .. } = &mut *self.stages;
+        let groups = q.as_ref().iter().zip(p.as_ref()).zip(force.as_mut());
+        for (group, ((q, p), force)) in groups.enumerate() {
+            let time = times::<P, V>(&P::POSITIONS, self.step, group);
+            P::Lanes::force::<V, S>(self.system, time, q, p, force);
+            scale::<P, V>(&P::POSITIONS, self.step.size, group, force);
+        }
+    }
+
+    /// Evaluates all velocities.
+    #[inline(always)]
+    fn velocities(&mut self) {
+        let LaneStages { q, p, velocity, .. } = &mut *self.stages;
+        let groups = q.as_ref().iter().zip(p.as_ref()).zip(velocity.as_mut());
+        for (group, ((q, p), velocity)) in groups.enumerate() {
+            let time = times::<P, V>(&P::MOMENTA, self.step, group);
+            P::Lanes::velocity::<V, S>(self.system, time, q, p, velocity);
+            scale::<P, V>(&P::MOMENTA, self.step.size, group, velocity);
+        }
+    }
+}
+
+/// The lanes of one group in a list over the stages.
+#[inline(always)]
+fn lanes<L: Lanes>(list: &[f64], group: usize) -> L {
+    let list = &list[group * L::WIDTH..(group + 1) * L::WIDTH];
+    L::from_fn(|lane| list[lane])
+}
+
+/// The times of the evaluations of a group.
+#[inline(always)]
+fn times<P: StageTableau, V>(half: &HalfTableau, step: &Step<'_, V>, group: usize) -> P::Lanes {
+    let fractions: P::Lanes = lanes(half.times, group);
+    P::Lanes::from_f64(step.time) + fractions * P::Lanes::from_f64(step.size)
+}
+
+/// Evaluations become increments.
+#[inline(always)]
+fn scale<P: StageTableau, V: Vector>(
+    half: &HalfTableau,
+    h: f64,
+    group: usize,
+    evaluation: &mut Laned<V, P>,
+) {
+    if P::INCREMENTS {
+        let factor = lanes::<P::Lanes>(half.weights, group) * P::Lanes::from_f64(h);
+        for component in evaluation.as_mut_slice() {
+            *component *= factor;
+        }
+    }
+}
+
+/// Copies a vector to all lanes.
+#[inline(always)]
+fn fill<P: StageTableau, V: Vector<Scalar = f64>>(groups: &mut P::Groups<Laned<V, P>>, from: &V) {
+    for group in groups.as_mut() {
+        let components = group.as_mut_slice().iter_mut().zip(from.as_slice());
+        components.for_each(|(lanes, &component)| *lanes = P::Lanes::from_f64(component));
+    }
+}
+
+/// The double of one stage in one component.
+#[inline(always)]
+fn entry<P: StageTableau, V: Vector>(
+    groups: &P::Groups<Laned<V, P>>,
+    stage: usize,
+    component: usize,
+) -> f64 {
+    let group = &groups.as_ref()[stage / P::Lanes::WIDTH];
+    group.as_slice()[component].to_array().as_ref()[stage % P::Lanes::WIDTH]
+}
+
+/// New stage values from the evaluations of the other half; returns how much they changed.
+#[inline(always)]
+fn values<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
+    half: &HalfTableau,
+    h: f64,
+    out: &mut P::Groups<Laned<V, P>>,
+    (base, low): (&V, &V),
+    terms: &P::Groups<Laned<V, P>>,
+) -> PartChange {
+    let n = shortest::<P, V>(out, terms)
+        .min(base.dimension())
+        .min(low.dimension());
+    let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
+    let zero = P::Lanes::from_f64(0.0);
+    // The lanes take the larger numbers, and lose what is not one; the sum does not.
+    let (mut difference, mut scale, mut sum) = (zero, zero, zero);
+    let factor = (!P::INCREMENTS).then_some(h);
+    for k in 0..n {
+        let start = P::Lanes::from_f64(base[k]);
+        for (group, out) in out.as_mut().iter_mut().enumerate() {
+            let increment = combination::<P, V>(half.columns, factor, group, terms, k);
+            let increment = match R::COMPENSATED {
+                true => increment + P::Lanes::from_f64(low[k]),
+                false => increment,
+            };
+            let new = start + increment;
+            let component = &mut out.as_mut_slice()[k];
+            let moved = (new - *component).absolute();
+            difference = difference.larger(moved);
+            scale = scale.larger(new.absolute()).larger(start.absolute());
+            sum += moved;
+            *component = new;
+        }
+    }
+    if sum.magnitude().is_nan() {
+        return PartChange::new(f64::NAN, f64::NAN);
+    }
+    PartChange::new(difference.magnitude(), scale.magnitude())
+}
+
+/// `factor Σ_j columns_j terms_j` in one component, for the stages of one group; the factor, if any, is in the products.
+#[inline(always)]
+fn combination<P: StageTableau, V: Vector>(
+    columns: &[&[f64]],
+    factor: Option<f64>,
+    group: usize,
+    terms: &P::Groups<Laned<V, P>>,
+    component: usize,
+) -> P::Lanes {
+    let product = |j: usize| {
+        let column: P::Lanes = lanes(columns[j], group);
+        let column = match factor {
+            Some(factor) => column * P::Lanes::from_f64(factor),
+            None => column,
+        };
+        column * P::Lanes::from_f64(entry::<P, V>(terms, j, component))
+    };
+    let mut sum = product(0);
+    for j in 1..columns.len() {
+        sum += product(j);
+    }
+    sum
+}
+
+/// Increments from those of the step before.
+#[inline(always)]
+fn extrapolate<P: StageTableau, V: Vector>(
+    half: &HalfTableau,
+    increments: &mut P::Groups<Laned<V, P>>,
+) {
+    let n = shortest::<P, V>(increments, increments);
+    for k in 0..n {
+        let new =
+            P::groups(|group| combination::<P, V>(half.extrapolation, None, group, increments, k));
+        for (group, new) in increments.as_mut().iter_mut().zip(new.as_ref()) {
+            group.as_mut_slice()[k] = *new;
+        }
+    }
+}
+
+/// The result of a step, of the evaluations of one half.
+#[inline(always)]
+fn total<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
+    (out, out_low): (&mut V, &mut V),
+    (base, low): (&V, &V),
+    terms: &P::Groups<Laned<V, P>>,
+    half: &HalfTableau,
+    h: f64,
+) {
+    let n = shortest::<P, V>(terms, terms).min(base.dimension());
+    for k in 0..n {
+        let term = |stage: usize| {
+            let entry = entry::<P, V>(terms, stage, k);
+            if P::INCREMENTS {
+                entry
+            } else {
+                h * half.weights[stage] * entry
+            }
+        };
+        let (base, low) = (base.as_slice()[k], low.as_slice()[k]);
+        let (high, rest) = add::<R, f64>(base, low, half.count, term);
+        out.as_mut_slice()[k] = high;
+        if R::COMPENSATED {
+            out_low.as_mut_slice()[k] = rest;
+        }
+    }
+}
+
+/// The smallest dimension of the vectors in two lists.
+#[inline(always)]
+fn shortest<P: StageTableau, V: Vector>(
+    first: &P::Groups<Laned<V, P>>,
+    second: &P::Groups<Laned<V, P>>,
+) -> usize {
+    let dimensions = first
+        .as_ref()
+        .iter()
+        .chain(second.as_ref())
+        .map(|group| group.as_slice().len());
+    dimensions.fold(usize::MAX, usize::min)
+}

@@ -1,0 +1,266 @@
+//! Doubles side by side, as one scalar.
+
+use core::array;
+use core::fmt::Debug;
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use num_traits::{One, Zero};
+
+use crate::{Hamiltonian, Scalar, Vector};
+
+/// A few doubles side by side, in one register of the processor where it has so wide ones.
+///
+/// Every lane is computed as a double of its own would be, to the last bit; elementary functions other than the square
+/// root are taken lane by lane. How wide the registers are is the target's: with `-C target-cpu=native` the compiler
+/// uses all that the processor has.
+///
+/// ```
+/// use symplectic::{F64x4, Lanes, Scalar};
+///
+/// let x = F64x4::from_fn(|lane| lane as f64);
+/// assert_eq!((x * x + F64x4::from_f64(0.5)).to_array(), [0.5, 1.5, 4.5, 9.5]);
+/// assert_eq!(x.sin().to_array()[3], 3.0_f64.sin());
+/// ```
+pub trait Lanes: Scalar {
+    /// One double for each lane.
+    type Array: Copy + Debug + AsRef<[f64]>;
+
+    /// The number of lanes.
+    const WIDTH: usize;
+
+    /// The double of each lane, by its number from 0.
+    fn from_fn(lane: impl FnMut(usize) -> f64) -> Self;
+
+    /// The doubles of the lanes.
+    fn to_array(self) -> Self::Array;
+
+    /// The absolute value of each lane.
+    fn absolute(self) -> Self;
+
+    /// The larger of two numbers in each lane; either where one of them is NaN.
+    fn larger(self, other: Self) -> Self;
+
+    /// [`Hamiltonian::velocity`] in every lane at once.
+    fn velocity<V, S>(
+        system: &S,
+        time: Self,
+        q: &V::With<Self>,
+        p: &V::With<Self>,
+        velocity: &mut V::With<Self>,
+    ) where
+        V: Vector,
+        S: HamiltonianInLanes<V>;
+
+    /// [`Hamiltonian::force`] in every lane at once.
+    fn force<V, S>(
+        system: &S,
+        time: Self,
+        q: &V::With<Self>,
+        p: &V::With<Self>,
+        force: &mut V::With<Self>,
+    ) where
+        V: Vector,
+        S: HamiltonianInLanes<V>;
+}
+
+/// A system over vectors of doubles and over vectors of [`Lanes`]: every one that is generic over its scalar.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a Hamiltonian system over the vectors `{V}` with lanes in place of doubles",
+    label = "this needs a system that is generic over its `Scalar`: `impl<T: Scalar> SeparableHamiltonian<SVector<T, N>> for …`"
+)]
+pub trait HamiltonianInLanes<V: Vector>:
+    Hamiltonian<V> + Hamiltonian<V::With<F64x4>> + Hamiltonian<V::With<F64x8>>
+{
+}
+
+impl<V: Vector, S> HamiltonianInLanes<V> for S where
+    S: Hamiltonian<V> + Hamiltonian<V::With<F64x4>> + Hamiltonian<V::With<F64x8>>
+{
+}
+
+macro_rules! operator {
+    ($name:ident, $($operator:ident $function:ident $assign:ident $assigning:ident),*) => {
+        $(
+            impl $operator for $name {
+                type Output = Self;
+                #[inline(always)]
+                fn $function(self, other: Self) -> Self {
+                    Self($operator::$function(self.0, other.0))
+                }
+            }
+
+            impl $assign for $name {
+                #[inline(always)]
+                fn $assigning(&mut self, other: Self) {
+                    *self = $operator::$function(*self, other);
+                }
+            }
+        )*
+    };
+}
+
+macro_rules! lane_by_lane {
+    ($($function:ident)*) => {
+        $(
+            #[inline]
+            fn $function(self) -> Self {
+                let lanes = self.to_array();
+                Self::from_fn(|lane| Scalar::$function(lanes[lane]))
+            }
+        )*
+    };
+}
+
+macro_rules! lanes {
+    ($name:ident, $inner:ty, $width:literal, $text:literal) => {
+        #[doc = $text]
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $name($inner);
+
+        operator! { $name,
+            Add add AddAssign add_assign, Sub sub SubAssign sub_assign,
+            Mul mul MulAssign mul_assign, Div div DivAssign div_assign
+        }
+
+        impl Neg for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                Self(-self.0)
+            }
+        }
+
+        impl Zero for $name {
+            #[inline(always)]
+            fn zero() -> Self {
+                Self::from_f64(0.0)
+            }
+
+            fn is_zero(&self) -> bool {
+                *self == Self::zero()
+            }
+        }
+
+        impl One for $name {
+            #[inline(always)]
+            fn one() -> Self {
+                Self::from_f64(1.0)
+            }
+        }
+
+        impl Scalar for $name {
+            const EPSILON: f64 = f64::EPSILON;
+
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                Self(<$inner>::splat(value))
+            }
+
+            #[inline]
+            fn magnitude(self) -> f64 {
+                let lanes = self.to_array().map(f64::abs);
+                // NaN, if there is one, else the largest.
+                lanes[1..].iter().fold(lanes[0], |largest, &lane| {
+                    if largest >= lane || largest.is_nan() {
+                        largest
+                    } else {
+                        lane
+                    }
+                })
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Self(self.0.sqrt())
+            }
+
+            #[inline(always)]
+            fn recip(self) -> Self {
+                Self::one() / self
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                Self(self.0.abs())
+            }
+
+            #[inline]
+            fn sin_cos(self) -> (Self, Self) {
+                let lanes = self.to_array().map(<f64 as Scalar>::sin_cos);
+                (
+                    Self::from_fn(|lane| lanes[lane].0),
+                    Self::from_fn(|lane| lanes[lane].1),
+                )
+            }
+
+            lane_by_lane! { exp ln sin cos tan asin acos atan sinh cosh tanh }
+        }
+
+        impl Lanes for $name {
+            type Array = [f64; $width];
+
+            const WIDTH: usize = $width;
+
+            #[inline(always)]
+            fn from_fn(lane: impl FnMut(usize) -> f64) -> Self {
+                Self(<$inner>::new(array::from_fn(lane)))
+            }
+
+            #[inline(always)]
+            fn to_array(self) -> [f64; $width] {
+                self.0.to_array()
+            }
+
+            #[inline(always)]
+            fn absolute(self) -> Self {
+                Self(self.0.abs())
+            }
+
+            #[inline(always)]
+            fn larger(self, other: Self) -> Self {
+                Self(self.0.fast_max(other.0))
+            }
+
+            #[inline(always)]
+            fn velocity<V, S>(
+                system: &S,
+                time: Self,
+                q: &V::With<Self>,
+                p: &V::With<Self>,
+                velocity: &mut V::With<Self>,
+            ) where
+                V: Vector,
+                S: HamiltonianInLanes<V>,
+            {
+                Hamiltonian::<V::With<Self>>::velocity(system, time, q, p, velocity);
+            }
+
+            #[inline(always)]
+            fn force<V, S>(
+                system: &S,
+                time: Self,
+                q: &V::With<Self>,
+                p: &V::With<Self>,
+                force: &mut V::With<Self>,
+            ) where
+                V: Vector,
+                S: HamiltonianInLanes<V>,
+            {
+                Hamiltonian::<V::With<Self>>::force(system, time, q, p, force);
+            }
+        }
+    };
+}
+
+lanes!(
+    F64x4,
+    wide::f64x4,
+    4,
+    "Four doubles side by side: [`Lanes`]."
+);
+lanes!(
+    F64x8,
+    wide::f64x8,
+    8,
+    "Eight doubles side by side: [`Lanes`]."
+);

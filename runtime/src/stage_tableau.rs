@@ -1,0 +1,53 @@
+//! The coefficients of coupled stages all together.
+
+use core::fmt::Debug;
+
+use crate::{Lanes, StagePlan};
+
+/// The coupled stages of a plan as matrices, for solvers that treat them all at once.
+///
+/// There may be fewer than the tableau has, for equal ones are one. With `Q_i` the position of the force `i` and `P_i` the
+/// momentum of the velocity `i`,
+///
+/// ```text
+/// Q_i = q0 + Σ_j positions_ij u_j    u_j = h b_j velocity_j
+/// P_i = p0 + Σ_j momenta_ij w_j      w_j = h b̃_j force_j
+/// ```
+///
+/// where the sums are of [`INCREMENTS`](Self::INCREMENTS), and `u_j = velocity_j`, `w_j = force_j` with factors of `h` in
+/// front of the sums elsewhere.
+pub trait StageTableau: StagePlan {
+    /// The lanes that the stages are put into.
+    type Lanes: Lanes;
+    /// As many lanes as there are stages.
+    type Groups<T: Clone + Debug>: Clone + Debug + AsRef<[T]> + AsMut<[T]>;
+
+    /// Whether stages are sums of increments, with `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, rounded so that they are
+    /// symplectic; else of evaluations, with `a_ij` and `ã_ij`.
+    const INCREMENTS: bool;
+    /// Positions, and the forces there.
+    const POSITIONS: HalfTableau;
+    /// Momenta, and the velocities there.
+    const MOMENTA: HalfTableau;
+
+    /// A value for each group of lanes, by its number from 0.
+    fn groups<T: Clone + Debug>(make: impl FnMut(usize) -> T) -> Self::Groups<T>;
+}
+
+/// One half of a [`StageTableau`]: stage values, and the evaluations at them.
+///
+/// Every list over the stages is as long as the lanes are together: the last stage is repeated to fill them.
+#[derive(Clone, Copy, Debug)]
+pub struct HalfTableau {
+    /// The number of stages.
+    pub count: usize,
+    /// The matrix by its columns: one for each evaluation of the other half, in it an entry for each stage.
+    pub columns: &'static [&'static [f64]],
+    /// The times of the evaluations, as fractions of the step.
+    pub times: &'static [f64],
+    /// The weights of the evaluations in the result of the step.
+    pub weights: &'static [f64],
+    /// The matrix that takes the increments of the evaluations to those of the next step of the same size, by its columns;
+    /// empty where there is none.
+    pub extrapolation: &'static [&'static [f64]],
+}
