@@ -115,6 +115,20 @@ pub enum Error {
         step_size: f64,
     },
 
+    /// The velocity of a system that is to be taken as one of second order is not its momentum.
+    #[error(
+        "component {component} of the velocity is {velocity} where that of the momentum is {momentum}: the system is \
+         not q'' = f(q); take it by `in_lanes`, or scale its coordinates"
+    )]
+    NotSecondOrder {
+        /// The component, from 0.
+        component: usize,
+        /// The velocity there.
+        velocity: f64,
+        /// The momentum there.
+        momentum: f64,
+    },
+
     /// The system gives no energy, which the generating function is made of.
     #[error("the system gives no energy; implement `energy`, or add a closure by `with_energy`")]
     NoEnergy,

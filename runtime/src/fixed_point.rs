@@ -17,6 +17,9 @@ use crate::{
 /// (see [`Class::settling`]). For a general one whose evaluations are noisier than that, it is enough that the
 /// change has shrunk a thousandfold, has not shrunk further in ten sweeps, and one half is down to rounding
 /// errors.
+///
+/// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for the stagnation: it
+/// ends with the first change of at most one [`Scalar::EPSILON`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint;
 
@@ -82,6 +85,9 @@ where
 
 /// Stages that are iterated.
 pub(crate) trait Sweeps {
+    /// Whether the first change that is down to a unit of EPSILON is the last.
+    const HASTY: bool;
+
     /// How many evaluations they make.
     fn evaluations(&self) -> EvaluationCounts;
 
@@ -90,6 +96,9 @@ pub(crate) trait Sweeps {
 
     /// The first evaluation that is not finite although its argument is.
     fn non_finite(&self) -> Option<(Quantity, usize)>;
+
+    /// The first stage, from 1, whose force is not finite: forces come first in a sweep.
+    fn non_finite_force(&self) -> Option<usize>;
 
     /// One sweep over all of them.
     fn sweep(&mut self) -> Change;
@@ -110,6 +119,8 @@ where
     V: Vector,
     S: Hamiltonian<V, Class = P::Class>,
 {
+    const HASTY: bool = !R::COMPENSATED;
+
     #[inline(always)]
     fn evaluations(&self) -> EvaluationCounts {
         P::EVALUATIONS
@@ -122,6 +133,10 @@ where
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.stages.non_finite()
+    }
+
+    fn non_finite_force(&self) -> Option<usize> {
+        self.stages.non_finite_force()
     }
 
     #[inline(always)]
@@ -160,14 +175,17 @@ fn solve<C: Class, T: Scalar>(
 ) -> Result<(), Failure> {
     sweeps.begin(kept);
     let counts = sweeps.evaluations();
-    work.evaluations += counts.at_begin(kept);
-    if let Some((what, stage)) = sweeps.non_finite() {
+    let made = counts.at_begin(kept);
+    work.evaluations += made;
+    if made > 0
+        && let Some((what, stage)) = sweeps.non_finite()
+    {
         return Err(Failure::NonFinite {
             what,
             stage: Some(stage),
         });
     }
-    let solved = iterate::<C, T>(sweeps, max_iterations);
+    let solved = iterate::<C, T, _>(sweeps, max_iterations);
     let iterations = match solved {
         Ok(iterations) | Err(Failure::NoConvergence { iterations, .. }) => iterations,
         Err(Failure::NonFinite { .. }) => 1,
@@ -182,8 +200,8 @@ fn solve<C: Class, T: Scalar>(
 /// A change that grows ends nothing: where the stages are many and their coupling is far from normal, it can
 /// grow for many sweeps and vanish after all. A true divergence ends at the bound or overflows.
 #[inline]
-fn iterate<C: Class, T: Scalar>(
-    sweeps: &mut impl Sweeps,
+fn iterate<C: Class, T: Scalar, W: Sweeps>(
+    sweeps: &mut W,
     max_iterations: u32,
 ) -> Result<u32, Failure> {
     let rounding = ROUNDING * T::EPSILON;
@@ -193,8 +211,8 @@ fn iterate<C: Class, T: Scalar>(
     let mut idle = 0;
     for iteration in 1..=max_iterations {
         let change = sweeps.sweep();
-        let residual = change.residual();
-        if residual.is_nan() {
+        let residual = C::progress(&change);
+        if change.residual().is_nan() {
             // In the first sweep the system has been evaluated at the start and next to it: that the state is
             // out of bounds is likelier than that the iteration is. Later it has run away.
             if iteration > 1 {
@@ -208,7 +226,9 @@ fn iterate<C: Class, T: Scalar>(
             } else {
                 Quantity::Momentum
             };
-            let culprit = sweeps.non_finite();
+            let force = sweeps.non_finite_force();
+            let culprit = force.map(|stage| (Quantity::Force, stage));
+            let culprit = culprit.or_else(|| sweeps.non_finite());
             return Err(Failure::NonFinite {
                 what: culprit.map_or(part, |(what, _)| what),
                 stage: culprit.map(|(_, stage)| stage),
@@ -218,11 +238,12 @@ fn iterate<C: Class, T: Scalar>(
         smallest = smallest.min(residual);
         largest = largest.max(residual);
         let exact = residual == 0.0;
+        let small = W::HASTY && residual <= T::EPSILON;
         let rounded = idle > 0 && C::settling(&change) <= rounding;
         let noisy = idle >= PATIENCE
             && smallest <= CONTRACTION * largest
             && Separable::settling(&change) <= rounding;
-        if exact || rounded || noisy {
+        if exact || small || rounded || noisy {
             return Ok(iteration);
         }
         last = residual;

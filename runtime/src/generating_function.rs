@@ -8,7 +8,7 @@ use num_traits::Zero;
 use crate::diagnosis::{Attempt, FirstFault};
 use crate::fixed_point::by_stages;
 use crate::integrator::{check_state, check_step_size};
-use crate::stage::{first_mismatch, first_non_finite, is_finite};
+use crate::stage::{first_mismatch, first_non_finite, first_non_finite_of, is_finite};
 use crate::{
     Change, Class, Coefficient, Coefficients, Error, EvaluationCounts, Hamiltonian, Integrator,
     Kept, Method, Outcome, PartChange, Plain, Quantity, Scalar, StagePlan, StageStorage, Step,
@@ -300,6 +300,10 @@ impl<M: Method, V: Vector> StageStorage<V> for Unknowns<M, V> {
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         first_non_finite((&self.q, &self.force), (&self.p, &self.velocity))
+    }
+
+    fn non_finite_force(&self) -> Option<usize> {
+        first_non_finite_of(&self.force)
     }
 
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use crate::fixed_point::{Sweeps, settle};
-use crate::kernel::add;
+use crate::kernel::{add, sum};
 use crate::{
     Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, HamiltonianInLanes, Kept,
     Lanes, Outcome, PartChange, Quantity, Scalar, Solver, StageStorage, StageTableau, Step,
@@ -19,16 +19,16 @@ use crate::{
 pub struct InLanes;
 
 /// A vector of lanes.
-type Laned<V, P> = <V as Vector>::With<<P as StageTableau>::Lanes>;
+pub(crate) type Laned<V, P> = <V as Vector>::With<<P as StageTableau>::Lanes>;
 
 /// Stages in lanes.
 #[derive(Clone, Debug)]
 pub struct LaneStages<V: Vector, P: StageTableau> {
-    q: P::Groups<Laned<V, P>>,
-    p: P::Groups<Laned<V, P>>,
+    pub(crate) q: P::Groups<Laned<V, P>>,
+    pub(crate) p: P::Groups<Laned<V, P>>,
     /// Evaluations, or the increments made of them.
-    velocity: P::Groups<Laned<V, P>>,
-    force: P::Groups<Laned<V, P>>,
+    pub(crate) velocity: P::Groups<Laned<V, P>>,
+    pub(crate) force: P::Groups<Laned<V, P>>,
 }
 
 impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for LaneStages<V, P> {
@@ -55,6 +55,12 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for LaneStages<V,
             (Some(i), _) => Some((Quantity::Force, i + 1)),
             (None, j) => j.map(|j| (Quantity::Velocity, j + 1)),
         }
+    }
+
+    fn non_finite_force(&self) -> Option<usize> {
+        let mut stages = 0..P::POSITIONS.count;
+        let first = stages.find(|&stage| !is_lane_finite::<V, P>(&self.force, stage));
+        first.map(|index| index + 1)
     }
 
     #[inline]
@@ -131,11 +137,11 @@ where
 }
 
 /// The stages of a plan in lanes.
-struct ByLanes<'a, P: StageTableau, R, V: Vector, S> {
-    step: &'a Step<'a, V>,
-    system: &'a S,
-    stages: &'a mut LaneStages<V, P>,
-    sums: PhantomData<R>,
+pub(crate) struct ByLanes<'a, P: StageTableau, R, V: Vector, S> {
+    pub(crate) step: &'a Step<'a, V>,
+    pub(crate) system: &'a S,
+    pub(crate) stages: &'a mut LaneStages<V, P>,
+    pub(crate) sums: PhantomData<R>,
 }
 
 impl<P, R, V, S> Sweeps for ByLanes<'_, P, R, V, S>
@@ -145,6 +151,8 @@ where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
+    const HASTY: bool = !R::COMPENSATED;
+
     #[inline(always)]
     fn evaluations(&self) -> EvaluationCounts {
         EvaluationCounts {
@@ -158,37 +166,36 @@ where
 
     #[inline(always)]
     fn begin(&mut self, kept: Kept) {
-        let general = !P::Class::SEPARABLE;
-        let (step, stages) = (self.step, &mut *self.stages);
         let extrapolates = !P::MOMENTA.extrapolation.is_empty()
             && (P::Class::SEPARABLE || !P::POSITIONS.extrapolation.is_empty());
         if kept.stages && extrapolates {
-            extrapolate::<P, V>(&P::MOMENTA, &mut stages.velocity);
-            if general {
-                extrapolate::<P, V>(&P::POSITIONS, &mut stages.force);
-                let base = (step.p, step.p_low);
-                values::<P, R, V>(&P::MOMENTA, step.size, &mut stages.p, base, &stages.force);
+            extrapolate::<P, V>(&P::MOMENTA, &mut self.stages.velocity);
+            if !P::Class::SEPARABLE {
+                extrapolate::<P, V>(&P::POSITIONS, &mut self.stages.force);
+                self.momenta();
             }
-            return;
+        } else {
+            fill::<P, V>(&mut self.stages.q, self.step.q);
+            fill::<P, V>(&mut self.stages.p, self.step.p);
+            self.velocities();
         }
-        fill::<P, V>(&mut stages.q, step.q);
-        fill::<P, V>(&mut stages.p, step.p);
-        self.velocities();
+        self.positions();
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.stages.non_finite()
     }
 
+    fn non_finite_force(&self) -> Option<usize> {
+        self.stages.non_finite_force()
+    }
+
     #[inline(always)]
     fn sweep(&mut self) -> Change {
-        let (step, stages) = (self.step, &mut *self.stages);
-        let (q, p) = ((step.q, step.q_low), (step.p, step.p_low));
-        let q = values::<P, R, V>(&P::POSITIONS, step.size, &mut stages.q, q, &stages.velocity);
         self.forces();
-        let stages = &mut *self.stages;
-        let p = values::<P, R, V>(&P::MOMENTA, step.size, &mut stages.p, p, &stages.force);
+        let p = self.momenta();
         self.velocities();
+        let q = self.positions();
         Change { q, p }
     }
 }
@@ -196,12 +203,31 @@ where
 impl<P, R, V, S> ByLanes<'_, P, R, V, S>
 where
     P: StageTableau,
+    R: Summation,
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
+    /// New positions; returns how much they changed.
+    #[inline(always)]
+    pub(crate) fn positions(&mut self) -> PartChange {
+        let (step, stages) = (self.step, &mut *self.stages);
+        let base = (step.q, step.q_low);
+        let sums = Sums::of::<P>(&P::POSITIONS, step.size);
+        values::<P, R, V>(&sums, &mut stages.q, base, &stages.velocity, |_, sum| sum)
+    }
+
+    /// New momenta; returns how much they changed.
+    #[inline(always)]
+    pub(crate) fn momenta(&mut self) -> PartChange {
+        let (step, stages) = (self.step, &mut *self.stages);
+        let base = (step.p, step.p_low);
+        let sums = Sums::of::<P>(&P::MOMENTA, step.size);
+        values::<P, R, V>(&sums, &mut stages.p, base, &stages.force, |_, sum| sum)
+    }
+
     /// Evaluates all forces.
     #[inline(always)]
-    fn forces(&mut self) {
+    pub(crate) fn forces(&mut self) {
         let LaneStages { q, p, force, .. } = &mut *self.stages;
         let groups = q.as_ref().iter().zip(p.as_ref()).zip(force.as_mut());
         for (group, ((q, p), force)) in groups.enumerate() {
@@ -213,7 +239,7 @@ where
 
     /// Evaluates all velocities.
     #[inline(always)]
-    fn velocities(&mut self) {
+    pub(crate) fn velocities(&mut self) {
         let LaneStages { q, p, velocity, .. } = &mut *self.stages;
         let groups = q.as_ref().iter().zip(p.as_ref()).zip(velocity.as_mut());
         for (group, ((q, p), velocity)) in groups.enumerate() {
@@ -226,7 +252,7 @@ where
 
 /// The lanes of one group in a list over the stages.
 #[inline(always)]
-fn lanes<L: Lanes>(list: &[f64], group: usize) -> L {
+pub(crate) fn lanes<L: Lanes>(list: &[f64], group: usize) -> L {
     let list = &list[group * L::WIDTH..(group + 1) * L::WIDTH];
     L::from_fn(|lane| list[lane])
 }
@@ -256,7 +282,10 @@ fn scale<P: StageTableau, V: Vector>(
 
 /// Copies a vector to all lanes.
 #[inline(always)]
-fn fill<P: StageTableau, V: Vector<Scalar = f64>>(groups: &mut P::Groups<Laned<V, P>>, from: &V) {
+pub(crate) fn fill<P: StageTableau, V: Vector<Scalar = f64>>(
+    groups: &mut P::Groups<Laned<V, P>>,
+    from: &V,
+) {
     for group in groups.as_mut() {
         let components = group.as_mut_slice().iter_mut().zip(from.as_slice());
         components.for_each(|(lanes, &component)| *lanes = P::Lanes::from_f64(component));
@@ -265,7 +294,7 @@ fn fill<P: StageTableau, V: Vector<Scalar = f64>>(groups: &mut P::Groups<Laned<V
 
 /// The double of one stage in one component.
 #[inline(always)]
-fn entry<P: StageTableau, V: Vector>(
+pub(crate) fn entry<P: StageTableau, V: Vector>(
     groups: &P::Groups<Laned<V, P>>,
     stage: usize,
     component: usize,
@@ -274,14 +303,32 @@ fn entry<P: StageTableau, V: Vector>(
     group.as_slice()[component].to_array().as_ref()[stage % P::Lanes::WIDTH]
 }
 
-/// New stage values from the evaluations of the other half; returns how much they changed.
+/// What the stages are sums of: a matrix by its columns, and a factor of them.
+pub(crate) struct Sums {
+    pub(crate) columns: &'static [&'static [f64]],
+    pub(crate) factor: Option<f64>,
+}
+
+impl Sums {
+    /// Those of one half of the stages.
+    #[inline(always)]
+    fn of<P: StageTableau>(half: &HalfTableau, h: f64) -> Self {
+        Self {
+            columns: half.columns,
+            factor: (!P::INCREMENTS).then_some(h),
+        }
+    }
+}
+
+/// New stage values from evaluations, `base + low + increment`; returns how much they changed. The increment is made of
+/// the number of the group and of the component, and of the sum.
 #[inline(always)]
-fn values<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
-    half: &HalfTableau,
-    h: f64,
+pub(crate) fn values<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
+    sums: &Sums,
     out: &mut P::Groups<Laned<V, P>>,
     (base, low): (&V, &V),
     terms: &P::Groups<Laned<V, P>>,
+    increment: impl Fn((usize, usize), P::Lanes) -> P::Lanes,
 ) -> PartChange {
     let n = shortest::<P, V>(out, terms)
         .min(base.dimension())
@@ -290,11 +337,10 @@ fn values<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     let zero = P::Lanes::from_f64(0.0);
     // The lanes take the larger numbers, and lose what is not one; the sum does not.
     let (mut difference, mut scale, mut sum) = (zero, zero, zero);
-    let factor = (!P::INCREMENTS).then_some(h);
     for k in 0..n {
         let start = P::Lanes::from_f64(base[k]);
         for (group, out) in out.as_mut().iter_mut().enumerate() {
-            let increment = combination::<P, V>(half.columns, factor, group, terms, k);
+            let increment = increment((group, k), combination::<P, V>(sums, group, terms, k));
             let increment = match R::COMPENSATED {
                 true => increment + P::Lanes::from_f64(low[k]),
                 false => increment,
@@ -308,46 +354,47 @@ fn values<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
             *component = new;
         }
     }
-    if sum.magnitude().is_nan() {
+    if sum.any_nan() {
         return PartChange::new(f64::NAN, f64::NAN);
     }
-    PartChange::new(difference.magnitude(), scale.magnitude())
+    PartChange::new(difference.largest(), scale.largest())
 }
 
 /// `factor Σ_j columns_j terms_j` in one component, for the stages of one group; the factor, if any, is in the products.
 #[inline(always)]
 fn combination<P: StageTableau, V: Vector>(
-    columns: &[&[f64]],
-    factor: Option<f64>,
+    sums: &Sums,
     group: usize,
     terms: &P::Groups<Laned<V, P>>,
     component: usize,
 ) -> P::Lanes {
     let product = |j: usize| {
-        let column: P::Lanes = lanes(columns[j], group);
-        let column = match factor {
+        let column: P::Lanes = lanes(sums.columns[j], group);
+        let column = match sums.factor {
             Some(factor) => column * P::Lanes::from_f64(factor),
             None => column,
         };
         column * P::Lanes::from_f64(entry::<P, V>(terms, j, component))
     };
-    let mut sum = product(0);
-    for j in 1..columns.len() {
-        sum += product(j);
-    }
-    sum
+    sum(sums.columns.len(), product)
 }
 
 /// Increments from those of the step before.
 #[inline(always)]
-fn extrapolate<P: StageTableau, V: Vector>(
+pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
     half: &HalfTableau,
     increments: &mut P::Groups<Laned<V, P>>,
 ) {
     let n = shortest::<P, V>(increments, increments);
+    let sums = Sums {
+        columns: half.extrapolation,
+        factor: None,
+    };
+    let mut new = P::groups(|_| P::Lanes::from_f64(0.0));
     for k in 0..n {
-        let new =
-            P::groups(|group| combination::<P, V>(half.extrapolation, None, group, increments, k));
+        for (group, new) in new.as_mut().iter_mut().enumerate() {
+            *new = combination::<P, V>(&sums, group, increments, k);
+        }
         for (group, new) in increments.as_mut().iter_mut().zip(new.as_ref()) {
             group.as_mut_slice()[k] = *new;
         }
@@ -356,7 +403,7 @@ fn extrapolate<P: StageTableau, V: Vector>(
 
 /// The result of a step, of the evaluations of one half.
 #[inline(always)]
-fn total<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
+pub(crate) fn total<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
     (out, out_low): (&mut V, &mut V),
     (base, low): (&V, &V),
     terms: &P::Groups<Laned<V, P>>,

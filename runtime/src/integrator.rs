@@ -9,8 +9,8 @@ use crate::stage::is_finite;
 use crate::time::{Clock, uniform};
 use crate::{
     Class, Compensated, Error, Failure, FixedPoint, Hamiltonian, HamiltonianInLanes, InLanes, Kept,
-    Method, Outcome, Plain, Plan, Quantity, Retry, Scalar, Solver, StageStorage, State, States,
-    Statistics, Step, Summation, Vector, Work,
+    Method, Outcome, Plain, Plan, Quantity, Retry, Scalar, SecondOrderInLanes, Solver,
+    StageStorage, State, States, Statistics, Step, Summation, Vector, Work,
 };
 #[cfg(feature = "alloc")]
 use crate::{GeneratingFunction, generating_function::generating};
@@ -152,6 +152,20 @@ impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
     /// ```
     pub fn in_lanes(self) -> Integrator<M, S, V, R, InLanes> {
         self.with_solver(InLanes)
+    }
+
+    /// [`in_lanes`](Self::in_lanes) for a second-order system `q'' = f(q)`, one whose velocity is the momentum: by
+    /// [`SecondOrderInLanes`], which iterates the positions only.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotSecondOrder`], where the velocity at the state, or next to it, is another vector than the momentum.
+    pub fn in_second_order_lanes(
+        self,
+    ) -> Result<Integrator<M, S, V, R, SecondOrderInLanes>, Error> {
+        let State { time, q, p } = &self.state;
+        let solver = SecondOrderInLanes::new(&self.system, *time, q, p)?;
+        Ok(self.with_solver(solver))
     }
 }
 

@@ -111,7 +111,7 @@ pub fn total<R: Summation, V: Vector, const N: usize>(
 ) {
     let n = shortest([&*out, &*out_low, base, low]).min(shortest(increments));
     let terms = increments.map(|term| &term.as_slice()[..n]);
-    sum::<R, V, N>((out, out_low), (base, low), n, |i, j| terms[j][i]);
+    totals::<R, V, N>((out, out_low), (base, low), n, |i, j| terms[j][i]);
 }
 
 /// [`total`] of evaluations that are no increments yet: `base + low + Σ_j factors_j terms_j`.
@@ -126,7 +126,7 @@ pub fn weighted_total<R: Summation, V: Vector, const N: usize>(
 ) {
     let n = shortest([&*out, &*out_low, base, low]).min(shortest(terms));
     let terms = terms.map(|term| &term.as_slice()[..n]);
-    sum::<R, V, N>((out, out_low), (base, low), n, |i, j| {
+    totals::<R, V, N>((out, out_low), (base, low), n, |i, j| {
         factors[j] * terms[j][i]
     });
 }
@@ -188,12 +188,7 @@ pub fn transform<V: Vector, const N: usize>(
     for i in 0..n {
         let old: [V::Scalar; N] = array::from_fn(|j| slices[j][i]);
         for (row, slice) in matrix.iter().zip(&mut slices) {
-            // Where a time of this step is one of the step before, all entries but one are zero.
-            let entries = old.iter().zip(row).filter(|&(_, &e)| e != 0.0);
-            let mut products = entries.map(|(&x, &e)| x * V::Scalar::from_f64(e));
-            if let Some(first) = products.next() {
-                slice[i] = products.fold(first, |sum, product| sum + product);
-            }
+            slice[i] = sum(N, |j| V::Scalar::from_f64(row[j]) * old[j]);
         }
     }
 }
@@ -234,20 +229,36 @@ fn value<R: Summation, T: Scalar, const N: usize>(
     if N == 0 {
         return base;
     }
-    // Starting from the first product, not from zero: 0 + x is an addition that the compiler has to keep.
-    let mut sum = factors[0] * terms[0][i];
-    for j in 1..N {
-        sum += factors[j] * terms[j][i];
-    }
+    let mut sum = sum(N, |j| factors[j] * terms[j][i]);
     if R::COMPENSATED {
         sum += low;
     }
     base + sum
 }
 
+/// `Σ_j term(j)` of so many terms, at least one: those with even and those with odd numbers apart, for additions that
+/// need not wait for one another.
+#[inline(always)]
+pub(crate) fn sum<T: Scalar>(count: usize, term: impl Fn(usize) -> T) -> T {
+    // Starting from the first terms, not from zero: 0 + x is an addition that the compiler has to keep.
+    let mut even = term(0);
+    if count == 1 {
+        return even;
+    }
+    let mut odd = term(1);
+    for j in 2..count {
+        if j % 2 == 0 {
+            even += term(j);
+        } else {
+            odd += term(j);
+        }
+    }
+    even + odd
+}
+
 /// The components of a result.
 #[inline(always)]
-fn sum<R: Summation, V: Vector, const N: usize>(
+fn totals<R: Summation, V: Vector, const N: usize>(
     (out, out_low): (&mut V, &mut V),
     (base, low): (&V, &V),
     n: usize,

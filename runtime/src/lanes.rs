@@ -40,6 +40,12 @@ pub trait Lanes: Scalar {
     /// The larger of two numbers in each lane; either where one of them is NaN.
     fn larger(self, other: Self) -> Self;
 
+    /// The largest number; any where one of them is NaN.
+    fn largest(self) -> f64;
+
+    /// Whether a number is NaN.
+    fn any_nan(self) -> bool;
+
     /// [`Hamiltonian::velocity`] in every lane at once.
     fn velocity<V, S>(
         system: &S,
@@ -219,6 +225,29 @@ macro_rules! lanes {
             #[inline(always)]
             fn larger(self, other: Self) -> Self {
                 Self(self.0.fast_max(other.0))
+            }
+
+            #[inline(always)]
+            fn largest(self) -> f64 {
+                let mut lanes = self.to_array();
+                let mut width = $width / 2;
+                while width > 0 {
+                    for lane in 0..width {
+                        let other = lanes[lane + width];
+                        lanes[lane] = if lanes[lane] > other {
+                            lanes[lane]
+                        } else {
+                            other
+                        };
+                    }
+                    width /= 2;
+                }
+                lanes[0]
+            }
+
+            #[inline(always)]
+            fn any_nan(self) -> bool {
+                self.0.is_nan().any()
             }
 
             #[inline(always)]

@@ -102,8 +102,8 @@ pub trait StagePlan {
         kept: Kept,
     );
 
-    /// One fixed-point sweep over the coupled stages: new stage values from the latest velocities and forces,
-    /// then new evaluations there. Returns how much the stage values changed.
+    /// One fixed-point sweep over the coupled stages: new forces, the momenta that follow from them, new velocities, and the
+    /// positions that follow from those. Returns how much the stage values changed.
     ///
     /// For a separable system one half comes after the other and uses its new evaluations: the stopping rule of
     /// [`FixedPoint`](crate::FixedPoint) relies on it.

@@ -13,6 +13,11 @@ pub trait StageStorage<V: Vector>: Sized {
     /// and the number of the stage, from 1; of two with the same number, the force. `None` where stages are not stored.
     fn non_finite(&self) -> Option<(Quantity, usize)>;
 
+    /// The number of the first stage, from 1, whose force is not finite; a sweep has moved the positions since.
+    fn non_finite_force(&self) -> Option<usize> {
+        None
+    }
+
     /// The first evaluation whose dimension is not `dimension`: the quantity, the number of the stage, from 1, and the
     /// dimension found.
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)>;
@@ -94,10 +99,20 @@ impl<V: Vector, const Q: usize, const P: usize> StageStorage<V> for Stages<V, Q,
         first_non_finite((&self.q, &self.force), (&self.p, &self.velocity))
     }
 
+    fn non_finite_force(&self) -> Option<usize> {
+        first_non_finite_of(&self.force)
+    }
+
     #[inline]
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
         first_mismatch(&self.force, &self.velocity, dimension)
     }
+}
+
+/// The number of the first vector, from 1, that is not finite.
+pub(crate) fn first_non_finite_of<V: Vector>(vectors: &[V]) -> Option<usize> {
+    let first = vectors.iter().position(|vector| !is_finite(vector));
+    first.map(|index| index + 1)
 }
 
 /// [`StageStorage::non_finite`] of positions with their forces and momenta with their velocities.

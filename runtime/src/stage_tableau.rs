@@ -29,6 +29,8 @@ pub trait StageTableau: StagePlan {
     const POSITIONS: HalfTableau;
     /// Momenta, and the velocities there.
     const MOMENTA: HalfTableau;
+    /// For systems whose velocity is the momentum, where the method is separably symplectic.
+    const SECOND_ORDER: Option<SecondOrderTableau>;
 
     /// A value for each group of lanes, by its number from 0.
     fn groups<T: Clone + Debug>(make: impl FnMut(usize) -> T) -> Self::Groups<T>;
@@ -50,4 +52,22 @@ pub struct HalfTableau {
     /// The matrix that takes the increments of the evaluations to those of the next step of the same size, by its columns;
     /// empty where there is none.
     pub extrapolation: &'static [&'static [f64]],
+}
+
+/// The coefficients for second-order systems `q'' = f(q)`, from which the momentum stages are eliminated (Nyström):
+///
+/// ```text
+/// Q_i = q0 + h c_i p0 + h Σ_k ν_ik w_k      q1 = q0 + h p0 + h Σ_k (1 − c_k) w_k
+/// ```
+///
+/// with the increments `w_k = h b̃_k force_k`. They are rounded so that `ν_ik − ν_ki = c_i − c_k` exactly: the rounded
+/// method is symplectic too (Suris, 1989).
+#[derive(Clone, Copy, Debug)]
+pub struct SecondOrderTableau {
+    /// `c_i`
+    pub nodes: &'static [f64],
+    /// `ν` by its columns.
+    pub columns: &'static [&'static [f64]],
+    /// `1 − c_k`
+    pub rest: &'static [f64],
 }

@@ -24,7 +24,8 @@ pub trait Summation: sealed::Sealed + Copy + Default + 'static {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Compensated;
 
-/// Plain sums: faster, and the rounding errors of the state add up from step to step.
+/// Plain sums: faster, and the rounding errors of the state add up from step to step. Iterations of coupled stages end as
+/// soon as the change is down to rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Plain;
 

@@ -194,8 +194,8 @@ fn a_sweep_without_change_is_the_last() -> Result<(), Error> {
     );
     let mut integrator = Integrator::new(Midpoint, free, point(0.0, 1.0), 0.5)?;
     assert_eq!(integrator.step()?.q[0], 0.5);
-    // One that moves the stage, one that finds it there.
-    assert_eq!(integrator.iterations(), 2);
+    // The stage is where the velocity at the start takes it, and the first sweep finds it there.
+    assert_eq!(integrator.iterations(), 1);
     Ok(())
 }
 

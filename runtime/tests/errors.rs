@@ -299,7 +299,7 @@ fn running_out_of_the_domain_while_iterating_is_no_convergence() -> Result<(), E
             error,
             Error::NoConvergence {
                 residual: 0.5,
-                iterations: 3,
+                iterations: 2,
                 ..
             }
         ),

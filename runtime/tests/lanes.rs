@@ -209,3 +209,59 @@ fn what_is_not_finite_is_named_with_its_stage() -> Result<(), Error> {
     assert_eq!(integrator.state(), &start);
     Ok(())
 }
+
+/// The same method without its momentum stages.
+#[test]
+fn second_order_systems_need_no_momentum_stages() -> Result<(), Error> {
+    fn check<M: Method>(method: M) -> Result<(), Error> {
+        let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
+        let mut whole = Integrator::new(method, Kepler, start.clone(), 0.03)?.in_lanes();
+        let mut half = Integrator::new(method, Kepler, start, 0.03)?.in_second_order_lanes()?;
+        for _ in 0..100 {
+            let (expected, found) = (whole.step()?, half.step()?);
+            assert!((found.q - expected.q).norm() < 1e-12, "{}", M::NAME);
+            assert!((found.p - expected.p).norm() < 1e-12, "{}", M::NAME);
+        }
+        let [half, whole] = [half.statistics(), whole.statistics()].map(|s| s.evaluations);
+        assert!(half < whole || M::NAME == "StoermerVerlet", "{}", M::NAME);
+        Ok(())
+    }
+    check(Gauss1)?;
+    check(Gauss3)?;
+    check(Gauss8)?;
+    check(Gauss10)?;
+    check(Lobatto4)?;
+    check(Radau3)?;
+    check(StoermerVerlet)
+}
+
+/// Particles of mass 2.
+struct Heavy;
+
+impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Heavy {
+    fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+        *velocity = p * T::from_f64(0.5);
+    }
+
+    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+        *force = -q;
+    }
+}
+
+#[test]
+fn a_velocity_that_is_not_the_momentum_is_refused() -> Result<(), Error> {
+    // At rest the two agree.
+    let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::zeros());
+    let integrator = Integrator::new(Gauss2, Heavy, start, 0.1)?;
+    let error = integrator.in_second_order_lanes().expect_err("a mass");
+    let (velocity, momentum) = (0.375, 0.75);
+    assert_eq!(
+        error,
+        Error::NotSecondOrder {
+            component: 0,
+            velocity,
+            momentum
+        }
+    );
+    Ok(())
+}

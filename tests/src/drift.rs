@@ -4,8 +4,11 @@
 //! spread grows like the square root of the number of steps (Brouwer's law). A drift is a mean that is many of its own
 //! standard errors away from zero, and that grows with the number of steps itself.
 
-use symplectic::nalgebra::SVector;
-use symplectic::{Error, Integrator, Method, SeparableHamiltonian, State, Summation};
+use symplectic::nalgebra::Vector2;
+use symplectic::{Error, Hamiltonian, Integrator, Method, Solver, State, Summation};
+
+/// Where an orbit begins.
+pub type Start = State<Vector2<f64>>;
 
 /// The relative energy errors of an ensemble after a number of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,27 +23,26 @@ pub struct Sample {
     pub significance: f64,
 }
 
-/// Integrates every orbit, and takes a sample after each of the numbers of steps, which ascend.
+/// Integrates every orbit by the integrator that is made of its start, and takes a sample after each of the numbers of
+/// steps, which ascend.
 ///
 /// # Errors
 ///
 /// Those of a step.
-pub fn ensemble<M, S, R>(
-    method: M,
-    system: S,
-    starts: &[State<SVector<f64, 2>>],
-    step_size: f64,
+pub fn ensemble<M, S, R, N>(
+    integrator: impl Fn(Start) -> Result<Integrator<M, S, Vector2<f64>, R, N>, Error>,
+    starts: &[Start],
     steps: &[u64],
 ) -> Result<Vec<Sample>, Error>
 where
     M: Method,
-    S: SeparableHamiltonian<SVector<f64, 2>> + Copy,
+    S: Hamiltonian<Vector2<f64>>,
     R: Summation,
+    N: Solver<Vector2<f64>, S>,
 {
     let mut errors = vec![Vec::new(); steps.len()];
     for start in starts {
-        let mut orbit =
-            Integrator::<M, S, _, R>::with_summation(method, system, start.clone(), step_size)?;
+        let mut orbit = integrator(start.clone())?;
         let energy = orbit.energy().unwrap_or(f64::NAN);
         for (&steps, errors) in steps.iter().zip(&mut errors) {
             while orbit.steps() < steps {

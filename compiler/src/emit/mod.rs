@@ -11,6 +11,7 @@ mod extrapolation;
 mod literal;
 mod plan;
 mod relative;
+mod second_order;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};

@@ -94,14 +94,13 @@ const _: () = {
                 c_tilde: C,
             }
         };
-        type General = Gauss2General;
-        type Separable = Gauss2Separable;
+        type General = ::symplectic::Coupled<Gauss2General>;
+        type Separable = ::symplectic::Coupled<Gauss2Separable>;
     }
     pub struct Gauss2General;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for Gauss2General {
         type Class = ::symplectic::General;
-        type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;
         const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
             begin: 0,
@@ -130,6 +129,42 @@ const _: () = {
                         [(-0.7320508075688773), 1.7320508075688772],
                         [(-1.7320508075688772), 2.732050807568877],
                     ],
+                );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut q[0],
+                    step.q,
+                    step.q_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::new(
+                            (-0.07735026918962573),
+                            (-3.3450280739356345e-17),
+                            (-0.07735026),
+                        ),
+                    ]),
+                    [&velocity[0], &velocity[1]],
+                );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut q[1],
+                    step.q,
+                    step.q_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::new(
+                            1.0773502691896257,
+                            3.3450280739356345e-17,
+                            1.0773503,
+                        ),
+                        ::symplectic::Coefficient::exact(0.5),
+                    ]),
+                    [&velocity[0], &velocity[1]],
                 );
                 ::symplectic::transform(
                     force,
@@ -205,6 +240,42 @@ const _: () = {
                     step.size,
                     ::symplectic::Coefficient::exact(0.5),
                 );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut q[0],
+                    step.q,
+                    step.q_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::new(
+                            (-0.07735026918962573),
+                            (-3.3450280739356345e-17),
+                            (-0.07735026),
+                        ),
+                    ]),
+                    [&velocity[0], &velocity[1]],
+                );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut q[1],
+                    step.q,
+                    step.q_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::new(
+                            1.0773502691896257,
+                            3.3450280739356345e-17,
+                            1.0773503,
+                        ),
+                        ::symplectic::Coefficient::exact(0.5),
+                    ]),
+                    [&velocity[0], &velocity[1]],
+                );
             }
         }
         #[inline]
@@ -219,44 +290,6 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
-            ::symplectic::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[0],
-                step.q,
-                step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::new(
-                        (-0.07735026918962573),
-                        (-3.3450280739356345e-17),
-                        (-0.07735026),
-                    ),
-                ]),
-                [&velocity[0], &velocity[1]],
-                &mut change.q,
-            );
-            ::symplectic::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[1],
-                step.q,
-                step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::new(
-                        1.0773502691896257,
-                        3.3450280739356345e-17,
-                        1.0773503,
-                    ),
-                    ::symplectic::Coefficient::exact(0.5),
-                ]),
-                [&velocity[0], &velocity[1]],
-                &mut change.q,
-            );
             system
                 .force(
                     step
@@ -370,6 +403,44 @@ const _: () = {
                 &mut velocity[1],
                 step.size,
                 ::symplectic::Coefficient::exact(0.5),
+            );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
+                &mut q[0],
+                step.q,
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::new(
+                        (-0.07735026918962573),
+                        (-3.3450280739356345e-17),
+                        (-0.07735026),
+                    ),
+                ]),
+                [&velocity[0], &velocity[1]],
+                &mut change.q,
+            );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
+                &mut q[1],
+                step.q,
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::new(
+                        1.0773502691896257,
+                        3.3450280739356345e-17,
+                        1.0773503,
+                    ),
+                    ::symplectic::Coefficient::exact(0.5),
+                ]),
+                [&velocity[0], &velocity[1]],
+                &mut change.q,
             );
             change
         }
@@ -401,11 +472,77 @@ const _: () = {
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
         }
     }
+    impl ::symplectic::StageTableau for Gauss2General {
+        type Lanes = ::symplectic::F64x4;
+        type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; 1];
+        const INCREMENTS: bool = true;
+        const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+            count: 2,
+            columns: &[
+                &[0.5, 1.0773502691896257, 1.0773502691896257, 1.0773502691896257],
+                &[(-0.07735026918962573), 0.5, 0.5, 0.5],
+            ],
+            times: &[
+                0.2113248654051871,
+                0.7886751345948129,
+                0.7886751345948129,
+                0.7886751345948129,
+            ],
+            weights: &[0.5, 0.5, 0.5, 0.5],
+            extrapolation: &[
+                &[
+                    (-0.7320508075688773),
+                    (-1.7320508075688772),
+                    (-1.7320508075688772),
+                    (-1.7320508075688772),
+                ],
+                &[
+                    1.7320508075688772,
+                    2.732050807568877,
+                    2.732050807568877,
+                    2.732050807568877,
+                ],
+            ],
+        };
+        const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+            count: 2,
+            columns: &[
+                &[0.5, 1.0773502691896257, 1.0773502691896257, 1.0773502691896257],
+                &[(-0.07735026918962573), 0.5, 0.5, 0.5],
+            ],
+            times: &[
+                0.2113248654051871,
+                0.7886751345948129,
+                0.7886751345948129,
+                0.7886751345948129,
+            ],
+            weights: &[0.5, 0.5, 0.5, 0.5],
+            extrapolation: &[
+                &[
+                    (-0.7320508075688773),
+                    (-1.7320508075688772),
+                    (-1.7320508075688772),
+                    (-1.7320508075688772),
+                ],
+                &[
+                    1.7320508075688772,
+                    2.732050807568877,
+                    2.732050807568877,
+                    2.732050807568877,
+                ],
+            ],
+        };
+        #[inline(always)]
+        fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+            make: impl ::core::ops::FnMut(usize) -> T,
+        ) -> [T; 1] {
+            ::core::array::from_fn(make)
+        }
+    }
     pub struct Gauss2Separable;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for Gauss2Separable {
         type Class = ::symplectic::Separable;
-        type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;
         const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
             begin: 0,
@@ -434,6 +571,42 @@ const _: () = {
                         [(-0.7320508075688773), 1.7320508075688772],
                         [(-1.7320508075688772), 2.732050807568877],
                     ],
+                );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut q[0],
+                    step.q,
+                    step.q_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::new(
+                            (-0.07735026918962573),
+                            (-3.3450280739356345e-17),
+                            (-0.07735026),
+                        ),
+                    ]),
+                    [&velocity[0], &velocity[1]],
+                );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut q[1],
+                    step.q,
+                    step.q_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::new(
+                            1.0773502691896257,
+                            3.3450280739356345e-17,
+                            1.0773503,
+                        ),
+                        ::symplectic::Coefficient::exact(0.5),
+                    ]),
+                    [&velocity[0], &velocity[1]],
                 );
             } else {
                 ::symplectic::copy(&mut q[0], step.q);
@@ -465,6 +638,42 @@ const _: () = {
                     step.size,
                     ::symplectic::Coefficient::exact(0.5),
                 );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut q[0],
+                    step.q,
+                    step.q_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::new(
+                            (-0.07735026918962573),
+                            (-3.3450280739356345e-17),
+                            (-0.07735026),
+                        ),
+                    ]),
+                    [&velocity[0], &velocity[1]],
+                );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut q[1],
+                    step.q,
+                    step.q_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::new(
+                            1.0773502691896257,
+                            3.3450280739356345e-17,
+                            1.0773503,
+                        ),
+                        ::symplectic::Coefficient::exact(0.5),
+                    ]),
+                    [&velocity[0], &velocity[1]],
+                );
             }
         }
         #[inline]
@@ -479,44 +688,6 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
-            ::symplectic::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[0],
-                step.q,
-                step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::new(
-                        (-0.07735026918962573),
-                        (-3.3450280739356345e-17),
-                        (-0.07735026),
-                    ),
-                ]),
-                [&velocity[0], &velocity[1]],
-                &mut change.q,
-            );
-            ::symplectic::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[1],
-                step.q,
-                step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::new(
-                        1.0773502691896257,
-                        3.3450280739356345e-17,
-                        1.0773503,
-                    ),
-                    ::symplectic::Coefficient::exact(0.5),
-                ]),
-                [&velocity[0], &velocity[1]],
-                &mut change.q,
-            );
             system
                 .force(
                     step
@@ -631,6 +802,44 @@ const _: () = {
                 step.size,
                 ::symplectic::Coefficient::exact(0.5),
             );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
+                &mut q[0],
+                step.q,
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::new(
+                        (-0.07735026918962573),
+                        (-3.3450280739356345e-17),
+                        (-0.07735026),
+                    ),
+                ]),
+                [&velocity[0], &velocity[1]],
+                &mut change.q,
+            );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
+                &mut q[1],
+                step.q,
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::new(
+                        1.0773502691896257,
+                        3.3450280739356345e-17,
+                        1.0773503,
+                    ),
+                    ::symplectic::Coefficient::exact(0.5),
+                ]),
+                [&velocity[0], &velocity[1]],
+                &mut change.q,
+            );
             change
         }
         #[inline]
@@ -659,6 +868,73 @@ const _: () = {
                 V,
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
+        }
+    }
+    impl ::symplectic::StageTableau for Gauss2Separable {
+        type Lanes = ::symplectic::F64x4;
+        type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; 1];
+        const INCREMENTS: bool = true;
+        const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+            count: 2,
+            columns: &[
+                &[0.5, 1.0773502691896257, 1.0773502691896257, 1.0773502691896257],
+                &[(-0.07735026918962573), 0.5, 0.5, 0.5],
+            ],
+            times: &[
+                0.2113248654051871,
+                0.7886751345948129,
+                0.7886751345948129,
+                0.7886751345948129,
+            ],
+            weights: &[0.5, 0.5, 0.5, 0.5],
+            extrapolation: &[
+                &[
+                    (-0.7320508075688773),
+                    (-1.7320508075688772),
+                    (-1.7320508075688772),
+                    (-1.7320508075688772),
+                ],
+                &[
+                    1.7320508075688772,
+                    2.732050807568877,
+                    2.732050807568877,
+                    2.732050807568877,
+                ],
+            ],
+        };
+        const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+            count: 2,
+            columns: &[
+                &[0.5, 1.0773502691896257, 1.0773502691896257, 1.0773502691896257],
+                &[(-0.07735026918962573), 0.5, 0.5, 0.5],
+            ],
+            times: &[
+                0.2113248654051871,
+                0.7886751345948129,
+                0.7886751345948129,
+                0.7886751345948129,
+            ],
+            weights: &[0.5, 0.5, 0.5, 0.5],
+            extrapolation: &[
+                &[
+                    (-0.7320508075688773),
+                    (-1.7320508075688772),
+                    (-1.7320508075688772),
+                    (-1.7320508075688772),
+                ],
+                &[
+                    1.7320508075688772,
+                    2.732050807568877,
+                    2.732050807568877,
+                    2.732050807568877,
+                ],
+            ],
+        };
+        #[inline(always)]
+        fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+            make: impl ::core::ops::FnMut(usize) -> T,
+        ) -> [T; 1] {
+            ::core::array::from_fn(make)
         }
     }
 };

@@ -177,14 +177,13 @@ const _: () = {
                 c_tilde: C_TILDE,
             }
         };
-        type General = Lobatto3General;
-        type Separable = Lobatto3Separable;
+        type General = ::symplectic::Coupled<Lobatto3General>;
+        type Separable = ::symplectic::Coupled<Lobatto3Separable>;
     }
     pub struct Lobatto3General;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for Lobatto3General {
         type Class = ::symplectic::General;
-        type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 3, 3>;
         const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
             begin: 0,
@@ -210,6 +209,36 @@ const _: () = {
                     velocity,
                     [0, 1, 2],
                     [[0.0, 0.0, 1.0], [4.0, (-3.0), 12.0], [3.0, (-2.0), 6.0]],
+                );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut q[1],
+                    step.q,
+                    step.q_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::exact(1.25),
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::exact((-0.25)),
+                    ]),
+                    [&velocity[0], &velocity[1], &velocity[2]],
+                );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut q[2],
+                    step.q,
+                    step.q_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact(1.0),
+                    ]),
+                    [&velocity[0], &velocity[1], &velocity[2]],
                 );
                 ::symplectic::transform(force, [0, 1], [[(-1.0), 0.5], [(-8.0), 3.0]]);
                 ::symplectic::combine::<
@@ -295,6 +324,36 @@ const _: () = {
                         0.16666667,
                     ),
                 );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut q[1],
+                    step.q,
+                    step.q_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::exact(1.25),
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::exact((-0.25)),
+                    ]),
+                    [&velocity[0], &velocity[1], &velocity[2]],
+                );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut q[2],
+                    step.q,
+                    step.q_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact(1.0),
+                    ]),
+                    [&velocity[0], &velocity[1], &velocity[2]],
+                );
             }
         }
         #[inline]
@@ -309,38 +368,6 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
-            ::symplectic::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[1],
-                step.q,
-                step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.25),
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact((-0.25)),
-                ]),
-                [&velocity[0], &velocity[1], &velocity[2]],
-                &mut change.q,
-            );
-            ::symplectic::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[2],
-                step.q,
-                step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.0),
-                    ::symplectic::Coefficient::exact(1.0),
-                    ::symplectic::Coefficient::exact(1.0),
-                ]),
-                [&velocity[0], &velocity[1], &velocity[2]],
-                &mut change.q,
-            );
             system
                 .force(
                     step.at(::symplectic::Coefficient::exact(0.0)),
@@ -466,6 +493,38 @@ const _: () = {
                     0.16666667,
                 ),
             );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
+                &mut q[1],
+                step.q,
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.25),
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact((-0.25)),
+                ]),
+                [&velocity[0], &velocity[1], &velocity[2]],
+                &mut change.q,
+            );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
+                &mut q[2],
+                step.q,
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::Coefficient::exact(1.0),
+                ]),
+                [&velocity[0], &velocity[1], &velocity[2]],
+                &mut change.q,
+            );
             change
         }
         #[inline]
@@ -518,11 +577,61 @@ const _: () = {
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1], &force[2]]);
         }
     }
+    impl ::symplectic::StageTableau for Lobatto3General {
+        type Lanes = ::symplectic::F64x4;
+        type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; 1];
+        const INCREMENTS: bool = true;
+        const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+            count: 3,
+            columns: &[
+                &[0.0, 1.25, 1.0, 1.0],
+                &[0.0, 0.5, 1.0, 1.0],
+                &[0.0, (-0.25), 1.0, 1.0],
+            ],
+            times: &[0.0, 0.5, 1.0, 1.0],
+            weights: &[
+                0.16666666666666666,
+                0.6666666666666666,
+                0.16666666666666666,
+                0.16666666666666666,
+            ],
+            extrapolation: &[
+                &[0.0, 4.0, 3.0, 3.0],
+                &[0.0, (-3.0), (-2.0), (-2.0)],
+                &[1.0, 12.0, 6.0, 6.0],
+            ],
+        };
+        const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+            count: 3,
+            columns: &[
+                &[1.0, 1.0, 1.0, 1.0],
+                &[(-0.25), 0.5, 1.25, 1.25],
+                &[0.0, 0.0, 0.0, 0.0],
+            ],
+            times: &[0.0, 0.5, 1.0, 1.0],
+            weights: &[
+                0.16666666666666666,
+                0.6666666666666666,
+                0.16666666666666666,
+                0.16666666666666666,
+            ],
+            extrapolation: &[
+                &[0.0, 4.0, 3.0, 3.0],
+                &[0.0, (-3.0), (-2.0), (-2.0)],
+                &[1.0, 12.0, 6.0, 6.0],
+            ],
+        };
+        #[inline(always)]
+        fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+            make: impl ::core::ops::FnMut(usize) -> T,
+        ) -> [T; 1] {
+            ::core::array::from_fn(make)
+        }
+    }
     pub struct Lobatto3Separable;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for Lobatto3Separable {
         type Class = ::symplectic::Separable;
-        type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 3, 3>;
         const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
             begin: 1,
@@ -568,6 +677,21 @@ const _: () = {
                     [0, 1, 2],
                     [[0.0, 0.0, 1.0], [4.0, (-3.0), 12.0], [3.0, (-2.0), 6.0]],
                 );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut q[1],
+                    step.q,
+                    step.q_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::exact(1.25),
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::exact((-0.25)),
+                    ]),
+                    [&velocity[0], &velocity[1], &velocity[2]],
+                );
             } else {
                 ::symplectic::copy(&mut q[1], step.q);
                 ::symplectic::copy(&mut p[0], step.p);
@@ -608,6 +732,21 @@ const _: () = {
                         0.16666667,
                     ),
                 );
+                ::symplectic::combine::<
+                    R,
+                    V,
+                    _,
+                >(
+                    &mut q[1],
+                    step.q,
+                    step.q_low,
+                    ::symplectic::factors([
+                        ::symplectic::Coefficient::exact(1.25),
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::exact((-0.25)),
+                    ]),
+                    [&velocity[0], &velocity[1], &velocity[2]],
+                );
             }
         }
         #[inline]
@@ -622,22 +761,6 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
-            ::symplectic::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[1],
-                step.q,
-                step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.25),
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact((-0.25)),
-                ]),
-                [&velocity[0], &velocity[1], &velocity[2]],
-                &mut change.q,
-            );
             system
                 .force(
                     step.at(::symplectic::Coefficient::exact(0.5)),
@@ -747,6 +870,22 @@ const _: () = {
                     0.16666667,
                 ),
             );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
+                &mut q[1],
+                step.q,
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.25),
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact((-0.25)),
+                ]),
+                [&velocity[0], &velocity[1], &velocity[2]],
+                &mut change.q,
+            );
             change
         }
         #[inline]
@@ -802,6 +941,57 @@ const _: () = {
                 ),
                 &force[2],
             );
+        }
+    }
+    impl ::symplectic::StageTableau for Lobatto3Separable {
+        type Lanes = ::symplectic::F64x4;
+        type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; 1];
+        const INCREMENTS: bool = true;
+        const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+            count: 3,
+            columns: &[
+                &[0.0, 1.25, 1.0, 1.0],
+                &[0.0, 0.5, 1.0, 1.0],
+                &[0.0, (-0.25), 1.0, 1.0],
+            ],
+            times: &[0.0, 0.5, 1.0, 1.0],
+            weights: &[
+                0.16666666666666666,
+                0.6666666666666666,
+                0.16666666666666666,
+                0.16666666666666666,
+            ],
+            extrapolation: &[
+                &[0.0, 4.0, 3.0, 3.0],
+                &[0.0, (-3.0), (-2.0), (-2.0)],
+                &[1.0, 12.0, 6.0, 6.0],
+            ],
+        };
+        const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+            count: 3,
+            columns: &[
+                &[1.0, 1.0, 1.0, 1.0],
+                &[(-0.25), 0.5, 1.25, 1.25],
+                &[0.0, 0.0, 0.0, 0.0],
+            ],
+            times: &[0.0, 0.5, 1.0, 1.0],
+            weights: &[
+                0.16666666666666666,
+                0.6666666666666666,
+                0.16666666666666666,
+                0.16666666666666666,
+            ],
+            extrapolation: &[
+                &[0.0, 4.0, 3.0, 3.0],
+                &[0.0, (-3.0), (-2.0), (-2.0)],
+                &[1.0, 12.0, 6.0, 6.0],
+            ],
+        };
+        #[inline(always)]
+        fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+            make: impl ::core::ops::FnMut(usize) -> T,
+        ) -> [T; 1] {
+            ::core::array::from_fn(make)
         }
     }
 };

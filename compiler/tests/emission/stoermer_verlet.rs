@@ -87,14 +87,13 @@ const _: () = {
                 c_tilde: C_TILDE,
             }
         };
-        type General = StoermerVerletGeneral;
-        type Separable = StoermerVerletSeparable;
+        type General = ::symplectic::Coupled<StoermerVerletGeneral>;
+        type Separable = ::symplectic::Explicit<StoermerVerletSeparable>;
     }
     pub struct StoermerVerletGeneral;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for StoermerVerletGeneral {
         type Class = ::symplectic::General;
-        type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;
         const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
             begin: 0,
@@ -135,6 +134,20 @@ const _: () = {
                 step.size,
                 ::symplectic::Coefficient::exact(0.5),
             );
+            ::symplectic::combine::<
+                R,
+                V,
+                _,
+            >(
+                &mut q[1],
+                step.q,
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::Coefficient::exact(1.0),
+                ]),
+                [&velocity[0], &velocity[1]],
+            );
         }
         #[inline]
         fn sweep<
@@ -148,21 +161,6 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
-            ::symplectic::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[1],
-                step.q,
-                step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.0),
-                    ::symplectic::Coefficient::exact(1.0),
-                ]),
-                [&velocity[0], &velocity[1]],
-                &mut change.q,
-            );
             system
                 .force(
                     step.at(::symplectic::Coefficient::exact(0.0)),
@@ -211,6 +209,21 @@ const _: () = {
                 step.size,
                 ::symplectic::Coefficient::exact(0.5),
             );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
+                &mut q[1],
+                step.q,
+                step.q_low,
+                ::symplectic::factors([
+                    ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::Coefficient::exact(1.0),
+                ]),
+                [&velocity[0], &velocity[1]],
+                &mut change.q,
+            );
             change
         }
         #[inline]
@@ -253,11 +266,35 @@ const _: () = {
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
         }
     }
+    impl ::symplectic::StageTableau for StoermerVerletGeneral {
+        type Lanes = ::symplectic::F64x4;
+        type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; 1];
+        const INCREMENTS: bool = true;
+        const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+            count: 2,
+            columns: &[&[0.0, 1.0, 1.0, 1.0], &[0.0, 1.0, 1.0, 1.0]],
+            times: &[0.0, 1.0, 1.0, 1.0],
+            weights: &[0.5, 0.5, 0.5, 0.5],
+            extrapolation: &[&[0.0, (-1.0), (-1.0), (-1.0)], &[1.0, 2.0, 2.0, 2.0]],
+        };
+        const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+            count: 2,
+            columns: &[&[1.0, 1.0, 1.0, 1.0], &[0.0, 0.0, 0.0, 0.0]],
+            times: &[0.5, 0.5, 0.5, 0.5],
+            weights: &[0.5, 0.5, 0.5, 0.5],
+            extrapolation: &[],
+        };
+        #[inline(always)]
+        fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+            make: impl ::core::ops::FnMut(usize) -> T,
+        ) -> [T; 1] {
+            ::core::array::from_fn(make)
+        }
+    }
     pub struct StoermerVerletSeparable;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for StoermerVerletSeparable {
         type Class = ::symplectic::Separable;
-        type Coupling = ::symplectic::Explicit;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Evaluations<V>;
         const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
             begin: 3,

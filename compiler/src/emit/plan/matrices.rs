@@ -4,6 +4,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::form::Form;
+use super::second_order::SecondOrder;
 use super::{extrapolation, literal};
 use crate::schedule::{Evaluation, StepGraph};
 
@@ -27,15 +28,16 @@ pub(super) fn code(graph: &StepGraph<'_>, form: &Form, name: &Ident) -> TokenStr
         Form::Weighted => graph.momenta[momenta[i]].coefficients[j].to_f64(),
     };
     let lane_count = groups * width;
+    // The last stage is repeated to fill the lanes.
+    let fill = |count: usize, value: &dyn Fn(usize) -> f64| {
+        let values: Vec<f64> = (0..lane_count).map(|i| value(i.min(count - 1))).collect();
+        literal::array(&values)
+    };
     let half = |evaluations: &[Evaluation<'_>],
                 others: usize,
                 entry: &dyn Fn(usize, usize) -> f64| {
         let count = evaluations.len();
-        // The last stage is repeated to fill the lanes.
-        let padded = |value: &dyn Fn(usize) -> f64| {
-            let values: Vec<f64> = (0..lane_count).map(|i| value(i.min(count - 1))).collect();
-            literal::array(&values)
-        };
+        let padded = |value: &dyn Fn(usize) -> f64| fill(count, value);
         let columns = (0..others).map(|j| padded(&|i| entry(i, j)));
         let times = padded(&|i| evaluations[i].time.to_f64());
         let weights = padded(&|i| evaluations[i].weight.to_f64());
@@ -61,6 +63,22 @@ pub(super) fn code(graph: &StepGraph<'_>, form: &Form, name: &Ident) -> TokenStr
     };
     let position_half = half(&graph.forces, graph.velocities.len(), &position);
     let momentum_half = half(&graph.velocities, graph.forces.len(), &momentum);
+    let second_order = match SecondOrder::new(graph) {
+        Some(SecondOrder { nodes, matrix }) => {
+            let count = nodes.len();
+            let columns = (0..count).map(|k| fill(count, &|i| matrix[i][k]));
+            let rest = fill(count, &|i| 1.0 - nodes[i]);
+            let nodes = fill(count, &|i| nodes[i]);
+            quote! {
+                ::core::option::Option::Some(::symplectic::SecondOrderTableau {
+                    nodes: &#nodes,
+                    columns: &[#(&#columns),*],
+                    rest: &#rest,
+                })
+            }
+        }
+        None => quote!(::core::option::Option::None),
+    };
     let lanes = literal::identifier(lanes);
     let groups = Literal::usize_unsuffixed(groups);
     let increments = matches!(form, Form::Increments(_));
@@ -72,6 +90,7 @@ pub(super) fn code(graph: &StepGraph<'_>, form: &Form, name: &Ident) -> TokenStr
             const INCREMENTS: bool = #increments;
             const POSITIONS: ::symplectic::HalfTableau = #position_half;
             const MOMENTA: ::symplectic::HalfTableau = #momentum_half;
+            const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = #second_order;
 
             #[inline(always)]
             fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(

@@ -9,7 +9,7 @@ mod stored;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::{extrapolation, literal, literal::identifier, relative};
+use super::{extrapolation, literal, literal::identifier, relative, second_order};
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
 use crate::derive::substeps;

@@ -82,19 +82,18 @@ impl<'g, 'a> Stored<'g, 'a> {
         quote!(#(#explicit)* #start)
     }
 
-    /// Starting values from the start of the step alone: the coupled stages there, and one velocity for all.
+    /// Starting values from the start of the step alone: one velocity for all, the positions that follow from it, and the
+    /// other coupled stages there.
     fn initial(&self) -> TokenStream {
-        let stages = self.phases.coupled.iter();
-        let stages = stages
-            .filter(|&&node| {
-                self.graph
-                    .value(node)
-                    .is_some_and(|value| !value.is_start())
-            })
-            .map(|&node| Form::reset(node));
+        let momenta = self.coupled_of_kind(Node::Momentum(0)).into_iter();
+        let momenta = momenta.filter(|&node| {
+            let value = self.graph.value(node);
+            value.is_some_and(|value| !value.is_start())
+        });
+        let momenta = momenta.map(Form::reset);
         let velocities = self.coupled_of_kind(Node::Velocity(0));
         let Some((&first, others)) = velocities.split_first() else {
-            return quote!(#(#stages)*);
+            return quote!(#(#momenta)*);
         };
         let evaluate = self.evaluate(first, &quote!(step.q), &quote!(step.p));
         let copies = (!others.is_empty()).then(|| {
@@ -103,7 +102,8 @@ impl<'g, 'a> Stored<'g, 'a> {
             quote!(::symplectic::copy_to(velocity, #first, [#(#others),*]);)
         });
         let increments = velocities.iter().map(|&node| self.increment(node));
-        quote!(#(#stages)* #evaluate #copies #(#increments)*)
+        let positions = self.stages_of_kind(Node::Position(0));
+        quote!(#(#momenta)* #evaluate #copies #(#increments)* #positions)
     }
 
     /// Starting values from the increments that the step before has left: those of the velocities and, where forces see
@@ -113,13 +113,20 @@ impl<'g, 'a> Stored<'g, 'a> {
             return None;
         };
         let velocities = self.transform(Node::Velocity(0))?;
+        let positions = self.stages_of_kind(Node::Position(0));
         if self.graph.class == Class::Separable {
-            return Some(velocities);
+            return Some(quote!(#velocities #positions));
         }
         let forces = self.transform(Node::Force(0))?;
-        let momenta = self.coupled_of_kind(Node::Momentum(0));
-        let momenta = momenta.iter().map(|&node| self.compute(node));
-        Some(quote!(#velocities #forces #(#momenta)*))
+        let momenta = self.stages_of_kind(Node::Momentum(0));
+        Some(quote!(#velocities #positions #forces #momenta))
+    }
+
+    /// The lines that compute the coupled stages of one kind from the evaluations that there are.
+    fn stages_of_kind(&self, kind: Node) -> TokenStream {
+        let nodes = self.coupled_of_kind(kind);
+        let lines = nodes.iter().map(|&node| self.compute(node));
+        quote!(#(#lines)*)
     }
 
     /// The line that takes the increments of one kind to the next step.
@@ -144,12 +151,13 @@ impl<'g, 'a> Stored<'g, 'a> {
             return quote!(::symplectic::Change::default());
         }
         // Each kind sees the newest of the kind before it, which converges in fewer sweeps than all
-        // stage values from all old evaluations.
+        // stage values from all old evaluations. The positions come last: how much they change says what
+        // the next sweep would gain.
         let rank = |node: &Node| match node {
-            Node::Position(_) => 0,
-            Node::Force(_) => 1,
-            Node::Momentum(_) => 2,
-            Node::Velocity(_) => 3,
+            Node::Force(_) => 0,
+            Node::Momentum(_) => 1,
+            Node::Velocity(_) => 2,
+            Node::Position(_) => 3,
         };
         let mut nodes = self.phases.coupled.clone();
         nodes.sort_by_key(rank);
