@@ -6,6 +6,8 @@
 
 use core::array;
 
+use num_traits::Zero;
+
 use crate::summation::{fast_two_sum, two_sum};
 use crate::{Coefficient, PartChange, Scalar, Summation, Vector};
 
@@ -188,7 +190,15 @@ pub fn transform<V: Vector, const N: usize>(
     for i in 0..n {
         let old: [V::Scalar; N] = array::from_fn(|j| slices[j][i]);
         for (row, slice) in matrix.iter().zip(&mut slices) {
-            slice[i] = sum(N, |j| V::Scalar::from_f64(row[j]) * old[j]);
+            let product = |j: usize| V::Scalar::from_f64(row[j]) * old[j];
+            // Where a time of this step is one of the step before, all entries but one are zero.
+            slice[i] = if row.contains(&0.0) {
+                let mut products = (0..N).filter(|&j| row[j] != 0.0).map(product);
+                let first = products.next().unwrap_or_else(V::Scalar::zero);
+                products.fold(first, |sum, product| sum + product)
+            } else {
+                sum(N, product)
+            };
         }
     }
 }
