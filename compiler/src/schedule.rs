@@ -4,6 +4,8 @@ mod phases;
 mod splitting;
 mod unused;
 
+use std::collections::{BTreeMap, BTreeSet};
+
 pub use phases::{Evaluations, Phases};
 
 use crate::algebra::{Number, StageAlgebra, group_by};
@@ -236,22 +238,30 @@ impl<'a> StepGraph<'a> {
 
     /// Splits the nodes into those before, in and after the coupled ones.
     pub fn schedule(&self) -> Schedule {
-        let mut rest: Vec<(Node, Vec<Node>)> =
-            self.nodes().map(|node| (node, self.needs(node))).collect();
-        let before = take_while_possible(&mut rest, |(_, needs), rest| {
+        let nodes: Vec<Node> = self.nodes().collect();
+        let indices: BTreeMap<Node, usize> = nodes.iter().copied().zip(0..).collect();
+        let index = |node: Node| indices.get(&node).copied();
+        let needs = nodes.iter().map(|&node| self.needs(node));
+        let needs: Vec<Vec<usize>> = needs
+            .map(|needs| needs.into_iter().filter_map(index).collect())
+            .collect();
+        let mut needed_by = vec![Vec::new(); nodes.len()];
+        for (node, needs) in needs.iter().enumerate() {
             needs
                 .iter()
-                .all(|needed| rest.iter().all(|(other, _)| other != needed))
-        });
+                .for_each(|&needed| needed_by[needed].push(node));
+        }
+        let mut left = vec![true; nodes.len()];
+        let before = take_while_possible(&mut left, &needs, &needed_by);
         // The same from the other end: what no remaining node needs comes last.
-        let mut after = take_while_possible(&mut rest, |(node, _), rest| {
-            rest.iter().all(|(_, needs)| !needs.contains(node))
-        });
+        let mut after = take_while_possible(&mut left, &needed_by, &needs);
         after.reverse();
+        let coupled = (0..nodes.len()).filter(|&node| left[node]).collect();
+        let named = |indices: Vec<usize>| indices.into_iter().map(|i| nodes[i]).collect();
         Schedule {
-            before,
-            coupled: rest.into_iter().map(|(node, _)| node).collect(),
-            after,
+            before: named(before),
+            coupled: named(coupled),
+            after: named(after),
         }
     }
 
@@ -345,16 +355,27 @@ impl Groups {
     }
 }
 
-type Entry = (Node, Vec<Node>);
-
-/// Moves nodes out of `rest`, one at a time, the first that is possible.
+/// Takes what is left, one at a time, the first of those that wait for nothing that is left; `awaited_by` says the same
+/// as `waits_for` from the other end.
 fn take_while_possible(
-    rest: &mut Vec<Entry>,
-    possible: impl Fn(&Entry, &[Entry]) -> bool,
-) -> Vec<Node> {
+    left: &mut [bool],
+    waits_for: &[Vec<usize>],
+    awaited_by: &[Vec<usize>],
+) -> Vec<usize> {
+    let waiting = |waits_for: &Vec<usize>| waits_for.iter().filter(|&&other| left[other]).count();
+    let mut counts: Vec<usize> = waits_for.iter().map(waiting).collect();
+    let possible = (0..left.len()).filter(|&node| left[node] && counts[node] == 0);
+    let mut possible: BTreeSet<usize> = possible.collect();
     let mut taken = Vec::new();
-    while let Some(position) = rest.iter().position(|entry| possible(entry, rest)) {
-        taken.push(rest.remove(position).0);
+    while let Some(node) = possible.pop_first() {
+        left[node] = false;
+        taken.push(node);
+        for &other in awaited_by[node].iter().filter(|&&other| left[other]) {
+            counts[other] -= 1;
+            if counts[other] == 0 {
+                possible.insert(other);
+            }
+        }
     }
     taken
 }

@@ -2,6 +2,12 @@
 
 use super::{Class, Node, StageValue, StepGraph};
 
+/// The evaluations that are in a chain.
+struct Made {
+    forces: Vec<bool>,
+    velocities: Vec<bool>,
+}
+
 impl<'a> StepGraph<'a> {
     /// The evaluations in the order of the step, if it is a splitting; evaluations without weight are left out.
     ///
@@ -18,29 +24,37 @@ impl<'a> StepGraph<'a> {
             .filter(|&node| !self.evaluation(node).weight.is_zero())
             .collect();
         let mut chain = Vec::new();
+        let mut made = Made {
+            forces: vec![false; self.forces.len()],
+            velocities: vec![false; self.velocities.len()],
+        };
         while !rest.is_empty() {
             let mut ready = rest.iter().enumerate();
             let mut ready = ready
                 .by_ref()
-                .filter(|&(_, &node)| self.follows(node, &chain).unwrap_or(false));
+                .filter(|&(_, &node)| self.follows(node, &made).unwrap_or(false));
             // Were two ready, the one would have to come before the other and the other before the one.
             let (next, None) = (ready.next()?.0, ready.next()) else {
                 return None;
             };
-            chain.push(rest.remove(next));
+            let next = rest.remove(next);
+            match next {
+                Node::Force(j) => made.forces[j] = true,
+                Node::Velocity(j) => made.velocities[j] = true,
+                Node::Position(_) | Node::Momentum(_) => {}
+            }
+            chain.push(next);
         }
         Some(chain)
     }
 
     /// Whether exactly those evaluations have been applied that an evaluation waits for.
-    fn follows(&self, node: Node, chain: &[Node]) -> Option<bool> {
-        let argument = self.argument(node)?.applied.as_deref()?;
-        let term = match node {
-            Node::Force(_) => Node::Velocity,
-            _ => Node::Force,
-        };
-        let mut applied = argument.iter().enumerate();
-        Some(applied.all(|(j, applied)| chain.contains(&term(j)) == *applied))
+    fn follows(&self, node: Node, made: &Made) -> Option<bool> {
+        let applied = self.argument(node)?.applied.as_deref()?;
+        Some(match node {
+            Node::Force(_) => applied == made.velocities,
+            _ => applied == made.forces,
+        })
     }
 
     /// The one stage value that an evaluation sees, for separable Hamiltonians.
