@@ -29,6 +29,22 @@ pub struct Pair<A: StageAlgebra> {
     pub b_tilde: A::Vector,
 }
 
+/// What the matrices of a splitting look like, each stage of which makes one drift and one kick.
+///
+/// ```text
+/// kicks first    a_ij = b_j for j < i    ã_ij = b̃_j for j ≤ i
+/// drifts first   a_ij = b_j for j ≤ i    ã_ij = b̃_j for j < i
+/// ```
+///
+/// and zero elsewhere, so that the weights say all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Staircase {
+    /// `P_i` has the kick that is made at `Q_i`.
+    KicksFirst,
+    /// `Q_i` has the drift that is made at `P_i`.
+    DriftsFirst,
+}
+
 impl<A: StageAlgebra> Clone for Pair<A> {
     fn clone(&self) -> Self {
         Pair {
@@ -137,6 +153,22 @@ impl<A: StageAlgebra> Pair<A> {
     /// `c̃_i = Σ_j ã_ij`, which need not be the nodes.
     pub fn c_tilde(&self) -> A::Vector {
         self.row_sums(&self.a_tilde)
+    }
+
+    /// Whether the coefficients are those of a splitting as they stand; there may be splittings with other ones.
+    pub(crate) fn staircase(&self) -> Option<Staircase> {
+        let algebra = &*self.algebra;
+        let steps = |positions, momenta| {
+            algebra.is_staircase(&self.a, &self.b, positions)
+                && algebra.is_staircase(&self.a_tilde, &self.b_tilde, momenta)
+        };
+        if steps(false, true) {
+            Some(Staircase::KicksFirst)
+        } else if steps(true, false) {
+            Some(Staircase::DriftsFirst)
+        } else {
+            None
+        }
     }
 
     fn row_sums(&self, matrix: &A::Matrix) -> A::Vector {

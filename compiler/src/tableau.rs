@@ -3,12 +3,11 @@
 use std::sync::OnceLock;
 
 use crate::algebra::{Constants, Dense, NodeAlgebra, Number, Reals, StageAlgebra};
-use crate::certify::Claim;
 use crate::coefficients::Coefficients;
 use crate::definition::Definition;
-use crate::order::{OrderOptions, OrderReport, PerturbedOrder};
+use crate::order::{GivenOrder, OrderOptions, OrderReport, PerturbedOrder};
 use crate::pair::Pair;
-use crate::properties::{Properties, SeparableProperties};
+use crate::properties::{Evidence, Properties, SeparableProperties};
 use crate::stability::Stability;
 
 /// Where a tableau comes from.
@@ -34,8 +33,8 @@ pub struct Tableau {
     pub(crate) name: Option<String>,
     pub(crate) provenance: Provenance,
     pub(crate) exact: Exact,
-    /// The order that is proved of the exact coefficients, however well they are known.
-    pub(crate) certified: Option<Claim>,
+    /// The order that follows from how the method is made, however well its coefficients are known.
+    pub(crate) given: Option<GivenOrder>,
     properties: OnceLock<Properties>,
     separable: OnceLock<SeparableProperties>,
     orders: OnceLock<OrderReport>,
@@ -134,7 +133,7 @@ impl Tableau {
                 source: None,
             },
             exact,
-            certified: None,
+            given: None,
             properties: OnceLock::new(),
             separable: OnceLock::new(),
             orders: OnceLock::new(),
@@ -155,7 +154,16 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn properties(&self) -> Properties {
-        let decided = || over_algebra!(self, pair => Properties::of_pair(pair));
+        let decided = || {
+            let mut properties = over_algebra!(self, pair => Properties::of_pair(pair));
+            // A method of order 1 is consistent.
+            if let (Some(given), Evidence::Verified { .. }) =
+                (&self.given, properties.consistent.evidence)
+            {
+                properties.consistent.evidence = given.evidence;
+            }
+            properties
+        };
         self.properties.get_or_init(decided).clone()
     }
 

@@ -193,12 +193,27 @@ impl<F: Field> StageAlgebra for Dense<F> {
         m.iter().zip(f).map(scaled).collect()
     }
 
+    /// A row that is the one before with a last entry more, as in a splitting, takes one product.
     fn apply(&self, m: &Matrix<F>, f: &Vector<F>) -> Vector<F> {
-        let row = |row: &Vector<F>| {
+        let zero = self.field.rational(&BigRational::default());
+        let end = |row: &Vector<F>| row.iter().rposition(|x| *x != zero).map_or(0, |j| j + 1);
+        let sum = |start: Option<&F::Element>, row: &[F::Element], f: &[F::Element]| {
             let products = zip(row, f, |x, y| self.field.multiply(x, y));
-            self.total(products.iter())
+            self.total(start.into_iter().chain(&products))
         };
-        m.iter().map(row).collect()
+        let mut sums: Vector<F> = Vec::with_capacity(m.len());
+        let mut before: &[F::Element] = &[];
+        for row in m {
+            let (known, length) = (before.len(), end(row));
+            let start = sums.last().filter(|_| known > 0 && row.starts_with(before));
+            let next = match start {
+                Some(start) => sum(Some(start), &row[known..length.max(known)], &f[known..]),
+                None => sum(None, &row[..length], f),
+            };
+            sums.push(next);
+            before = &row[..length];
+        }
+        sums
     }
 
     fn values<'a>(&'a self, f: Cow<'a, Vector<F>>) -> Vec<Number<'a>> {
@@ -226,6 +241,14 @@ impl<F: Field> StageAlgebra for Dense<F> {
         self.field.verified_bits()
     }
 
+    fn is_staircase(&self, m: &Matrix<F>, b: &Vector<F>, filled: bool) -> bool {
+        let zero = self.field.rational(&BigRational::default());
+        m.iter().enumerate().all(|(i, row)| {
+            let steps = i + usize::from(filled);
+            row[..steps] == b[..steps] && row[steps..].iter().all(|x| *x == zero)
+        })
+    }
+
     fn equal_rows(&self, m: &Matrix<F>, columns: &[Vec<usize>]) -> Vec<Vec<usize>> {
         let key = |stage: usize| {
             let row = &m[stage];
@@ -250,5 +273,32 @@ impl<F: Field> StageAlgebra for Dense<F> {
 
     fn merged_value(&self, f: &Vector<F>, group: &[usize]) -> Number<'_> {
         self.field.number(&self.total(group.iter().map(|&j| &f[j])))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::Rationals;
+    use crate::arithmetic::rational::ratio;
+
+    /// Rows that go on where the one before ends, one that repeats it, one that does not, and a row of zeros.
+    #[test]
+    fn rows_that_go_on_are_summed_from_where_they_do() {
+        let algebra = Dense::new(Rationals, 6);
+        let rows = [
+            [1, 0, 0, 0, 0, 0],
+            [1, 2, 3, 0, 0, 0],
+            [1, 2, 3, 0, 0, 0],
+            [1, 2, 0, 4, 0, 0],
+            [0, 0, 0, 0, 0, 0],
+            [0, 2, 0, 0, 0, 5],
+        ];
+        let whole = |x: &i64| ratio(*x, 1);
+        let matrix: Vec<Vec<BigRational>> =
+            rows.iter().map(|r| r.iter().map(whole).collect()).collect();
+        let vector: Vec<BigRational> = [7, 1, 1, 2, 9, 10].iter().map(whole).collect();
+        let sums: Vec<BigRational> = [7, 12, 12, 17, 0, 52].iter().map(whole).collect();
+        assert_eq!(algebra.apply(&matrix, &vector), sums);
     }
 }

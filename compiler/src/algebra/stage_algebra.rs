@@ -79,6 +79,12 @@ pub trait StageAlgebra: Debug + PartialEq + Sized {
     /// all equations are decided.
     fn verified_bits(&self) -> Option<u32>;
 
+    /// Whether `m_ij` is `b_j` below the diagonal, zero above it, and on it `b_j` if it is `filled` and zero otherwise:
+    /// all of that as elements, so that it is so for certain. An algebra may not look.
+    fn is_staircase(&self, _m: &Self::Matrix, _b: &Self::Vector, _filled: bool) -> bool {
+        false
+    }
+
     /// Groups the stages whose rows are equal when the columns of each group are added.
     fn equal_rows(&self, m: &Self::Matrix, columns: &[Vec<usize>]) -> Vec<Vec<usize>>;
     /// Whether [`Self::equal_rows`] looks at this stage, or leaves it alone unseen.

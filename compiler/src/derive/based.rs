@@ -17,7 +17,7 @@ use crate::error::{Error, ErrorKind};
 use crate::expression::{Expression, ExpressionKind, Input, parse_list, shown};
 use crate::limits::Limits;
 use crate::operations::concatenate;
-use crate::order::OrderOptions;
+use crate::order::{GivenOrder, OrderOptions, OrderReport};
 use crate::properties::Evidence;
 use crate::quadrature::check_stages;
 use crate::symbolic::Constant;
@@ -46,8 +46,10 @@ struct Weights {
     /// Whether only the first half is written.
     symmetric: bool,
     components: Vec<Component>,
-    /// What is certified of printed weights.
-    claim: Option<Claim>,
+    /// What is certified of printed weights, or known of a named composition.
+    given: Option<GivenOrder>,
+    /// Whether the order is claimed of printed weights.
+    claimed: bool,
 }
 
 /// A step of the base method.
@@ -115,16 +117,19 @@ impl Based {
             if weights.symmetric {
                 parts.push((Key::Symmetric, "true".to_owned()));
             }
-            if let Some(claim) = &weights.claim {
-                parts.push((Key::Claim, claim::text(claim)));
+            if let Some(given) = weights.given.as_ref().filter(|_| weights.claimed) {
+                parts.push((Key::Claim, claim::text(&given.claim)));
             }
         }
         parts
     }
 
-    /// What is certified of the method.
-    pub fn claim(&self) -> Option<&Claim> {
-        self.weights.as_ref()?.claim.as_ref()
+    /// The order that follows from the weights, or for a base by itself from how that is made.
+    pub fn given(&self) -> Option<GivenOrder> {
+        match &self.weights {
+            Some(weights) => weights.given.clone(),
+            None => self.base.method.given(),
+        }
     }
 
     pub fn stages(&self) -> usize {
@@ -326,7 +331,8 @@ impl Weights {
             text: texts.join(", "),
             symmetric,
             components: fractions.into_iter().map(component).collect(),
-            claim: None,
+            given: None,
+            claimed: false,
         })
     }
 
@@ -367,7 +373,8 @@ impl Weights {
             text: canonical,
             symmetric,
             components: (0..printed.len()).map(component).collect(),
-            claim: Some(claim),
+            given: Some(GivenOrder::certified(claim)),
+            claimed: true,
         })
     }
 
@@ -391,7 +398,8 @@ impl Weights {
             ..OrderOptions::default()
         };
         // A symmetric method has an even order, and the scheme raises it by two.
-        let start = tableau.order(&options).separable.order;
+        let orders_of_base = tableau.order(&options);
+        let start = orders_of_base.separable.order;
         let orders = (start + 2..=MAX_ORDER).step_by(2);
         let wanted = orders.clone().find(|order| written == (*order).into());
         let Some(wanted) = wanted else {
@@ -417,9 +425,28 @@ impl Weights {
             text: format!("{name}({wanted})"),
             symmetric: false,
             components: fractions.into_iter().map(component).collect(),
-            claim: None,
+            given: raised(&tableau, &orders_of_base, wanted),
+            claimed: false,
         })
     }
+}
+
+/// The order of a named composition, by the theorem of [`GivenOrder`], where that of its base and the symmetry of it are
+/// more than verified. Each level of the composition has its own root, with which its two equations are identities.
+fn raised(base: &Tableau, orders: &OrderReport, wanted: usize) -> Option<GivenOrder> {
+    let separable = base.separable_properties().symmetric;
+    let evidence = separable.evidence.and(orders.separable.evidence);
+    let general = &orders.general;
+    let symmetric = base.properties().symmetric;
+    // The fractions cancel the leading error of a base of this order, whatever the Hamiltonian.
+    let for_all = symmetric.holds
+        && general.order == orders.separable.order
+        && symmetric.evidence.and(general.evidence) == evidence;
+    matches!(evidence, Evidence::Proved | Evidence::Certified).then_some(GivenOrder {
+        claim: Claim::Separable(wanted),
+        general: if for_all { wanted } else { 1 },
+        evidence,
+    })
 }
 
 /// Makes the first half of a list that reads the same from both ends the whole: its last item stands in the middle.

@@ -12,6 +12,7 @@ use crate::definition::{Definition, Key};
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Expression, Input, parse_list, parse_matrix};
 use crate::limits::Limits;
+use crate::order::GivenOrder;
 use crate::quadrature::{Nodes, check_stages};
 use crate::symbolic::Constant;
 
@@ -210,16 +211,18 @@ impl Problem {
         })
     }
 
-    /// The order that is certified, where the definition claims one.
-    pub fn certified(&self) -> Option<Claim> {
-        let claim = match &self.construction {
-            Construction::Certified(certified) => Some(certified.claim()),
-            Construction::Based(based) => based.claim(),
+    /// The order that follows from how the method is made.
+    pub fn given(&self) -> Option<GivenOrder> {
+        let given = match &self.construction {
+            Construction::Certified(certified) => {
+                Some(GivenOrder::certified(certified.claim().clone()))
+            }
+            Construction::Based(based) => based.given(),
             _ => None,
         }?;
         // With positions and momenta exchanged, it is U that is quadratic, or the perturbation of T.
-        let separable = matches!(claim, Claim::Separable(_));
-        (separable || !self.exchange).then(|| claim.clone())
+        let separable = matches!(given.claim, Claim::Separable(_));
+        (separable || !self.exchange).then_some(given)
     }
 
     /// The number of stages of the method, or a bound for it.

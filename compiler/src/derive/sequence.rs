@@ -1,5 +1,6 @@
 //! Kicks and drifts one after another as a partitioned Runge–Kutta method.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use num_rational::BigRational;
@@ -21,7 +22,7 @@ pub struct Substep {
 }
 
 /// A factor of a fraction of the step.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Factor {
     /// One with a closed form.
     Constant(Constant),
@@ -184,27 +185,26 @@ impl Sequence {
         })
     }
 
-    /// Alternating flows: neighbours of the same kind are one, and what is exactly zero is none.
+    /// Alternating flows: neighbours of the same kind are one, and what is exactly zero is none. Equal fractions are
+    /// the same element, so that a sequence that reads the same from both ends is seen to.
     fn merged<F: Field>(&self, field: &F) -> Option<Vec<(Flow, F::Element)>> {
-        let vanishes = |x: &F::Element| field.zero(x) == Zero::Yes;
-        let mut merged: Vec<(Flow, F::Element)> = Vec::new();
+        let mut elements = Elements::new(field);
+        let mut merged: Vec<(Flow, Vec<usize>)> = Vec::new();
         for Substep { flow, factors } in &self.substeps {
-            let one = field.rational(&BigRational::from_integer(1.into()));
-            let value = factors.iter().try_fold(one, |product, factor| {
-                Some(field.multiply(&product, &factor.element(field)?))
-            })?;
+            let product = elements.product(factors)?;
             match merged.last_mut() {
-                Some((last, sum)) if last == flow => {
-                    *sum = field.add(sum, &value);
-                    if vanishes(sum) {
-                        merged.pop();
-                    }
-                }
-                _ if vanishes(&value) => {}
-                _ => merged.push((*flow, value)),
+                Some((last, products)) if last == flow => products.push(product),
+                _ => merged.push((*flow, vec![product])),
+            }
+            if let Some((_, products)) = merged.last_mut()
+                && field.zero(elements.sum(products)) == Zero::Yes
+            {
+                merged.pop();
             }
         }
-        Some(merged)
+        let value =
+            |(flow, mut products): (Flow, Vec<usize>)| (flow, elements.sum(&mut products).clone());
+        Some(merged.into_iter().map(value).collect())
     }
 
     /// The flows, each once where several of a kind come one after another.
@@ -212,5 +212,49 @@ impl Sequence {
         let mut flows: Vec<Flow> = self.substeps.iter().map(|substep| substep.flow).collect();
         flows.dedup();
         flows
+    }
+}
+
+/// Elements of a field for fractions of the step, one for all fractions that are written alike.
+struct Elements<'a, F: Field> {
+    field: &'a F,
+    products: Vec<(&'a [Factor], F::Element)>,
+    /// The sums of products with these ascending indices.
+    sums: HashMap<Vec<usize>, F::Element>,
+}
+
+impl<'a, F: Field> Elements<'a, F> {
+    fn new(field: &'a F) -> Self {
+        Elements {
+            field,
+            products: Vec::new(),
+            sums: HashMap::new(),
+        }
+    }
+
+    /// The index of a product; `None` for one of a factor that the field does not hold.
+    fn product(&mut self, factors: &'a [Factor]) -> Option<usize> {
+        let known = self.products.iter();
+        if let Some(index) = known.clone().position(|(other, _)| *other == factors) {
+            return Some(index);
+        }
+        let one = self.field.rational(&BigRational::from_integer(1.into()));
+        let value = factors.iter().try_fold(one, |product, factor| {
+            Some(self.field.multiply(&product, &factor.element(self.field)?))
+        })?;
+        self.products.push((factors, value));
+        Some(self.products.len() - 1)
+    }
+
+    /// The sum of products, whose indices it puts in ascending order.
+    fn sum(&mut self, products: &mut [usize]) -> &F::Element {
+        products.sort_unstable();
+        let (field, values) = (self.field, &self.products);
+        self.sums.entry(products.to_vec()).or_insert_with(|| {
+            let values = products.iter().map(|&index| values[index].1.clone());
+            values
+                .reduce(|sum, value| field.add(&sum, &value))
+                .unwrap_or_else(|| field.rational(&BigRational::default()))
+        })
     }
 }

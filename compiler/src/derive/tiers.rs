@@ -26,7 +26,7 @@ impl Problem {
     /// Everything but what is wrong with the texts.
     pub fn derive(&self) -> Result<Tableau, ErrorKind> {
         let mut tableau = Tableau::new(self.definition(), self.exact()?);
-        tableau.certified = self.certified();
+        tableau.given = self.given();
         Ok(tableau)
     }
 

@@ -38,7 +38,7 @@ impl Tableau {
         let definition = self.provenance.definition.adjoint();
         let mut adjoint = Tableau::new(definition, self.exact.adjoint());
         // The inverse of a map of order p with −h for h is one too.
-        adjoint.certified.clone_from(&self.certified);
+        adjoint.given.clone_from(&self.given);
         adjoint.name = self.name().map(renamed);
         adjoint
             .provenance

@@ -5,7 +5,8 @@
 //! together with a tree of order `p + 1` whose condition is refuted. It is proved
 //!
 //! 1. by the [`SimplifyingAssumptions`] up to the order that they give,
-//! 2. for a method with a [`Claim`] by its certificate,
+//! 2. for a method with a [`Claim`](crate::certify::Claim) by its certificate, and for a triple jump or a fractal of Suzuki
+//!    by the theorem on symmetric compositions (GNI II.4),
 //! 3. by evaluating conditions, order by order, up to [`OrderOptions::limit`]: all of them, or for
 //!    methods that are symplectic one for each tree without a root,
 //! 4. and refuted beyond the limit by the quadrature, `B(p + 1)`, which is one tree.
@@ -27,6 +28,7 @@
 mod class;
 mod enumeration;
 mod error_constant;
+mod given;
 #[cfg(test)]
 mod methods;
 mod modified;
@@ -41,6 +43,7 @@ mod words;
 
 pub use class::HamiltonianClass;
 pub use enumeration::{TreeRule, Trees};
+pub(crate) use given::GivenOrder;
 pub use modified::ModifiedTerm;
 pub(crate) use perturbed::listed;
 pub use perturbed::{PerturbedOrder, PowerOrder, ViolatedWord};
@@ -57,7 +60,6 @@ use self::simplifying::simplifying_assumptions;
 use self::symplecticity::{Symplecticity, symplecticity_order};
 use self::weights::{MAX_ORDER, Weights};
 use crate::algebra::{Field, Number, StageAlgebra, Zero};
-use crate::certify::Claim;
 use crate::pair::Pair;
 use crate::properties::{Evidence, shown};
 use crate::tableau::{Tableau, over_algebra};
@@ -97,7 +99,7 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn order(&self, options: &OrderOptions) -> OrderReport {
-        over_algebra!(self, pair => order(pair, options, self.certified.as_ref()))
+        over_algebra!(self, pair => order(pair, options, self.given.as_ref()))
     }
 
     /// The simplifying assumptions that hold; `None` if `b` differs from `b̃`.
@@ -122,9 +124,11 @@ impl Tableau {
         let mut found = over_algebra!(self, pair => {
             symplecticity_order(pair, HamiltonianClass::General, limit)
         })?;
-        if found.violated.is_none() {
+        let verified = matches!(found.evidence, Evidence::Verified { .. });
+        if found.violated.is_none() || verified {
             let general = self.orders().general;
-            if general.order > found.order {
+            // What is better known of the order is so of this.
+            if general.order > found.order || (verified && general.order == found.order) {
                 found.order = general.order;
                 found.evidence = general.evidence;
             }
@@ -156,16 +160,15 @@ impl Tableau {
 fn order<A: StageAlgebra>(
     pair: &Pair<A>,
     options: &OrderOptions,
-    claim: Option<&Claim>,
+    given: Option<&GivenOrder>,
 ) -> OrderReport {
-    // Where enclosures would only verify it. Kicks and drifts that sum to 1 are of order 1 for all.
+    // Where enclosures would only verify it.
     let verified = pair.algebra.constants().verified_bits().is_some();
-    let claim = claim.filter(|_| verified && !options.all_conditions);
+    let given = given.filter(|_| verified && !options.all_conditions);
     let known = Known::of(pair, options);
     let class = |class| {
-        let certified = claim.map(|claim| claim.order_for(class));
-        let known = known.with(certified.unwrap_or_default());
-        class_order(pair, class, options, &known)
+        let known = given.map_or_else(|| known.clone(), |given| known.with(given, class));
+        class_order(pair, class, &known)
     };
     OrderReport {
         general: class(HamiltonianClass::General),
@@ -177,16 +180,20 @@ fn order<A: StageAlgebra>(
 /// What makes it unnecessary to evaluate conditions.
 #[derive(Clone)]
 struct Known {
-    /// The order that the simplifying assumptions or a certificate give.
+    /// The order that the simplifying assumptions, a certificate or a construction give.
     order: usize,
     evidence: Evidence,
     symplecticity: Symplecticity,
+    /// The highest order of trees that are enumerated.
+    limit: usize,
 }
 
 impl Known {
     fn of<A: StageAlgebra>(pair: &Pair<A>, options: &OrderOptions) -> Self {
+        let limit = options.limit.min(MAX_ORDER);
         if options.all_conditions {
             return Known {
+                limit,
                 order: 0,
                 evidence: Evidence::Proved,
                 symplecticity: Symplecticity {
@@ -197,6 +204,7 @@ impl Known {
         }
         let assumptions = simplifying_assumptions(pair);
         Known {
+            limit,
             order: assumptions.map_or(0, |found| found.order()),
             evidence: assumptions.map_or(Evidence::Proved, |found| found.evidence),
             symplecticity: Symplecticity::of(pair),
@@ -205,12 +213,17 @@ impl Known {
 }
 
 impl Known {
-    /// The same with an order that is certified.
-    fn with(&self, certified: usize) -> Self {
+    /// The same with an order that is known of how the method is made.
+    fn with(&self, given: &GivenOrder, class: HamiltonianClass) -> Self {
         let mut known = self.clone();
-        if certified > 0 && certified >= known.order {
-            known.order = certified;
-            known.evidence = Evidence::Certified;
+        let order = given.for_class(class);
+        if order > 0 && order >= known.order {
+            known.order = order;
+            known.evidence = given.evidence;
+            // For these there are few trees, and one order of them alone has to be looked at.
+            if class != HamiltonianClass::General {
+                known.limit = known.limit.max(order + 1).min(MAX_ORDER);
+            }
         }
         known
     }
@@ -220,14 +233,13 @@ impl Known {
 fn class_order<A: StageAlgebra>(
     pair: &Pair<A>,
     class: HamiltonianClass,
-    options: &OrderOptions,
     known: &Known,
 ) -> ClassOrder {
     // Conditions that follow from equations which are only verified are verified less well than those.
     let representatives = known.symplecticity.evidence(class) == Some(Evidence::Proved);
     let mut evidence = known.evidence;
     let mut weights = Weights::new(pair, TreeRule::Class(class));
-    let mut limit = options.limit.min(MAX_ORDER);
+    let mut limit = known.limit;
     for order in known.order + 1..=limit {
         if !weights.affordable(order) {
             limit = order - 1;

@@ -19,7 +19,6 @@
 //! numbers fall to the order `p` for these, `s_{p−1} = p` at the latest.
 
 use std::fmt;
-use std::ops::RangeInclusive;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -27,9 +26,9 @@ use num_traits::One;
 
 use super::weights::most_products;
 use super::words::Product;
-use super::{SHORT, short};
+use super::{GivenOrder, SHORT, short};
 use crate::algebra::{Dense, Field, Rationals, Zero};
-use crate::certify::{Claim, DRIFT, KICK, MAX_ORDER, MAX_PERTURBED_ORDER, Word, split_lyndon};
+use crate::certify::{DRIFT, KICK, MAX_ORDER, MAX_PERTURBED_ORDER, Word, split_lyndon};
 use crate::pair::Pair;
 use crate::properties::Evidence;
 use crate::schedule::{Class, Node, StepGraph};
@@ -172,7 +171,7 @@ fn perturbed_order(tableau: &Tableau) -> Option<PerturbedOrder> {
     let numbers = tableau.numbers();
     let graph = StepGraph::new(Class::Separable, tableau, &numbers);
     let chain = graph.splitting()?;
-    let claim = tableau.certified.as_ref();
+    let given = tableau.given.as_ref();
     match &tableau.exact {
         // There are splittings among these with one or two nodes only, which are 0 and 1.
         Exact::Nodes(_) => {
@@ -181,15 +180,15 @@ fn perturbed_order(tableau: &Tableau) -> Option<PerturbedOrder> {
                 Some((letter(node), weight))
             };
             let letters: Option<Vec<_>> = chain.iter().map(rational).collect();
-            Some(of_letters(&Rationals, letters?, claim))
+            Some(of_letters(&Rationals, letters?, given))
         }
         Exact::Field(pair) => {
             let letters = letters(pair, &graph, &chain);
-            Some(of_letters(pair.algebra.field(), letters, claim))
+            Some(of_letters(pair.algebra.field(), letters, given))
         }
         Exact::Reals(pair) => {
             let letters = letters(pair, &graph, &chain);
-            Some(of_letters(pair.algebra.field(), letters, claim))
+            Some(of_letters(pair.algebra.field(), letters, given))
         }
     }
 }
@@ -232,29 +231,21 @@ fn letters<F: Field>(
 fn of_letters<F: Field>(
     field: &F,
     letters: Vec<(u8, F::Element)>,
-    claim: Option<&Claim>,
+    given: Option<&GivenOrder>,
 ) -> PerturbedOrder {
     let mut product = Product::new(field, letters);
-    let first = power_order(&mut product, 1, 1..=MAX_PERTURBED_ORDER, None);
+    // Where enclosures would only verify it.
+    let given = given.filter(|_| field.verified_bits().is_some());
+    let first = power_order(&mut product, 1, MAX_PERTURBED_ORDER, None, given);
     let mut powers = vec![first];
-    // In degree m there is no word with m letters B but B itself.
     let mut power = 2;
     while let Some(before) = powers.last()
         && (power == 2 || power < before.order)
     {
-        let degrees = power + 1..=before.order.min(MAX_ORDER);
-        let next = power_order(&mut product, power, degrees, Some(before));
+        let limit = before.order.min(MAX_ORDER);
+        let next = power_order(&mut product, power, limit, Some(before), given);
         powers.push(next);
         power += 1;
-    }
-    if let Some(claim) = claim {
-        for (index, found) in powers.iter_mut().enumerate() {
-            if found.order <= claim.order_in_power(index + 1)
-                && matches!(found.evidence, Evidence::Verified { .. })
-            {
-                found.evidence = Evidence::Certified;
-            }
-        }
     }
     // The last one is that of all higher powers.
     while powers.len() > 2
@@ -267,21 +258,29 @@ fn of_letters<F: Field>(
     PerturbedOrder { powers }
 }
 
-/// The order in a power of `ε`, from the conditions of some degrees and what is known of the power before.
+/// The order in a power of `ε`, `limit` at most: from the conditions, what is known of the power before, and what is
+/// given, for which no condition is looked at.
 fn power_order<F: Field>(
     product: &mut Product<'_, F>,
     power: usize,
-    degrees: RangeInclusive<usize>,
+    limit: usize,
     before: Option<&PowerOrder>,
+    given: Option<&GivenOrder>,
 ) -> PowerOrder {
     let verified = product.field().verified_bits();
+    let given_order = given.map_or(0, |given| given.in_power(power));
     let known = |order, refuted_by| PowerOrder {
         order,
-        evidence: verified.map_or(Evidence::Proved, |bits| Evidence::Verified { bits }),
+        evidence: match (given, verified) {
+            (Some(given), _) if order <= given_order => given.evidence,
+            (_, Some(bits)) => Evidence::Verified { bits },
+            _ => Evidence::Proved,
+        },
         refuted_by,
     };
-    let limit = *degrees.end();
-    for degree in degrees {
+    // In degree m there is no word with m letters B but B itself.
+    let holds = given_order.max(if power == 1 { 0 } else { power });
+    for degree in holds + 1..=limit {
         if product.cost() > most_products(verified) {
             return known(degree - 1, None);
         }

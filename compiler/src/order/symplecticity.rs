@@ -78,8 +78,13 @@ impl Symplecticity {
     pub(super) fn of<A: StageAlgebra>(pair: &Pair<A>) -> Self {
         let algebra = &*pair.algebra;
         let weights = algebra.subtract(&pair.b, &pair.b_tilde);
+        let matrices = match pair.staircase() {
+            // A splitting is, whatever its coefficients are.
+            Some(_) => Some(Evidence::Proved),
+            None => vanishing_matrix(algebra, &defect(pair)).ok(),
+        };
         Symplecticity {
-            matrices: vanishing_matrix(algebra, &defect(pair)).ok(),
+            matrices,
             weights: vanishing_vector(algebra, &weights).ok(),
         }
     }
@@ -111,11 +116,13 @@ pub(super) fn symplecticity_order<A: StageAlgebra>(
     class: HamiltonianClass,
     limit: usize,
 ) -> Option<SymplecticityOrder> {
-    if Symplecticity::of(pair).evidence(class).is_some() {
+    let known = Symplecticity::of(pair);
+    if known.evidence(class).is_some() {
         return None;
     }
     let algebra = &*pair.algebra;
-    let defect = defect(pair);
+    // Where it is zero for certain, no pair of trees is looked at.
+    let defect = (known.matrices != Some(Evidence::Proved)).then(|| defect(pair));
     let unequal = algebra.subtract(&pair.b, &pair.b_tilde);
     let mut weights = Weights::new(pair, TreeRule::Class(class));
     let mut evidence = Evidence::Proved;
@@ -158,7 +165,9 @@ pub(super) fn symplecticity_order<A: StageAlgebra>(
             });
         }
         for size in 1..order {
-            let right = &transferred[order - size - 1];
+            let Some(right) = transferred.get(order - size - 1) else {
+                break;
+            };
             for u in weights.coloured(size, Colour::Q) {
                 violated = violated.or_else(|| {
                     right.iter().find_map(|(v, transferred)| {
@@ -176,12 +185,11 @@ pub(super) fn symplecticity_order<A: StageAlgebra>(
                 violated,
             });
         }
-        let black = weights.coloured(order, Colour::P).into_iter();
-        transferred.push(
-            black
-                .map(|v| (v, algebra.apply(&defect, weights.stages(v))))
-                .collect(),
-        );
+        if let Some(defect) = &defect {
+            let black = weights.coloured(order, Colour::P).into_iter();
+            let transfer = |v| (v, algebra.apply(defect, weights.stages(v)));
+            transferred.push(black.map(transfer).collect());
+        }
     }
     Some(SymplecticityOrder {
         order: limit,

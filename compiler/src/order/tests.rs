@@ -260,6 +260,7 @@ fn simplifying_assumptions_give_the_order_of_the_catalogue() {
         for pair in [pair.clone(), pair.clone().exchanged()] {
             let assumptions = simplifying_assumptions(&pair).expect("b = b̃");
             let known = Known {
+                limit: 8,
                 order: 0,
                 evidence: Evidence::Proved,
                 symplecticity: Symplecticity::of(&pair),
@@ -268,7 +269,7 @@ fn simplifying_assumptions_give_the_order_of_the_catalogue() {
                 limit: 8,
                 all_conditions: false,
             };
-            let found = class_order(&pair, HamiltonianClass::General, &options, &known);
+            let found = class_order(&pair, HamiltonianClass::General, &known);
             let proved = assumptions.order().min(options.limit);
             assert_eq!(proved, found.order, "{} {assumptions:?}", entry.name);
         }
@@ -420,12 +421,7 @@ fn order_10_of_five_stages_by_full_enumeration() {
     let Exact::Nodes(pair) = &tableau.exact else {
         panic!("classical nodes");
     };
-    let found = class_order(
-        pair,
-        HamiltonianClass::General,
-        &options,
-        &Known::of(pair, &options),
-    );
+    let found = class_order(pair, HamiltonianClass::General, &Known::of(pair, &options));
     assert_eq!(found.order, 10);
 }
 

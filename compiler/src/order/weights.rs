@@ -57,11 +57,20 @@ pub(super) struct Weights<'a, A: StageAlgebra> {
     pair: &'a Pair<A>,
     trees: Trees,
     kept: Vec<Kept<A::Vector>>,
+    /// The products of a coefficient and a stage for a tree.
+    products: usize,
 }
 
 impl<'a, A: StageAlgebra> Weights<'a, A> {
     pub(super) fn new(pair: &'a Pair<A>, rule: TreeRule) -> Self {
+        let stages = pair.algebra.stages();
+        // A splitting takes one a stage for each of the vectors that are kept.
+        let for_all = stages * stages;
+        let products = pair
+            .staircase()
+            .map_or(for_all, |_| for_all.min(3 * stages));
         Weights {
+            products,
             pair,
             trees: Trees::up_to(rule, 0),
             kept: Vec::new(),
@@ -107,10 +116,9 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
     /// Whether the conditions of an order, 1 at least, can be evaluated in bounded time and memory.
     pub(super) fn affordable(&mut self, order: usize) -> bool {
         let algebra = &*self.pair.algebra;
-        let stages = algebra.stages();
         self.grow(order - 1);
         let most = most_products(algebra.constants().verified_bits());
-        self.trees.len() * stages * stages <= most
+        self.trees.len() * self.products <= most
     }
 
     fn density(&self, rest: u32, last: u32) -> u64 {

@@ -71,22 +71,19 @@ impl Tableau {
                         listed(orders)
                     ));
                 }
-                _ => evidence = evidence.and(self.certified_to(known, power, wanted)),
+                _ => evidence = evidence.and(self.evidence_to(known, power, wanted)),
             }
         }
         self.enough(requirement, evidence, accepted)
     }
 
-    /// The evidence for an order in a power of `ε` that is at most the one found: a claim may certify that far.
-    fn certified_to(&self, found: &PowerOrder, power: usize, order: usize) -> Evidence {
-        let claim = self.certified.as_ref();
-        match found.evidence {
-            Evidence::Verified { .. }
-                if claim.is_some_and(|c| c.order_in_power(power) >= order) =>
-            {
-                Evidence::Certified
+    /// The evidence for an order in a power of `ε` that is at most the one found: more may be given that far.
+    fn evidence_to(&self, found: &PowerOrder, power: usize, order: usize) -> Evidence {
+        match (found.evidence, &self.given) {
+            (Evidence::Verified { .. }, Some(given)) if given.in_power(power) >= order => {
+                given.evidence
             }
-            known => known,
+            (known, _) => known,
         }
     }
 }
