@@ -21,10 +21,11 @@ pub(super) fn monotonic(coefficients: &[Ball], precision: u32) -> Option<Vec<Int
     };
     let deepest = i64::from(precision) - bound.min(0) + bound.abs();
     let mut found = Vec::new();
+    let whole = local(coefficients, &BigInt::zero(), &high, bits, precision);
     // The leftmost on top.
-    let mut pending = vec![(BigInt::zero(), high, bits)];
-    while let Some((low, high, bits)) = pending.pop() {
-        let (shifted, bits_here) = (local(coefficients, &low, &high, bits, precision), bits);
+    let mut pending = vec![(BigInt::zero(), high, bits, whole)];
+    while let Some((low, high, bits, shifted)) = pending.pop() {
+        let bits_here = bits;
         let sum = |first: usize, weighted: bool| {
             let terms = shifted.iter().enumerate().skip(first);
             terms.fold(None, |sum: Option<Ball>, (k, c)| {
@@ -62,10 +63,32 @@ pub(super) fn monotonic(coefficients: &[Ball], precision: u32) -> Option<Vec<Int
         }
         let (low, high) = (low << 1, high << 1);
         let middle: BigInt = (&low + &high) >> 1;
-        pending.push((middle.clone(), high, bits + 1));
-        pending.push((low, middle, bits + 1));
+        let half = |right: bool| half(&shifted, right, precision);
+        pending.push((middle.clone(), high, bits + 1, half(true)));
+        pending.push((low, middle, bits + 1, half(false)));
     }
     Some(found)
+}
+
+/// The coefficients of `f((z ± 1)/2)` from those of `f(y)`: halves of the interval `|y| ≤ 1`, by additions alone. Each
+/// halving costs one binary place or so.
+fn half(coefficients: &[Ball], right: bool, precision: u32) -> Vec<Ball> {
+    let halved = (0..).zip(coefficients).map(|(k, c): (i64, &Ball)| {
+        // With −z for z on the left, so that what is added is positive on both sides.
+        let c = c.shifted(-k);
+        if right || k % 2 == 0 { c } else { c.negate() }
+    });
+    let mut list: Vec<Ball> = halved.collect();
+    for first in 0..list.len() {
+        for k in (first..list.len() - 1).rev() {
+            list[k] = list[k].add(&list[k + 1], precision);
+        }
+    }
+    if !right {
+        let odd = list.iter_mut().skip(1).step_by(2);
+        odd.for_each(|c| *c = c.negate());
+    }
+    list
 }
 
 /// The coefficients of `f(m + ry)` for the interval `m ± r`.

@@ -240,7 +240,7 @@ impl Stability {
 /// that goes with a product in a field.
 const PRODUCTS: u64 = 2_500_000;
 /// The bits of enclosures, at first and at most.
-const FEWEST_BITS: u32 = 4096;
+const FEWEST_BITS: u32 = 2048;
 const MOST_BITS: u32 = 1 << 15;
 
 /// A polynomial whose coefficients are known to be rational.

@@ -7,7 +7,7 @@ use super::fraction::Fraction;
 use super::polynomial::RealPolynomial;
 use super::resolvent::{Resolvent, apply, apply_left, dot};
 use crate::algebra::{Field, Scalar, StageAlgebra};
-use crate::pair::Pair;
+use crate::pair::{Pair, Staircase};
 
 /// What the matrix of one step is made of: polynomials in `x`, the constant first.
 ///
@@ -49,8 +49,8 @@ impl<T> Parts<T> {
     }
 }
 
-/// About how many products of machine words [`parts`] takes: `s⁴` products of matrix entries, each of which
-/// is brought to lowest terms.
+/// About how many products of machine words [`parts`] takes: `s⁴` products of matrix entries, for a splitting `s²`,
+/// each of which is brought to lowest terms.
 pub(super) fn cost<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
     let algebra = &*pair.algebra;
     if !algebra.constants().is_costly() {
@@ -65,11 +65,20 @@ pub(super) fn cost<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
     // The mean length of a product of entries.
     let entry = (sum(&pair.a) + sum(&pair.a_tilde)) / (stages * stages);
     let reduced = entry.saturating_mul(entry).saturating_mul(8);
-    stages.pow(4).saturating_mul(reduced)
+    let products = stages.pow(if pair.staircase().is_some() { 2 } else { 4 });
+    products.saturating_mul(reduced)
 }
 
 /// The parts over the field of constants.
 pub(super) fn parts<A: StageAlgebra>(pair: &Pair<A>) -> Parts<Vec<Scalar<A>>> {
+    match pair.staircase() {
+        Some(staircase) => parts_of_splitting(pair, staircase),
+        None => parts_of_stages(pair),
+    }
+}
+
+/// The parts for any method, from the inverse of `1 + xÃA`.
+fn parts_of_stages<A: StageAlgebra>(pair: &Pair<A>) -> Parts<Vec<Scalar<A>>> {
     let algebra = &*pair.algebra;
     let field = algebra.constants();
     let [a, a_tilde] = [&pair.a, &pair.a_tilde].map(|m| algebra.operator(m));
@@ -87,6 +96,56 @@ pub(super) fn parts<A: StageAlgebra>(pair: &Pair<A>) -> Parts<Vec<Scalar<A>>> {
         ab_one,
         ab_c,
         b_sum: vec![dot(field, &b_tilde, &one)],
+    }
+}
+
+/// The parts for a splitting, from the product of its flows: with `D = 1` a drift `d` and a kick `k` are
+///
+/// ```text
+/// ⎛ 1  νd ⎞      ⎛  1   0 ⎞
+/// ⎝ 0   1 ⎠      ⎝ −νk  1 ⎠
+/// ```
+fn parts_of_splitting<A: StageAlgebra>(
+    pair: &Pair<A>,
+    staircase: Staircase,
+) -> Parts<Vec<Scalar<A>>> {
+    let algebra = &*pair.algebra;
+    let field = algebra.constants();
+    let [drifts, kicks] = [&pair.b, &pair.b_tilde].map(|f| algebra.functional(f));
+    let (zero, one) = (BigRational::zero(), BigRational::one());
+    let [zero, one] = [zero, one].map(|value| field.rational(&value));
+    // M11, M12/ν, M21/ν and M22, so that ν² = x is left where two of them meet.
+    let [mut m11, mut m12] = [vec![one.clone()], Vec::new()];
+    let [mut m21, mut m22] = [Vec::new(), vec![one.clone()]];
+    let add = |sum: &mut Vec<Scalar<A>>, factor: &Scalar<A>, list: &[Scalar<A>], shift: usize| {
+        sum.resize(sum.len().max(list.len() + shift), zero.clone());
+        for (sum, x) in sum[shift..].iter_mut().zip(list) {
+            *sum = field.add(sum, &field.multiply(factor, x));
+        }
+    };
+    for (drift, kick) in drifts.iter().zip(&kicks) {
+        let kick_first = staircase == Staircase::KicksFirst;
+        for is_kick in [kick_first, !kick_first] {
+            if is_kick {
+                let back = field.subtract(&zero, kick);
+                add(&mut m21, &back, &m11, 0);
+                add(&mut m22, &back, &m12, 1);
+            } else {
+                add(&mut m11, drift, &m21, 1);
+                add(&mut m12, drift, &m22, 0);
+            }
+        }
+    }
+    let negative = |list: Vec<Scalar<A>>| -> Vec<Scalar<A>> {
+        list.iter().map(|x| field.subtract(&zero, x)).collect()
+    };
+    Parts {
+        determinant: vec![one.clone()],
+        b_one: m12,
+        b_c: negative(m11.split_off(1)),
+        ab_one: negative(m22.split_off(1)),
+        b_sum: vec![dot(field, &kicks, &vec![one; kicks.len()])],
+        ab_c: m21.split_off(m21.len().min(1)),
     }
 }
 
@@ -185,5 +244,56 @@ impl<P: RealPolynomial> Step<P> {
             condition(&one, &minus),
             condition(&one, &one),
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::algebra::{Dense, Rationals};
+    use crate::arithmetic::polynomial::Polynomial;
+    use crate::arithmetic::rational::ratio;
+
+    /// Kicks 2/3, −1/5, 3/7 and drifts 1/2, 5, −1/3.
+    fn splitting() -> Pair<Dense<Rationals>> {
+        let b = vec![ratio(1, 2), ratio(5, 1), ratio(-1, 3)];
+        let b_tilde = vec![ratio(2, 3), ratio(-1, 5), ratio(3, 7)];
+        let rows = |b: &[BigRational], filled: usize| -> Vec<Vec<BigRational>> {
+            let entry = |i: usize, j: usize| match j < i + filled {
+                true => b[j].clone(),
+                false => ratio(0, 1),
+            };
+            let row = |i| (0..b.len()).map(|j| entry(i, j)).collect();
+            (0..b.len()).map(row).collect()
+        };
+        Pair {
+            algebra: Arc::new(Dense::new(Rationals, 3)),
+            a: rows(&b, 0),
+            a_tilde: rows(&b_tilde, 1),
+            b,
+            b_tilde,
+        }
+    }
+
+    #[test]
+    fn the_product_of_flows_is_what_the_resolvent_says() {
+        for pair in [splitting(), splitting().exchanged()] {
+            let staircase = pair.staircase().expect("a splitting");
+            let polynomial = |list: &Vec<BigRational>| Some(Polynomial::from_rationals(list));
+            let of_flows = parts_of_splitting(&pair, staircase).map(polynomial);
+            let of_flows = of_flows.expect("rational");
+            let of_stages = parts_of_stages(&pair).map(polynomial).expect("rational");
+            assert_eq!(of_flows.determinant, of_stages.determinant);
+            assert_eq!(of_flows.b_one, of_stages.b_one);
+            assert_eq!(of_flows.b_c, of_stages.b_c);
+            assert_eq!(of_flows.ab_one, of_stages.ab_one);
+            assert_eq!(of_flows.ab_c, of_stages.ab_c);
+            assert_eq!(of_flows.b_sum, of_stages.b_sum);
+        }
+        let mut changed = splitting();
+        changed.a[2][0] = ratio(1, 3);
+        assert_eq!(changed.staircase(), None);
     }
 }

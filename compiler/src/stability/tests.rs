@@ -8,6 +8,7 @@ use crate::arithmetic::rational::{parse, ratio};
 use crate::arithmetic::rounding::to_f64;
 use crate::catalogue;
 use crate::coefficients::Coefficients;
+use crate::export::STABILITY_STAGES;
 use crate::symbolic::Constant;
 use crate::tableau::over_algebra;
 
@@ -526,7 +527,9 @@ fn trace_and_radius(c: &Coefficients<f64>, nu: f64) -> (f64, f64) {
 #[test]
 fn the_catalogue_agrees_with_floating_point_arithmetic() {
     let (mut inside, mut outside) = (0, 0);
-    for entry in catalogue::entries() {
+    // As far as files have it.
+    let entries = catalogue::entries().filter(|entry| entry.stages <= STABILITY_STAGES);
+    for entry in entries {
         let tableau = entry.derive().expect("derived");
         let stability = tableau.stability();
         let coefficients = tableau.to_f64();
