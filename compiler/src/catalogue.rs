@@ -39,7 +39,15 @@ impl Entry {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn derive(&self) -> Result<Tableau, Error> {
-        self.derive_within(&Limits::default())
+        self.derive_within(&self.limits())
+    }
+
+    /// The default limits, or where the method has more stages, as many as it has.
+    pub fn limits(&self) -> Limits {
+        let default = Limits::default();
+        Limits {
+            stages: default.stages.max(self.stages),
+        }
     }
 
     /// As [`Entry::derive`], within given limits.

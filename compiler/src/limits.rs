@@ -6,8 +6,8 @@
 /// nodes (the README has measured figures).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// The largest number of stages; 36 unless changed, as the longest
-    /// methods of the [`catalogue`](crate::catalogue) have.
+    /// The largest number of stages; 36 unless changed, as all but three methods of the
+    /// [`catalogue`](crate::catalogue) have at most.
     pub stages: usize,
 }
 

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use symplectic_compiler::export::{DEFAULT_DIGITS, toml};
-use symplectic_compiler::{Limits, Tableau, catalogue, check};
+use symplectic_compiler::{Tableau, catalogue, check};
 
 fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../tableaux")
@@ -38,10 +38,10 @@ fn the_files_are_those_that_the_tool_writes() {
         }
         // Both ways to read it give the tableau back, one of them from basis and nodes only.
         assert_eq!(
-            toml::read(&name, &text, &Limits::default()),
+            toml::read(&name, &text, &entry.limits()),
             Ok(tableau.clone())
         );
-        assert_eq!(check(&name, &text, &Limits::default()), Ok(tableau));
+        assert_eq!(check(&name, &text, &entry.limits()), Ok(tableau));
         known.insert(name);
     }
     for file in std::fs::read_dir(folder()).expect("the folder") {

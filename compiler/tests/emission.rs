@@ -94,7 +94,9 @@ fn factors(code: &str) -> Vec<f64> {
 
 #[test]
 fn nothing_is_multiplied_by_zero_or_computed_twice() {
-    for entry in catalogue::entries() {
+    // As many stages as the macros take.
+    let usual = |entry: &catalogue::Entry| entry.stages <= Limits::default().stages;
+    for entry in catalogue::entries().filter(usual) {
         let tableau = entry.derive().expect("derived");
         let code = emitted(&tableau, "Method");
         let factors = factors(&code);

@@ -339,11 +339,16 @@ fn the_exact_flow_conserves_energy() {
     }
 }
 
+/// The methods but the longest, steps of which take s² products of 200 digits here.
+fn entries() -> impl Iterator<Item = catalogue::Entry> {
+    catalogue::entries().filter(|entry| entry.stages <= Limits::default().stages)
+}
+
 #[test]
 fn orders_of_the_catalogue_are_seen() {
     let references = references();
     let (mut pairs, mut disagreements) = (0, Vec::new());
-    for entry in catalogue::entries() {
+    for entry in entries() {
         let tableau = entry.derive().expect("derived");
         let seen = proved_and_seen(&tableau, &references);
         for (class, (order, slope)) in HamiltonianClass::ALL.into_iter().zip(seen) {
@@ -358,7 +363,7 @@ fn orders_of_the_catalogue_are_seen() {
         }
     }
     assert!(disagreements.is_empty(), "{disagreements:#?}");
-    assert_eq!(pairs, 3 * catalogue::entries().count());
+    assert_eq!(pairs, 3 * entries().count());
 }
 
 /// 10⁻²⁵ more in one weight is order 0, in one entry of a matrix it is order 1.
@@ -366,7 +371,7 @@ fn orders_of_the_catalogue_are_seen() {
 fn a_wrong_digit_in_the_catalogue_is_seen() {
     let [general, ..] = references();
     let digit = fixed(1, 1) / BigInt::from(10).pow(25);
-    for entry in catalogue::entries() {
+    for entry in entries() {
         let name = &entry.name;
         let tableau = entry.derive().expect("derived");
         let order = tableau.order(&OrderOptions::default()).general.order;

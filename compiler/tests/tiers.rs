@@ -195,7 +195,9 @@ fn legendre_bases_are_tangs_method() {
 /// Another route to every digit and double: many more digits, and the decimal reader of the standard library.
 #[test]
 fn every_coefficient_is_correctly_rounded() {
-    let catalogue = catalogue::entries().map(|entry| entry.derive().expect("derived"));
+    // The matrices of the longest repeat their weights.
+    let usual = catalogue::entries().filter(|entry| entry.stages <= Limits::default().stages);
+    let catalogue = usual.map(|entry| entry.derive().expect("derived"));
     let all = catalogue.chain(DEFINITIONS.iter().map(|(text, _)| define(text)));
     let mut count = 0;
     for tableau in all {

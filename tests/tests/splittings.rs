@@ -1,7 +1,7 @@
 //! Every splitting and composition of the catalogue in use: how often a step evaluates, and that it is of its order.
 
 use symplectic::{Error, Integrator, Method};
-use symplectic_compiler::catalogue;
+use symplectic_compiler::{Limits, catalogue};
 use symplectic_tests::counting::{Counting, Counts};
 use symplectic_tests::scenes::kepler;
 
@@ -166,7 +166,9 @@ fn the_compiler_knows_how_often() {
 #[test]
 fn no_splitting_of_the_catalogue_is_left_out() {
     let here: Vec<&str> = all().iter().map(|method| method.name).collect();
-    for entry in catalogue::entries() {
+    // As many stages as the macros take unless they are told to take more.
+    let usual = |entry: &catalogue::Entry| entry.stages <= Limits::default().stages;
+    for entry in catalogue::entries().filter(usual) {
         let definition = &entry.definition;
         let explicit = definition.contains("kick:") || definition.contains("base:");
         assert_eq!(

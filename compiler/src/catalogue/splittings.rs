@@ -140,6 +140,13 @@ pub(super) const ROWS: &[Row] = &[
         source: "Yoshida, Phys. Lett. A 150 (1990), §2; Hairer, Lubich & Wanner, Geometric Numerical Integration, §II.4",
     },
     Row {
+        name: "triple-jump-10",
+        title: "81 steps of Störmer–Verlet as a splitting",
+        definition: "base: velocity-verlet, weights: triple_jump(10)",
+        stages: &[82],
+        source: "Yoshida, Phys. Lett. A 150 (1990), §2; Hairer, Lubich & Wanner, Geometric Numerical Integration, §II.4",
+    },
+    Row {
         name: "suzuki-4",
         title: "five steps of Störmer–Verlet",
         definition: "base: stormer-verlet, weights: suzuki(4)",
@@ -151,6 +158,20 @@ pub(super) const ROWS: &[Row] = &[
         title: "25 steps of Störmer–Verlet as a splitting",
         definition: "base: velocity-verlet, weights: suzuki(6)",
         stages: &[26],
+        source: "Suzuki, Phys. Lett. A 146 (1990); Hairer, Lubich & Wanner, Geometric Numerical Integration, §II.4",
+    },
+    Row {
+        name: "suzuki-8",
+        title: "125 steps of Störmer–Verlet as a splitting",
+        definition: "base: velocity-verlet, weights: suzuki(8)",
+        stages: &[126],
+        source: "Suzuki, Phys. Lett. A 146 (1990); Hairer, Lubich & Wanner, Geometric Numerical Integration, §II.4",
+    },
+    Row {
+        name: "suzuki-10",
+        title: "625 steps of Störmer–Verlet as a splitting",
+        definition: "base: velocity-verlet, weights: suzuki(10)",
+        stages: &[626],
         source: "Suzuki, Phys. Lett. A 146 (1990); Hairer, Lubich & Wanner, Geometric Numerical Integration, §II.4",
     },
     Row {

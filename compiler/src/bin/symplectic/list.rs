@@ -4,8 +4,8 @@ use std::process::ExitCode;
 
 use clap::Args;
 use symplectic_compiler::export::STABILITY_STAGES;
-use symplectic_compiler::order::HamiltonianClass;
-use symplectic_compiler::{Error, FAMILIES, Tableau, Tier, catalogue};
+use symplectic_compiler::order::{HamiltonianClass, OrderReport};
+use symplectic_compiler::{Error, Evidence, FAMILIES, Tableau, catalogue};
 
 use crate::choice::{self, Choice};
 use crate::output;
@@ -87,7 +87,7 @@ fn facts() -> Result<String, Error> {
         .into_iter()
         .filter_map(|(word, property)| property.holds.then_some(word))
         .chain((!properties.symplectic.holds).then_some("separable H only"))
-        .chain((tableau.tier() == Tier::Enclosure).then_some("verified"))
+        .chain(less_than_proved(&report))
         .collect();
         let stable = if tableau.stages() > STABILITY_STAGES {
             "not computed".to_owned()
@@ -103,6 +103,18 @@ fn facts() -> Result<String, Error> {
         ));
     }
     Ok(text)
+}
+
+/// The word for orders that are not all proved of exact coefficients.
+fn less_than_proved(report: &OrderReport) -> Option<&'static str> {
+    let mut evidence = HamiltonianClass::ALL
+        .map(|class| report.class(class).evidence)
+        .into_iter();
+    if evidence.clone().any(|found| found == Evidence::Certified) {
+        return Some("certified");
+    }
+    let verified = evidence.any(|found| matches!(found, Evidence::Verified { .. }));
+    verified.then_some("verified")
 }
 
 /// The first interval of stable steps.

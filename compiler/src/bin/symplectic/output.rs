@@ -4,6 +4,7 @@ use std::io::{ErrorKind as IoErrorKind, Write};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
+use symplectic_compiler::catalogue::Entry;
 use symplectic_compiler::export::{self, DEFAULT_DIGITS, MAX_DIGITS, TEXT_DIGITS};
 use symplectic_compiler::{Error, ErrorKind, Limits, Tableau};
 
@@ -37,6 +38,14 @@ pub(crate) struct OutputOptions {
 impl OutputOptions {
     pub(crate) fn limits(&self) -> Limits {
         limits(self.max_stages)
+    }
+
+    /// The limits for a method of the catalogue, which is not too long unless the user says so.
+    pub(crate) fn limits_of(&self, entry: &Entry) -> Limits {
+        match self.max_stages {
+            None => entry.limits(),
+            given => limits(given),
+        }
     }
 
     pub(crate) fn write(&self, tableau: &Tableau) -> String {

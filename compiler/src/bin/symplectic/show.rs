@@ -19,6 +19,6 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let name = &arguments.name;
     let entry = catalogue::find(name).ok_or_else(|| catalogue::unknown(name))?;
-    let tableau = entry.derive_within(&arguments.output.limits())?;
+    let tableau = entry.derive_within(&arguments.output.limits_of(&entry))?;
     output::print(&arguments.output.write(&tableau))
 }

@@ -121,8 +121,8 @@ pub(super) struct Exact {
     pub(super) node_polynomial: Option<List>,
     pub(super) b: List,
     pub(super) b_tilde: List,
-    pub(super) a: Matrix,
-    pub(super) a_tilde: Matrix,
+    pub(super) a: Option<Matrix>,
+    pub(super) a_tilde: Option<Matrix>,
 }
 
 #[derive(Deserialize)]
@@ -133,8 +133,8 @@ struct Decimals {
     c_tilde: List,
     b: List,
     b_tilde: List,
-    a: Matrix,
-    a_tilde: Matrix,
+    a: Option<Matrix>,
+    a_tilde: Option<Matrix>,
 }
 
 #[derive(Deserialize)]
@@ -304,8 +304,17 @@ impl Derived {
             let modulus = exact.node_polynomial.as_ref();
             vectors.extend(modulus.map(|list| ("node_polynomial", list, stages + 1)));
             matrices.extend([("a", &exact.a), ("a_tilde", &exact.a_tilde)]);
+            let functions = exact.node_polynomial.as_ref();
+            if let Some(list) = functions.filter(|_| exact.a.is_none() || exact.a_tilde.is_none()) {
+                let message = "functions of the nodes have both `a` and `a_tilde`".to_owned();
+                return Err(document_error(file, list.span(), message));
+            }
         }
         vectors.sort_by_key(|(_, list, _)| list.span().start);
+        // Those of a long splitting are left out.
+        let written = matrices.into_iter();
+        let written = written.filter_map(|(key, matrix)| Some((key, matrix.as_ref()?)));
+        let mut matrices: Vec<(&str, &Matrix)> = written.collect();
         matrices.sort_by_key(|(_, matrix)| matrix.span().start);
         for (key, list, expected) in vectors {
             length(key, list.get_ref().len(), expected, list.span())?;
@@ -365,7 +374,7 @@ impl Derived {
             }
         }
         for (name, matrix) in [("a", &exact.a), ("ã", &exact.a_tilde)] {
-            for (row, list) in matrix.get_ref().iter().enumerate() {
+            for (row, list) in matrix.iter().flat_map(Spanned::get_ref).enumerate() {
                 for (column, value) in list.get_ref().iter().enumerate() {
                     let name = if functions {
                         format!("{name}, coefficient of {} (exact)", monomial(column, row))
@@ -394,7 +403,7 @@ impl Derived {
             }
         }
         for (name, matrix) in [("a", &decimals.a), ("ã", &decimals.a_tilde)] {
-            for (row, list) in matrix.get_ref().iter().enumerate() {
+            for (row, list) in matrix.iter().flat_map(Spanned::get_ref).enumerate() {
                 for (column, value) in list.get_ref().iter().enumerate() {
                     let index = subscript(row + 1, column + 1);
                     entries.push(one(format!("{name}_{index} (decimal)"), value));

@@ -31,7 +31,7 @@
 //!
 //! Where the tier is `constant field`, `[exact]` has no node polynomial, and its entries are expressions
 //! such as `"(pi - 4)/(4*pi)"`. Where it is `enclosure`, there is no `[exact]`: the definition is the
-//! lossless part.
+//! lossless part. The matrices of a splitting with more than 36 stages are left out, as its weights are all that is in them.
 //!
 //! A person writes the definition only, and [`check`](crate::check()), [`read`] and the macro derive the
 //! rest:

@@ -88,8 +88,10 @@ fn algebra(modulus: &Polynomial, stages: usize) -> Result<NodeAlgebra, ErrorKind
     }
 }
 
-fn tensor(file: Input<'_>, rows: &Matrix) -> Result<Tensor, Error> {
-    let columns = rows.get_ref().iter().map(|row| polynomial(file, row));
+/// A matrix that is known to be there.
+fn tensor(file: Input<'_>, rows: &Option<Matrix>) -> Result<Tensor, Error> {
+    let rows = rows.iter().flat_map(Spanned::get_ref);
+    let columns = rows.map(|row| polynomial(file, row));
     Ok(Tensor::from_columns(columns.collect::<Result<_, _>>()?))
 }
 

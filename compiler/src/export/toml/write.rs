@@ -5,9 +5,9 @@ use crate::arithmetic::polynomial::Polynomial;
 use crate::export::facts::{self, Fact};
 use crate::export::json::evidence;
 use crate::export::layout::{right, widths};
-use crate::pair::Pair;
+use crate::pair::{Pair, Staircase};
 use crate::properties::Property;
-use crate::tableau::{Exact, Tableau};
+use crate::tableau::{Exact, Tableau, over_algebra};
 
 /// Rows that are wider than this have one entry a line.
 const WIDEST: usize = 110;
@@ -15,6 +15,9 @@ const WIDEST: usize = 110;
 /// Exact forms that are longer together than this are left out: the definition, of which they are derived, is as exact
 /// and shorter.
 const LONGEST_EXPRESSIONS: usize = 50_000;
+
+/// The matrices of splittings with more stages are left out: they have nothing but the weights, again and again.
+const LARGEST_MATRICES: usize = 36;
 
 const HEAD: &str = "\
 # A symplectic partitioned Runge–Kutta method, written by `symplectic`.
@@ -32,6 +35,16 @@ const ONE_INDEX: &str = "\
 const TWO_INDICES: &str = "\
 # a_ij = a(c_i, c_j) and ã_ij = ã(c_i, c_j): polynomials in two nodes x = c_i and y = c_j.
 # A row has the coefficients of 1, x, x^2, … beside one power of y.
+";
+
+const KICKS_FIRST: &str = "\
+# Not written out, as the weights say it: a_ij = b_j for j < i and ã_ij = b̃_j for j ≤ i, zero elsewhere.
+# In each stage a kick b̃_i, then a drift b_i.
+";
+
+const DRIFTS_FIRST: &str = "\
+# Not written out, as the weights say it: a_ij = b_j for j ≤ i and ã_ij = b̃_j for j < i, zero elsewhere.
+# In each stage a drift b_i, then a kick b̃_i.
 ";
 
 /// Writes a tableau as TOML with decimals of `digits ≥ 1` significant digits.
@@ -126,22 +139,43 @@ fn write_expressions(text: &mut String, tableau: &Tableau) {
     text.push_str("\n[exact]\n");
     write_vector(text, "b", &forms.b);
     write_vector(text, "b_tilde", &forms.b_tilde);
-    write_matrix(text, "a", &forms.a, stage);
-    write_matrix(text, "a_tilde", &forms.a_tilde, stage);
+    if left_out(tableau).is_none() {
+        write_matrix(text, "a", &forms.a, stage);
+        write_matrix(text, "a_tilde", &forms.a_tilde, stage);
+    }
+}
+
+/// What the matrices are that are left out.
+fn left_out(tableau: &Tableau) -> Option<&'static str> {
+    if tableau.stages() <= LARGEST_MATRICES {
+        return None;
+    }
+    Some(match over_algebra!(tableau, pair => pair.staircase())? {
+        Staircase::KicksFirst => KICKS_FIRST,
+        Staircase::DriftsFirst => DRIFTS_FIRST,
+    })
 }
 
 fn write_decimals(text: &mut String, tableau: &Tableau, digits: usize) {
-    let decimals = tableau
-        .numbers()
-        .map(|number| quoted(number.decimal(digits)));
+    let left_out = left_out(tableau);
+    let mut numbers = tableau.numbers();
+    if left_out.is_some() {
+        (numbers.a, numbers.a_tilde) = (Vec::new(), Vec::new());
+    }
+    let decimals = numbers.map(|number| quoted(number.decimal(digits)));
     text.push_str("\n[decimals]\n# Significant digits, correctly rounded.\n");
     text.push_str(&format!("digits = {digits}\n"));
     write_vector(text, "c", &decimals.c);
     write_vector(text, "c_tilde", &decimals.c_tilde);
     write_vector(text, "b", &decimals.b);
     write_vector(text, "b_tilde", &decimals.b_tilde);
-    write_matrix(text, "a", &decimals.a, stage);
-    write_matrix(text, "a_tilde", &decimals.a_tilde, stage);
+    match left_out {
+        Some(matrices) => text.push_str(matrices),
+        None => {
+            write_matrix(text, "a", &decimals.a, stage);
+            write_matrix(text, "a_tilde", &decimals.a_tilde, stage);
+        }
+    }
 }
 
 /// The comment at a row of exact coefficients.
