@@ -43,9 +43,9 @@ fn explicit_steps_multiply_by_nothing_but_their_coefficients() -> Result<(), Err
 fn implicit_steps_leave_out_the_zeros_of_their_matrices() -> Result<(), Error> {
     let (products, sweeps) = second_step(Lobatto3)?;
     // A sweep: a_2j has 3 entries, ã_ij 2 in each of 3 rows, the last column is zero; and the increments of 3 velocities
-    // and a force. The start: three velocities from those before, of which the first is the last; the increment of the
-    // first force. The end: that of the last.
-    assert_eq!(products, (9 + 4) * sweeps + (1 + 3 + 3) + 1 + 1);
+    // and a force. The start: three velocities from those before, of which the first is the last, and the position that
+    // follows from them; the increment of the first force. The end: that of the last.
+    assert_eq!(products, (9 + 4) * sweeps + (1 + 3 + 3) + 3 + 1 + 1);
     Ok(())
 }
 
