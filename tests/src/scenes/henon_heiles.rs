@@ -40,3 +40,20 @@ pub fn start<T: Scalar>() -> State<SVector<T, 2>> {
         SVector::from([first, second]),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::check;
+
+    #[test]
+    fn the_derivatives_are_those_of_the_energy() {
+        let state = State::new(0.0, SVector::from([0.3, -0.4]), SVector::from([0.2, 0.5]));
+        check::derivatives(&HenonHeiles, &state, 1e-5, 1e-8);
+    }
+
+    #[test]
+    fn the_energy_is_conserved() {
+        check::conservation(HenonHeiles, start(), 0.25, 10.0, 1e-13);
+    }
+}

@@ -1,0 +1,83 @@
+//! The double pendulum with masses and lengths 1,
+//! `H = (p_1² + 2p_2² − 2p_1 p_2 cos δ)/(2(1 + sin² δ)) − g(2 cos q_1 + cos q_2)`, where `δ = q_1 − q_2`; angles from
+//! the vertical, in radians.
+//!
+//! *Needs:* a method for general Hamiltonians, sine and cosine. Not separable, not stiff; chaotic, so that neighbouring
+//! orbits part exponentially.
+//! *Source:* the equations are those of every textbook of mechanics; the angles at the start are our choice.
+
+use symplectic::nalgebra::SVector;
+use symplectic::{General, Hamiltonian, Scalar, State};
+
+/// The acceleration of gravity g.
+pub const GRAVITY: f64 = 9.8;
+
+/// The system.
+#[derive(Clone, Copy, Debug)]
+pub struct DoublePendulum;
+
+impl<T: Scalar> Hamiltonian<SVector<T, 2>> for DoublePendulum {
+    type Class = General;
+
+    #[inline]
+    fn velocity(
+        &self,
+        _time: T,
+        q: &SVector<T, 2>,
+        p: &SVector<T, 2>,
+        velocity: &mut SVector<T, 2>,
+    ) {
+        let cosine = (q[0] - q[1]).cos();
+        // 1 + sin² δ
+        let inverse = (T::from_f64(2.0) - cosine * cosine).recip();
+        velocity[0] = (p[0] - p[1] * cosine) * inverse;
+        velocity[1] = (p[1] + p[1] - p[0] * cosine) * inverse;
+    }
+
+    #[inline]
+    fn force(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+        let (sine, cosine) = (q[0] - q[1]).sin_cos();
+        let inverse = (T::from_f64(2.0) - cosine * cosine).recip();
+        let product = p[0] * p[1];
+        let twice_kinetic =
+            (p[0] * p[0] + (p[1] * p[1] - product * cosine) * T::from_f64(2.0)) * inverse;
+        // ∂H/∂δ
+        let coupling = sine * inverse * (product - twice_kinetic * cosine);
+        force[0] = -coupling - q[0].sin() * T::from_f64(2.0 * GRAVITY);
+        force[1] = coupling - q[1].sin() * T::from_f64(GRAVITY);
+    }
+
+    fn energy(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
+        let (sine, cosine) = (q[0] - q[1]).sin_cos();
+        let two = T::from_f64(2.0);
+        let numerator = p[0] * p[0] + (p[1] * p[1] - p[0] * p[1] * cosine) * two;
+        let kinetic = numerator / (two * (T::one() + sine * sine));
+        Some(kinetic - T::from_f64(GRAVITY) * (two * q[0].cos() + q[1].cos()))
+    }
+}
+
+/// At rest with the angles (1, 1/2).
+pub fn start<T: Scalar>() -> State<SVector<T, 2>> {
+    State::new(
+        0.0,
+        SVector::from([1.0, 0.5].map(T::from_f64)),
+        SVector::from([T::zero(), T::zero()]),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::check;
+
+    #[test]
+    fn the_derivatives_are_those_of_the_energy() {
+        let state = State::new(0.0, SVector::from([1.0, -0.4]), SVector::from([0.7, -1.3]));
+        check::derivatives(&DoublePendulum, &state, 1e-5, 1e-8);
+    }
+
+    #[test]
+    fn the_energy_is_conserved() {
+        check::conservation(DoublePendulum, start(), 1.0 / 64.0, 2.0, 1e-13);
+    }
+}

@@ -1,0 +1,105 @@
+//! The Fermi–Pasta–Ulam–Tsingou chain with cubic forces, `H = Σ p_i²/2 + Σ (d²/2 + d⁴/4)` over all bonds, `d` the
+//! difference of neighbours; the ends are fixed.
+//!
+//! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff: no frequency is above 2 but for large amplitudes;
+//! as many particles as the vector has components.
+//! *Source:* Fermi, Pasta, Ulam & Tsingou, Studies of nonlinear problems (1955), the β chain with β = 1; the momenta
+//! at the start are our choice.
+
+use symplectic::nalgebra::DVector;
+use symplectic::{Scalar, SeparableHamiltonian, State, Vector};
+
+/// The number of particles of the benches.
+pub const PARTICLES: usize = 1024;
+
+/// The system, for vectors of any kind and dimension.
+#[derive(Clone, Copy, Debug)]
+pub struct FputChain;
+
+impl<V: Vector> SeparableHamiltonian<V> for FputChain {
+    #[inline]
+    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
+        symplectic::copy(velocity, p);
+    }
+
+    #[inline]
+    fn force(&self, _time: V::Scalar, q: &V, force: &mut V) {
+        let q = q.as_slice();
+        let force = &mut force.as_mut_slice()[..q.len()];
+        let ([first, ..], [.., last]) = (q, q) else {
+            return;
+        };
+        if let [second, ..] = q[1..] {
+            force[0] = tension(second - *first) - tension(*first);
+        } else {
+            force[0] = tension(-*first) - tension(*first);
+            return;
+        }
+        for (force, neighbours) in force[1..].iter_mut().zip(q.windows(3)) {
+            let (left, right) = (neighbours[1] - neighbours[0], neighbours[2] - neighbours[1]);
+            *force = tension(right) - tension(left);
+        }
+        force[q.len() - 1] = tension(-*last) - tension(*last - q[q.len() - 2]);
+    }
+
+    fn energy(&self, _time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
+        let half = V::Scalar::from_f64(0.5);
+        let bond = |d: V::Scalar| {
+            let square = d * d;
+            half * square + half * half * square * square
+        };
+        let mut energy = V::Scalar::from_f64(0.0);
+        let mut before = V::Scalar::from_f64(0.0);
+        for (&q, &p) in q.as_slice().iter().zip(p.as_slice()) {
+            energy += half * p * p + bond(q - before);
+            before = q;
+        }
+        Some(energy + bond(-before))
+    }
+}
+
+/// The derivative `d + d³` of the energy of a bond.
+#[inline(always)]
+fn tension<T: Scalar>(d: T) -> T {
+    d + d * d * d
+}
+
+/// At rest position, with momenta `p_i = ((7919 i mod n) − n/2)/n`: equally spaced numbers in a scattered order.
+pub fn momenta<T: Scalar>(particles: usize) -> impl Iterator<Item = T> {
+    let n = particles as f64;
+    (0..particles).map(move |i| T::from_f64(((7919 * i % particles) as f64 - 0.5 * n) / n))
+}
+
+/// The start as a dynamic vector.
+pub fn start(particles: usize) -> State<DVector<f64>> {
+    let p = DVector::from_iterator(particles, momenta(particles));
+    State::new(0.0, DVector::zeros(particles), p)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::check;
+
+    #[test]
+    fn the_derivatives_are_those_of_the_energy() {
+        for particles in [1, 2, 3, 16] {
+            let mut state = start(particles);
+            state.q = state.p.map(|p| (7.0 * p).sin());
+            check::derivatives(&FputChain, &state, 1e-5, 1e-8);
+        }
+    }
+
+    #[test]
+    fn the_energy_is_conserved() {
+        check::conservation(FputChain, start(16), 1.0 / 16.0, 4.0, 1e-13);
+    }
+
+    #[test]
+    fn the_momenta_are_those_of_the_data() {
+        let p: Vec<f64> = momenta(PARTICLES).collect();
+        assert_eq!(p[0], -0.5);
+        assert_eq!(p[1], (7919.0 % 1024.0 - 512.0) / 1024.0);
+        assert_eq!(p.iter().sum::<f64>(), -0.5);
+    }
+}
