@@ -15,6 +15,11 @@ symplectic::tableau! {
     /// Lobatto IIIA–IIIB with four stages, order 6.
     pub Lobatto4 { basis: polynomial(4), nodes: lobatto(4), require: [symplectic, symmetric, order == 6] }
 
+    /// Gauss with two stages, order 4.
+    pub Gauss2 {
+        basis: polynomial(2), nodes: gauss(2), require: [symplectic, symmetric, equal_matrices, order == 4, p_stable]
+    }
+
     /// Gauss with four stages, order 8.
     pub Gauss4 {
         basis: polynomial(4), nodes: gauss(4), require: [symplectic, symmetric, equal_matrices, order == 8, p_stable]
@@ -29,4 +34,15 @@ symplectic::tableau! {
     pub Gauss8 {
         basis: polynomial(8), nodes: gauss(8), require: [symplectic, symmetric, equal_matrices, order == 16]
     }
+}
+
+symplectic::composition! {
+    /// Störmer–Verlet as a splitting: half a kick, a drift, half a kick.
+    pub VelocityVerlet { base: velocity-verlet }
+
+    /// Forest & Ruth, order 4.
+    pub ForestRuth { base: forest-ruth-1990 }
+
+    /// Blanes & Moan, order 6 for quadratic kinetic energy.
+    pub BlanesMoanSrkn14a { base: blanes-moan-2002-srkn14a }
 }

@@ -1,0 +1,61 @@
+//! The library against integrators written by hand: times of a step and their ratio.
+//!
+//! `RUSTFLAGS="-C target-cpu=native" cargo run --release --example ratios`; arguments choose rows by what they contain.
+//! Runs of both take turns, so that a machine which drifts hits both alike; a run is shorter than what a scheduler
+//! gives at a time.
+
+#![allow(clippy::print_stdout, reason = "an example prints")]
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use symplectic::Error;
+use symplectic_tests::contest::{Run, pairs};
+
+/// Runs of each.
+const ROUNDS: usize = 101;
+
+fn main() -> Result<(), Error> {
+    let wanted: Vec<String> = std::env::args().skip(1).collect();
+    println!(
+        "Nanoseconds a step, medians of {ROUNDS} runs that take turns; ratio: the median of the ratios of neighbouring runs."
+    );
+    println!("difference: of the states at the end, relative.\n");
+    println!("| problem | method | sums | step size | by hand | library | ratio | difference |");
+    println!("|---|---|---|---:|---:|---:|---:|---:|");
+    for pair in pairs() {
+        let label = pair.label();
+        if !wanted.iter().all(|part| label.contains(part)) {
+            continue;
+        }
+        let difference = pair.difference()?;
+        let (mut baseline, mut library, mut ratio) = (Vec::new(), Vec::new(), Vec::new());
+        for _ in 0..ROUNDS {
+            let (by_hand, by_library) = (time(&pair.baseline)?, time(&pair.library)?);
+            baseline.push(by_hand);
+            library.push(by_library);
+            ratio.push(by_library / by_hand);
+        }
+        let per_step = 1e9 / pair.steps as f64;
+        println!(
+            "| {label} | {:.3} | {:.1} | {:.1} | {:.2} | {difference:.0e} |",
+            pair.step_size,
+            per_step * median(baseline),
+            per_step * median(library),
+            median(ratio),
+        );
+    }
+    Ok(())
+}
+
+/// Seconds of one run.
+fn time(run: &Run) -> Result<f64, Error> {
+    let begin = Instant::now();
+    black_box(run()?);
+    Ok(begin.elapsed().as_secs_f64())
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}

@@ -1,0 +1,250 @@
+//! Numbers side by side.
+
+use std::array;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+use wide::{f64x2, f64x4, f64x8};
+
+/// One number, or as many as a register holds.
+pub trait Lanes:
+    Copy
+    + Add<Output = Self>
+    + AddAssign
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// How many numbers.
+    const COUNT: usize;
+    /// The same with half as many.
+    type Half: Lanes;
+
+    /// The number `value(i)` in lane i.
+    fn from_fn(value: impl FnMut(usize) -> f64) -> Self;
+    /// The same number in all lanes.
+    fn splat(value: f64) -> Self;
+    /// The number in lane `i`.
+    fn lane(self, i: usize) -> f64;
+    /// The lower and the upper lanes.
+    fn halves(self) -> (Self::Half, Self::Half);
+    /// √x.
+    fn sqrt(self) -> Self;
+    /// Sine and cosine, lane by lane with the functions of the standard library: the results are those of scalar code,
+    /// to the last bit.
+    fn sin_cos(self) -> (Self, Self);
+    /// Sine, as [`sin_cos`](Self::sin_cos).
+    fn sin(self) -> Self;
+    /// `self * factor + term`, rounded once where the target can and twice elsewhere.
+    fn fused(self, factor: Self, term: Self) -> Self;
+    /// |x|.
+    fn abs(self) -> Self;
+    /// The larger one in each lane.
+    fn max(self, other: Self) -> Self;
+    /// The smaller one in each lane.
+    fn min(self, other: Self) -> Self;
+    /// Whether a lane is above that of `bound`.
+    fn exceeds(self, bound: Self) -> bool;
+    /// Whether a lane is above that of `low` and below that of `high`.
+    fn between(self, low: Self, high: Self) -> bool;
+
+    /// Sum over the lanes.
+    #[inline(always)]
+    fn sum(self) -> f64 {
+        if Self::COUNT == 1 {
+            return self.lane(0);
+        }
+        let (a, b) = self.halves();
+        (a + b).sum()
+    }
+
+    /// Sum over the lanes of `self + low`, and what rounding leaves out of it.
+    #[inline(always)]
+    fn double_sum(self, low: Self) -> (f64, f64) {
+        if Self::COUNT == 1 {
+            return (self.lane(0), low.lane(0));
+        }
+        let ((a, b), (a_low, b_low)) = (self.halves(), low.halves());
+        let (sum, rest) = two_sum(a, b);
+        sum.double_sum(rest + (a_low + b_low))
+    }
+}
+
+/// The rounded sum, and what rounding left out of it.
+#[inline(always)]
+pub fn two_sum<L: Lanes>(a: L, b: L) -> (L, L) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
+}
+
+/// [`two_sum`] where `a` is not smaller than `b`, or is zero.
+#[inline(always)]
+pub fn fast_two_sum<L: Lanes>(a: L, b: L) -> (L, L) {
+    let sum = a + b;
+    (sum, b - (sum - a))
+}
+
+impl Lanes for f64 {
+    const COUNT: usize = 1;
+    type Half = Self;
+
+    #[inline(always)]
+    fn from_fn(mut value: impl FnMut(usize) -> f64) -> Self {
+        value(0)
+    }
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn lane(self, _: usize) -> f64 {
+        self
+    }
+
+    #[inline(always)]
+    fn halves(self) -> (Self, Self) {
+        (self, 0.0)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        self.sin_cos()
+    }
+
+    #[inline(always)]
+    fn sin(self) -> Self {
+        self.sin()
+    }
+
+    #[inline(always)]
+    fn fused(self, factor: Self, term: Self) -> Self {
+        if cfg!(target_feature = "fma") {
+            self.mul_add(factor, term)
+        } else {
+            self * factor + term
+        }
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.max(other)
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.min(other)
+    }
+
+    #[inline(always)]
+    fn exceeds(self, bound: Self) -> bool {
+        self > bound
+    }
+
+    #[inline(always)]
+    fn between(self, low: Self, high: Self) -> bool {
+        self > low && self < high
+    }
+}
+
+macro_rules! lanes {
+    ($lanes:ident, $count:literal, $half:ty) => {
+        impl Lanes for $lanes {
+            const COUNT: usize = $count;
+            type Half = $half;
+
+            #[inline(always)]
+            fn from_fn(value: impl FnMut(usize) -> f64) -> Self {
+                Self::new(array::from_fn(value))
+            }
+
+            #[inline(always)]
+            fn splat(value: f64) -> Self {
+                Self::splat(value)
+            }
+
+            #[inline(always)]
+            fn lane(self, i: usize) -> f64 {
+                self.to_array()[i]
+            }
+
+            #[inline(always)]
+            fn halves(self) -> ($half, $half) {
+                let lanes = self.to_array();
+                (
+                    Lanes::from_fn(|i| lanes[i]),
+                    Lanes::from_fn(|i| lanes[$count / 2 + i]),
+                )
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                self.sqrt()
+            }
+
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                let pairs = self.to_array().map(f64::sin_cos);
+                (
+                    Self::new(pairs.map(|(sine, _)| sine)),
+                    Self::new(pairs.map(|(_, cosine)| cosine)),
+                )
+            }
+
+            #[inline(always)]
+            fn sin(self) -> Self {
+                Self::new(self.to_array().map(f64::sin))
+            }
+
+            #[inline(always)]
+            fn fused(self, factor: Self, term: Self) -> Self {
+                if cfg!(target_feature = "fma") {
+                    self.mul_add(factor, term)
+                } else {
+                    self * factor + term
+                }
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                self.abs()
+            }
+
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                self.fast_max(other)
+            }
+
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                self.fast_min(other)
+            }
+
+            #[inline(always)]
+            fn exceeds(self, bound: Self) -> bool {
+                self.simd_gt(bound).any()
+            }
+
+            #[inline(always)]
+            fn between(self, low: Self, high: Self) -> bool {
+                (self.simd_gt(low) & high.simd_gt(self)).any()
+            }
+        }
+    };
+}
+
+lanes!(f64x2, 2, f64);
+lanes!(f64x4, 4, f64x2);
+lanes!(f64x8, 8, f64x4);

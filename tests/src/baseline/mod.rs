@@ -1,0 +1,12 @@
+//! Integrators written by hand for one problem each, as fast as their author could make them: what the benches and the
+//! ratios hold the generated code against.
+//!
+//! They do what the library does and nothing beside it: no errors, no statistics, no checks, fixed dimension. A test
+//! holds their end states to those of the library.
+
+pub mod chain;
+pub mod explicit;
+pub mod gauss;
+pub mod lanes;
+pub mod no_drift;
+pub mod systems;

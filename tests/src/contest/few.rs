@@ -1,0 +1,133 @@
+//! Problems with few components: the stages in lanes.
+
+use symplectic::nalgebra::SVector;
+use symplectic::{Compensated, Hamiltonian, Method, Plain, SeparableHamiltonian, State};
+use wide::{f64x2, f64x4, f64x8};
+
+use super::{Pair, Problem, rule};
+use crate::baseline::explicit::{self, Splitting};
+use crate::baseline::gauss::{FirstOrder, Rule, SecondOrder};
+use crate::baseline::lanes::Lanes;
+use crate::baseline::no_drift::{Double, NoDrift, NoDriftGeneral};
+use crate::baseline::systems;
+use crate::methods::{
+    BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4, Gauss6, Gauss8, VelocityVerlet,
+};
+
+/// Implicit and explicit methods on a separable problem.
+pub(super) fn separable<S, B, const N: usize>(
+    pairs: &mut Vec<Pair>,
+    problem: &Problem<S, B, SVector<f64, N>>,
+) where
+    S: SeparableHamiltonian<SVector<f64, N>> + Copy + 'static,
+    B: systems::Separable<N> + Copy + 'static,
+{
+    problem.gauss::<f64x8, _, 8>(pairs, ("Gauss 8", Gauss8), &rule!(Gauss8), 1.0);
+    problem.gauss::<f64x8, _, 6>(pairs, ("Gauss 6", Gauss6), &rule!(Gauss6), 0.6);
+    problem.gauss::<f64x4, _, 4>(pairs, ("Gauss 4", Gauss4), &rule!(Gauss4), 0.3);
+    problem.gauss::<f64x2, _, 2>(pairs, ("Gauss 2", Gauss2), &rule!(Gauss2), 0.1);
+    problem.splitting::<explicit::Verlet, _>(pairs, ("Verlet", VelocityVerlet), 0.02);
+    problem.splitting::<explicit::ForestRuth, _>(pairs, ("Forest–Ruth", ForestRuth), 0.05);
+    let blanes_moan = ("Blanes–Moan SRKN14a", BlanesMoanSrkn14a);
+    problem.splitting::<explicit::BlanesMoan, _>(pairs, blanes_moan, 0.4);
+}
+
+/// Implicit methods on a problem that is not separable.
+pub(super) fn general<S, B, const N: usize>(
+    pairs: &mut Vec<Pair>,
+    problem: &Problem<S, B, SVector<f64, N>>,
+) where
+    S: Hamiltonian<SVector<f64, N>> + Copy + 'static,
+    B: systems::General<N> + Copy + 'static,
+{
+    problem.coupled::<f64x8, _, 8>(pairs, ("Gauss 8", Gauss8), &rule!(Gauss8), 1.0);
+    problem.coupled::<f64x8, _, 6>(pairs, ("Gauss 6", Gauss6), &rule!(Gauss6), 0.6);
+    problem.coupled::<f64x4, _, 4>(pairs, ("Gauss 4", Gauss4), &rule!(Gauss4), 0.3);
+    problem.coupled::<f64x2, _, 2>(pairs, ("Gauss 2", Gauss2), &rule!(Gauss2), 0.1);
+}
+
+impl<S, B, const N: usize> Problem<S, B, SVector<f64, N>>
+where
+    S: SeparableHamiltonian<SVector<f64, N>> + Copy + 'static,
+    B: systems::Separable<N> + Copy + 'static,
+{
+    fn gauss<L: Lanes + 'static, M: Method, const STAGES: usize>(
+        &self,
+        pairs: &mut Vec<Pair>,
+        method: (&'static str, M),
+        rule: &Rule<STAGES>,
+        fraction: f64,
+    ) {
+        let (h, steps, tolerance) = (fraction * self.step_size, self.steps, self.tolerance);
+        let (system, (q, p)) = (self.by_hand, arrays(&self.start));
+        let by_hand = SecondOrder::<L, STAGES>::new(rule, h);
+        pairs.push(self.pair::<M, Plain>(method, h, steps, move || {
+            let (mut q, mut p) = (q, p);
+            by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
+            [q, p].concat()
+        }));
+        let by_hand = NoDrift::<L, STAGES>::new(rule, h);
+        pairs.push(self.pair::<M, Compensated>(method, h, steps, move || {
+            let (mut q, mut p) = (Double::new(q), Double::new(p));
+            by_hand.run(&system, (&mut q, &mut p), 1e4 * tolerance, steps);
+            [q.high, p.high].concat()
+        }));
+    }
+
+    fn splitting<K: Splitting + 'static, M: Method>(
+        &self,
+        pairs: &mut Vec<Pair>,
+        method: (&'static str, M),
+        fraction: f64,
+    ) {
+        let (h, steps) = (fraction * self.step_size, self.steps);
+        let (system, (q, p)) = (self.by_hand, arrays(&self.start));
+        let plain = self.pair::<M, Plain>(method, h, steps, move || {
+            let (mut q, mut p) = (q, p);
+            explicit::run::<K, B, N>(&system, (&mut q, &mut p), h, steps);
+            [q, p].concat()
+        });
+        let compensated = self.pair::<M, Compensated>(method, h, steps, move || {
+            let (mut q, mut p) = (Double::new(q), Double::new(p));
+            explicit::run_compensated::<K, B, N>(&system, (&mut q, &mut p), h, steps);
+            [q.high, p.high].concat()
+        });
+        pairs.extend([plain, compensated].map(|pair| Pair {
+            same_arithmetic: true,
+            ..pair
+        }));
+    }
+}
+
+impl<S, B, const N: usize> Problem<S, B, SVector<f64, N>>
+where
+    S: Hamiltonian<SVector<f64, N>> + Copy + 'static,
+    B: systems::General<N> + Copy + 'static,
+{
+    fn coupled<L: Lanes + 'static, M: Method, const STAGES: usize>(
+        &self,
+        pairs: &mut Vec<Pair>,
+        method: (&'static str, M),
+        rule: &Rule<STAGES>,
+        fraction: f64,
+    ) {
+        let (h, steps, tolerance) = (fraction * self.step_size, self.steps, self.tolerance);
+        let (system, (q, p)) = (self.by_hand, arrays(&self.start));
+        let by_hand = FirstOrder::<L, STAGES>::new(rule, h);
+        pairs.push(self.pair::<M, Plain>(method, h, steps, move || {
+            let (mut q, mut p) = (q, p);
+            by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
+            [q, p].concat()
+        }));
+        let by_hand = NoDriftGeneral::<L, STAGES>::new(rule, h);
+        pairs.push(self.pair::<M, Compensated>(method, h, steps, move || {
+            let (mut q, mut p) = (Double::new(q), Double::new(p));
+            by_hand.run(&system, (&mut q, &mut p), steps);
+            [q.high, p.high].concat()
+        }));
+    }
+}
+
+fn arrays<const N: usize>(state: &State<SVector<f64, N>>) -> ([f64; N], [f64; N]) {
+    (state.q.data.0[0], state.p.data.0[0])
+}

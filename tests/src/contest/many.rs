@@ -1,0 +1,67 @@
+//! The long chain: lanes along the components, with plain sums.
+
+use symplectic::nalgebra::DVector;
+use symplectic::{Method, Plain};
+
+use super::{Pair, Problem, rule};
+use crate::baseline::chain::{self, Blocks};
+use crate::baseline::explicit::{self, Splitting};
+use crate::methods::{BlanesMoanSrkn14a, ForestRuth, Gauss8, VelocityVerlet};
+use crate::scenes::fput_chain::{FputChain, PARTICLES, start};
+
+type Chain = Problem<FputChain, (), DVector<f64>>;
+
+/// Implicit and explicit methods on the chain.
+pub(super) fn chain(pairs: &mut Vec<Pair>) {
+    let problem = Problem {
+        name: "FPUT chain, N = 1024",
+        system: FputChain,
+        by_hand: (),
+        start: start(PARTICLES),
+        step_size: 0.5,
+        steps: 20,
+        tolerance: 1e-14,
+    };
+    let Problem {
+        step_size,
+        steps,
+        tolerance,
+        ..
+    } = problem;
+    let begin = problem.blocks();
+    let by_hand = chain::SecondOrder::<8>::new(&rule!(Gauss8), PARTICLES, step_size);
+    let gauss = ("Gauss 8", Gauss8);
+    pairs.push(problem.pair::<_, Plain>(gauss, step_size, steps, move || {
+        let (mut q, mut p) = begin.clone();
+        let mut by_hand = by_hand.clone();
+        by_hand.run(&mut q, &mut p, tolerance, steps);
+        q.values().chain(p.values()).collect()
+    }));
+    pairs.push(problem.explicit::<explicit::Verlet, _>(("Verlet", VelocityVerlet), 0.05, 1000));
+    let forest_ruth = ("Forest–Ruth", ForestRuth);
+    pairs.push(problem.explicit::<explicit::ForestRuth, _>(forest_ruth, 0.1, 400));
+    let blanes_moan = ("Blanes–Moan SRKN14a", BlanesMoanSrkn14a);
+    pairs.push(problem.explicit::<explicit::BlanesMoan, _>(blanes_moan, 0.2, 100));
+}
+
+impl Chain {
+    fn blocks(&self) -> (Blocks, Blocks) {
+        let vectors = [&self.start.q, &self.start.p];
+        let [q, p] = vectors.map(|vector| Blocks::new(vector.as_slice()));
+        (q, p)
+    }
+
+    fn explicit<K: Splitting + 'static, M: Method>(
+        &self,
+        method: (&'static str, M),
+        step_size: f64,
+        steps: u64,
+    ) -> Pair {
+        let begin = self.blocks();
+        self.pair::<M, Plain>(method, step_size, steps, move || {
+            let (mut q, mut p) = begin.clone();
+            chain::explicit::<K>(&mut q, &mut p, step_size, steps);
+            q.values().chain(p.values()).collect()
+        })
+    }
+}

@@ -1,0 +1,211 @@
+//! The library and integrators written by hand on the same problems, with the same methods, steps and sums.
+
+mod few;
+mod many;
+
+use symplectic::{Error, Hamiltonian, Integrator, Method, State, Summation, Vector};
+
+use crate::baseline::systems;
+use crate::measure::largest;
+use crate::scenes::{
+    double_pendulum, fput_springs, henon_heiles, kepler, nonseparable, outer_solar_system,
+};
+
+/// A run, to be made as often as is liked: the components of the state at its end, q and then p.
+pub type Run = Box<dyn Fn() -> Result<Vec<f64>, Error>>;
+
+/// One method on one problem, twice.
+pub struct Pair {
+    /// The problem.
+    pub problem: &'static str,
+    /// The method.
+    pub method: &'static str,
+    /// How increments are added to the state, `plain` or `compensated`.
+    pub sums: &'static str,
+    /// Whether both do the same arithmetic, so that their states agree to the last bit.
+    pub same_arithmetic: bool,
+    /// The step size.
+    pub step_size: f64,
+    /// Steps of a run.
+    pub steps: u64,
+    /// By the library.
+    pub library: Run,
+    /// By hand.
+    pub baseline: Run,
+}
+
+impl Pair {
+    /// Problem, method and sums in one line.
+    pub fn label(&self) -> String {
+        format!("{} | {} | {}", self.problem, self.method, self.sums)
+    }
+
+    /// The largest difference of a component at the end, in units of the largest position or momentum.
+    ///
+    /// # Errors
+    ///
+    /// Those of the runs.
+    pub fn difference(&self) -> Result<f64, Error> {
+        let (found, expected) = ((self.library)()?, (self.baseline)()?);
+        let dimension = found.len() / 2;
+        let mut difference = 0.0;
+        for half in [0..dimension, dimension..2 * dimension] {
+            let (found, expected) = (&found[half.clone()], &expected[half]);
+            let scale = expected.iter().fold(0.0, |a, b| largest(a, b.abs()));
+            for (a, b) in found.iter().zip(expected) {
+                difference = largest(difference, (a - b).abs() / scale);
+            }
+        }
+        Ok(difference)
+    }
+}
+
+/// Where a problem starts, and how it is stepped.
+struct Problem<S, B, V> {
+    name: &'static str,
+    system: S,
+    /// The system, written by hand.
+    by_hand: B,
+    start: State<V>,
+    /// For Gauss with eight stages; the others have fractions of it.
+    step_size: f64,
+    steps: u64,
+    /// What no stage of the iteration by hand may move by in the end; rounding errors are smaller.
+    tolerance: f64,
+}
+
+/// Every pair.
+pub fn pairs() -> Vec<Pair> {
+    let mut pairs = Vec::new();
+    few::separable(
+        &mut pairs,
+        &Problem {
+            name: "Kepler, e = 0.6",
+            system: kepler::Kepler,
+            by_hand: systems::Kepler,
+            start: kepler::start(0.6),
+            step_size: 0.195,
+            steps: 640,
+            tolerance: 1e-14,
+        },
+    );
+    few::separable(
+        &mut pairs,
+        &Problem {
+            name: "outer solar system",
+            system: outer_solar_system::OuterSolarSystem,
+            by_hand: systems::OuterSolarSystem,
+            start: outer_solar_system::start(),
+            step_size: 488.0,
+            steps: 100,
+            tolerance: 1e-12,
+        },
+    );
+    few::separable(
+        &mut pairs,
+        &Problem {
+            name: "Hénon–Heiles",
+            system: henon_heiles::HenonHeiles,
+            by_hand: systems::HenonHeiles,
+            start: henon_heiles::start(),
+            step_size: 0.39,
+            steps: 500,
+            tolerance: 1e-14,
+        },
+    );
+    few::separable(
+        &mut pairs,
+        &Problem {
+            name: "FPUT springs, ω = 50",
+            system: fput_springs::FputSprings {
+                omega: fput_springs::OMEGA,
+            },
+            by_hand: systems::FputSprings {
+                omega: fput_springs::OMEGA,
+            },
+            start: fput_springs::start(fput_springs::OMEGA),
+            step_size: 0.04,
+            steps: 500,
+            tolerance: 1e-14,
+        },
+    );
+    few::general(
+        &mut pairs,
+        &Problem {
+            name: "double pendulum",
+            system: double_pendulum::DoublePendulum,
+            by_hand: systems::DoublePendulum,
+            start: double_pendulum::start(),
+            step_size: 0.1,
+            steps: 100,
+            tolerance: 1e-13,
+        },
+    );
+    few::general(
+        &mut pairs,
+        &Problem {
+            name: "(q² + 1)(p² + 1)/2",
+            system: nonseparable::Nonseparable,
+            by_hand: systems::Nonseparable,
+            start: nonseparable::start(),
+            step_size: 0.1,
+            steps: 500,
+            tolerance: 1e-14,
+        },
+    );
+    many::chain(&mut pairs);
+    pairs
+}
+
+impl<S, B, V> Problem<S, B, V>
+where
+    S: Hamiltonian<V> + Copy + 'static,
+    V: Vector<Scalar = f64>,
+{
+    /// A pair for `steps` steps of `step_size`.
+    fn pair<M: Method, R: Summation>(
+        &self,
+        method: (&'static str, M),
+        step_size: f64,
+        steps: u64,
+        baseline: impl Fn() -> Vec<f64> + 'static,
+    ) -> Pair {
+        let (system, start) = (self.system, self.start.clone());
+        let library = move || {
+            let start = start.clone();
+            let mut integrator =
+                Integrator::<M, S, V, R>::with_summation(method.1, system, start, step_size)?;
+            for _ in 0..steps {
+                integrator.step()?;
+            }
+            let State { q, p, .. } = integrator.state();
+            Ok([q.as_slice(), p.as_slice()].concat())
+        };
+        Pair {
+            problem: self.name,
+            method: method.0,
+            sums: if R::COMPENSATED {
+                "compensated"
+            } else {
+                "plain"
+            },
+            same_arithmetic: false,
+            step_size,
+            steps,
+            library: Box::new(library),
+            baseline: Box::new(move || Ok(baseline())),
+        }
+    }
+}
+
+/// The coefficients of a Gauss method.
+macro_rules! rule {
+    ($method:ident) => {
+        $crate::baseline::gauss::Rule {
+            a: $crate::methods::$method::A,
+            b: $crate::methods::$method::B,
+            c: $crate::methods::$method::C,
+        }
+    };
+}
+use rule;
