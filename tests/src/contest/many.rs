@@ -19,7 +19,7 @@ pub(super) fn chain(pairs: &mut Vec<Pair>) {
         by_hand: (),
         start: start(PARTICLES),
         step_size: 0.5,
-        steps: 20,
+        steps: 2,
         tolerance: 1e-14,
     };
     let Problem {
@@ -37,11 +37,11 @@ pub(super) fn chain(pairs: &mut Vec<Pair>) {
         by_hand.run(&mut q, &mut p, tolerance, steps);
         q.values().chain(p.values()).collect()
     }));
-    pairs.push(problem.explicit::<explicit::Verlet, _>(("Verlet", VelocityVerlet), 0.05, 1000));
+    pairs.push(problem.explicit::<explicit::Verlet, _>(("Verlet", VelocityVerlet), 0.05, 200));
     let forest_ruth = ("Forest–Ruth", ForestRuth);
-    pairs.push(problem.explicit::<explicit::ForestRuth, _>(forest_ruth, 0.1, 400));
+    pairs.push(problem.explicit::<explicit::ForestRuth, _>(forest_ruth, 0.1, 100));
     let blanes_moan = ("Blanes–Moan SRKN14a", BlanesMoanSrkn14a);
-    pairs.push(problem.explicit::<explicit::BlanesMoan, _>(blanes_moan, 0.2, 100));
+    pairs.push(problem.explicit::<explicit::BlanesMoan, _>(blanes_moan, 0.2, 20));
 }
 
 impl Chain {

@@ -85,7 +85,7 @@ pub fn pairs() -> Vec<Pair> {
             by_hand: systems::Kepler,
             start: kepler::start(0.6),
             step_size: 0.195,
-            steps: 640,
+            steps: 128,
             tolerance: 1e-14,
         },
     );
@@ -97,7 +97,7 @@ pub fn pairs() -> Vec<Pair> {
             by_hand: systems::OuterSolarSystem,
             start: outer_solar_system::start(),
             step_size: 488.0,
-            steps: 100,
+            steps: 20,
             tolerance: 1e-12,
         },
     );
@@ -109,7 +109,7 @@ pub fn pairs() -> Vec<Pair> {
             by_hand: systems::HenonHeiles,
             start: henon_heiles::start(),
             step_size: 0.39,
-            steps: 500,
+            steps: 100,
             tolerance: 1e-14,
         },
     );
@@ -125,7 +125,7 @@ pub fn pairs() -> Vec<Pair> {
             },
             start: fput_springs::start(fput_springs::OMEGA),
             step_size: 0.04,
-            steps: 500,
+            steps: 100,
             tolerance: 1e-14,
         },
     );
@@ -149,7 +149,7 @@ pub fn pairs() -> Vec<Pair> {
             by_hand: systems::Nonseparable,
             start: nonseparable::start(),
             step_size: 0.1,
-            steps: 500,
+            steps: 100,
             tolerance: 1e-14,
         },
     );
