@@ -48,11 +48,11 @@ fn a_splitting_is_straight_line_code() {
     let code = emitted(&tableau, "ForestRuth");
     let separable = code.split("struct ForestRuthSeparable").nth(1);
     let separable = separable.expect("the plan");
-    assert!(code.contains("Separable = ::symplectic::Explicit<ForestRuthSeparable>"));
-    assert!(separable.contains("::symplectic::Evaluations<V>"));
+    assert!(code.contains("Separable = ::symplectic::Splitting<ForestRuthSeparable>"));
+    assert!(separable.contains("&mut ::symplectic::Evaluations<V>"));
     assert!(separable.contains("if !kept.evaluation {"), "{separable}");
     // The last momentum stage has no drift after it, and no velocity is evaluated there.
-    assert_eq!(separable.matches("advance").count(), 7);
+    assert_eq!(separable.matches("::advance").count(), 7);
     expect_file!["emission/forest_ruth.rs"].assert_eq(&code);
 }
 
@@ -129,13 +129,13 @@ fn a_composition_of_explicit_methods_is_explicit() {
     let separable = code.split("struct TripleJumpSeparable").nth(1);
     let separable = separable.expect("the plan");
     // Four positions with a force, the last of which is the first of the next step, and three momenta.
-    assert!(code.contains("Separable = ::symplectic::Explicit<TripleJumpSeparable>"));
-    assert!(separable.contains("::symplectic::Evaluations<V>"));
+    assert!(code.contains("Separable = ::symplectic::Splitting<TripleJumpSeparable>"));
+    assert!(separable.contains("&mut ::symplectic::Evaluations<V>"));
     assert!(separable.contains("if !kept.evaluation {"), "{separable}");
     assert!(!separable.contains("relax") && !separable.contains("combine"));
     assert_eq!(separable.matches(".force(").count(), 4);
     assert_eq!(separable.matches(".velocity(").count(), 3);
     // Each of them is applied once, with the sum of the weights where two steps meet.
-    assert_eq!(separable.matches("advance").count(), 7);
+    assert_eq!(separable.matches("::advance").count(), 7);
     assert!(factors(&code).iter().all(|&c| c != 0.0));
 }

@@ -9,11 +9,14 @@ use crate::stage::is_finite;
 use crate::time::{Clock, uniform};
 use crate::{
     Class, Compensated, Error, Failure, FixedPoint, Hamiltonian, HamiltonianInLanes, InLanes, Kept,
-    Method, Outcome, Plain, Plan, Quantity, Retry, Scalar, SecondOrderInLanes, Solver,
-    StageStorage, State, States, Statistics, Step, Summation, Vector, Work,
+    Method, Outcome, Plain, Plan, Quantity, Retry, Scalar, SecondOrderInLanes, Solver, Span,
+    StageStorage, State, States, Statistics, Step, Summation, Vector, Work, copy,
 };
 #[cfg(feature = "alloc")]
 use crate::{GeneratingFunction, generating_function::generating};
+
+/// Steps that are taken in place before what comes out is looked at.
+const BLOCK: u64 = 256;
 
 /// The plan of the method `M` for the class of the system `S`.
 type PlanOf<M, S, V> = <<S as Hamiltonian<V>>::Class as Class>::Plan<M>;
@@ -240,6 +243,40 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         Ok(&self.state)
     }
 
+    /// Takes so many steps and returns the state after them: as often [`step`](Self::step), to the last bit, and faster where
+    /// the method is a splitting.
+    ///
+    /// A splitting takes them in place, and whether its states are finite is seen after some hundred of them; where one
+    /// is not, they are taken once more, one by one.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`step`](Self::step); the state is then that after the last good step.
+    ///
+    /// ```
+    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, acceleration};
+    /// # fn main() -> Result<(), Error> {
+    /// let oscillator = || acceleration::<Vector1<f64>, _>(|_, q, acceleration| *acceleration = -q);
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+    /// let mut at_once = Integrator::new(StoermerVerlet, oscillator(), start.clone(), 0.125)?;
+    /// let mut one_by_one = Integrator::new(StoermerVerlet, oscillator(), start, 0.125)?;
+    /// for _ in 0..1000 {
+    ///     one_by_one.step()?;
+    /// }
+    /// assert_eq!(at_once.take_steps(1000)?, one_by_one.state());
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn take_steps(&mut self, count: u64) -> Result<&State<V>, Error> {
+        let mut clock = self.clock;
+        let size = self.step_size;
+        let outcome = self.advance_by(count, size, &mut clock, None);
+        self.clock = clock;
+        outcome.map(|()| &self.state)
+    }
+
     /// Takes one step and returns its generating function at the position before and the momentum after it, the
     /// `p0` and `q1` of which are the momentum before and the position after it, up to rounding.
     ///
@@ -297,7 +334,11 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the
     /// last good step.
     pub fn integrate_to(&mut self, end: f64) -> Result<&State<V>, Error> {
-        self.integrate_with(end, |_| {})
+        let (count, size) = uniform(self.state.time, end, self.step_size)?;
+        let mut clock = Clock::new(self.state.time, size);
+        let outcome = self.advance_by(count, size, &mut clock, Some(end));
+        self.restart_clock();
+        outcome.map(|()| &self.state)
     }
 
     /// [`integrate_to`](Self::integrate_to) that shows `observe` the state after every step.
@@ -450,6 +491,82 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     pub fn energy(&self) -> Option<V::Scalar> {
         let State { time, q, p } = &self.state;
         self.system.energy(V::Scalar::from_f64(*time), q, p)
+    }
+
+    /// Steps of one size by a clock; the last one to the time `end`, if it is given.
+    #[inline]
+    fn advance_by(
+        &mut self,
+        count: u64,
+        size: f64,
+        clock: &mut Clock,
+        end: Option<f64>,
+    ) -> Result<(), Error> {
+        let mut left = count;
+        while left > 0 {
+            // The last step is taken by itself: the state before it stays at hand.
+            let block = (left - 1).min(BLOCK);
+            let ready = self.kept.evaluation && block > 0;
+            if ready && self.advance_in_place(block, size, clock) {
+                left -= block;
+                continue;
+            }
+            // One step to have an evaluation to go on from, or those of the block one by one.
+            for _ in 0..if ready { block } else { 1 } {
+                left -= 1;
+                let time = end.filter(|_| left == 0).unwrap_or_else(|| clock.next());
+                self.advance(size, time)?;
+                clock.tick();
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes some steps in place; `false` where that cannot be, or where something is not finite: then nothing has changed.
+    #[inline]
+    fn advance_in_place(&mut self, steps: u64, size: f64, clock: &mut Clock) -> bool {
+        let Some(evaluations) = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE else {
+            return false;
+        };
+        let before = *clock;
+        let (first, last) = (clock.next(), clock.later(steps));
+        if first == self.state.time || clock.later(steps - 1) == last && steps > 1 {
+            return false;
+        }
+        copy(&mut self.next.0, &self.state.q);
+        copy(&mut self.next.1, &self.state.p);
+        if R::COMPENSATED {
+            copy(&mut self.next_low.0, &self.low.0);
+            copy(&mut self.next_low.1, &self.low.1);
+        }
+        let mut time = self.state.time;
+        for _ in 0..steps {
+            let State { q, p, .. } = &mut self.state;
+            let (q_low, p_low) = (&mut self.low.0, &mut self.low.1);
+            <PlanOf<M, S, V> as Plan>::take_in_place::<R, V, S, N>(
+                Span { time, size },
+                &self.system,
+                &mut self.memory,
+                Outcome { q, q_low, p, p_low },
+            );
+            time = clock.next();
+            clock.tick();
+        }
+        let State { q, p, .. } = &self.state;
+        let dimension = self.next.0.dimension();
+        if self.memory.mismatch(dimension).is_some() || !is_finite(q) || !is_finite(p) {
+            mem::swap(&mut self.state.q, &mut self.next.0);
+            mem::swap(&mut self.state.p, &mut self.next.1);
+            mem::swap(&mut self.low, &mut self.next_low);
+            self.memory = StageStorage::like(&self.state.q);
+            self.kept = Kept::default();
+            *clock = before;
+            return false;
+        }
+        self.state.time = time;
+        self.last_size = size;
+        self.statistics.count_explicit(steps, evaluations);
+        true
     }
 
     /// One step of size `size`, to the time `time`. The clock is the caller's.

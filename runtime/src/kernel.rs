@@ -133,25 +133,10 @@ pub fn weighted_total<R: Summation, V: Vector, const N: usize>(
     });
 }
 
-/// A drift or a kick: `base + low + (h coefficient) evaluation`, rounded to `out`, with what that leaves out in
+/// A drift or a kick, in place: `out + low + (h coefficient) evaluation`, rounded to `out`, with what that leaves out in
 /// `out_low`.
 #[inline(always)]
 pub fn advance<R: Summation, V: Vector>(
-    out: &mut V,
-    out_low: &mut V,
-    base: &V,
-    low: &V,
-    h: f64,
-    coefficient: Coefficient,
-    evaluation: &V,
-) {
-    let factors = weights(h, [coefficient]);
-    weighted_total::<R, V, 1>(out, out_low, base, low, factors, [evaluation]);
-}
-
-/// [`advance`] from where `out` is.
-#[inline(always)]
-pub fn advance_in_place<R: Summation, V: Vector>(
     out: &mut V,
     out_low: &mut V,
     h: f64,

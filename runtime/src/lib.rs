@@ -86,6 +86,7 @@ mod retry;
 mod scalar;
 mod second_order;
 mod solver;
+mod splitting;
 mod splitting_macros;
 mod stage;
 mod stage_tableau;
@@ -116,8 +117,8 @@ pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
 pub use in_lanes::{InLanes, LaneStages};
 pub use integrator::Integrator;
 pub use kernel::{
-    advance, advance_in_place, combine, copy, copy_to, factors, relax, scale, total, transform,
-    weighted_total, weights,
+    advance, combine, copy, copy_to, factors, relax, scale, total, transform, weighted_total,
+    weights,
 };
 pub use lanes::{F64x4, F64x8, HamiltonianInLanes, Lanes};
 pub use method::{Method, Plan, StagePlan};
@@ -127,13 +128,14 @@ pub use retry::Retry;
 pub use scalar::Scalar;
 pub use second_order::SecondOrderInLanes;
 pub use solver::Solver;
+pub use splitting::{Splitting, SplittingPlan};
 pub use splitting_macros::{composition, splitting};
 pub use stage::{Evaluations, StageStorage, Stages};
 pub use stage_tableau::{HalfTableau, SecondOrderTableau, StageTableau};
 pub use state::State;
 pub use states::States;
 pub use statistics::Statistics;
-pub use step::{EvaluationCounts, Kept, Outcome, Step, Witness};
+pub use step::{EvaluationCounts, Kept, Outcome, Span, Step, Witness};
 pub use summation::{Compensated, Plain, Summation};
 pub use tableau_macro::tableau;
 pub use vector::Vector;

@@ -4,7 +4,7 @@ use core::fmt::Debug;
 
 use crate::{
     Change, Class, Coefficients, EvaluationCounts, Failure, General, Hamiltonian, Kept, Outcome,
-    Separable, Solver, StageStorage, Step, Summation, Vector, Witness, Work,
+    Separable, Solver, Span, StageStorage, Step, Summation, Vector, Witness, Work,
 };
 
 /// A symplectic partitioned Runge–Kutta method: a type without a value, emitted from a proved tableau.
@@ -25,9 +25,11 @@ pub trait Method: Copy + Debug + 'static {
     type Separable: Plan<Class = Separable>;
 }
 
-/// How a [`Method`] goes through one step of a system of one [`Class`]: by stages in their order, [`Explicit`], by stages
-/// that a [`Solver`] finds, [`Coupled`], or by steps of other methods, [`Composition`].
+/// How a [`Method`] goes through one step of a system of one [`Class`]: by drifts and kicks, [`Splitting`], by other stages
+/// in their order, [`Explicit`], by stages that a [`Solver`] finds, [`Coupled`], or by steps of other methods,
+/// [`Composition`].
 ///
+/// [`Splitting`]: crate::Splitting
 /// [`Explicit`]: crate::Explicit
 /// [`Coupled`]: crate::Coupled
 /// [`Composition`]: crate::Composition
@@ -36,6 +38,9 @@ pub trait Plan {
     type Class: Class;
     /// What it needs beside the state, made once and used for every step.
     type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>>: StageStorage<V>;
+
+    /// The evaluations of a step that is [taken in place](Self::take_in_place); `None` where steps cannot be.
+    const EVALUATIONS_IN_PLACE: Option<u32> = None;
 
     /// Takes `step` and writes its result into `outcome`; returns what that took.
     ///
@@ -55,6 +60,22 @@ pub trait Plan {
         V: Vector,
         S: Hamiltonian<V, Class = Self::Class>,
         N: Solver<V, S>;
+
+    /// Takes a step from `state`, in place, with the evaluations [kept](Kept::evaluation) by the step before; nothing where
+    /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`.
+    #[inline(always)]
+    fn take_in_place<R, V, S, N>(
+        _span: Span,
+        _system: &S,
+        _memory: &mut Self::Memory<V, S, N>,
+        _state: Outcome<'_, V>,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+    }
 
     /// Takes a step that failed once more and shows its evaluations to `witness`, if they are not in `memory`.
     fn observe<R, V, S, N, W>(

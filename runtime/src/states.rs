@@ -61,10 +61,7 @@ impl<'a, M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 
     /// Takes the steps to the next state.
     fn advance(&mut self) -> Result<State<V>, Error> {
-        for _ in 1..self.stride {
-            self.integrator.step()?;
-        }
-        self.integrator.step().cloned()
+        self.integrator.take_steps(self.stride).cloned()
     }
 }
 

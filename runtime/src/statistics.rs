@@ -45,6 +45,13 @@ impl Statistics {
         }
     }
 
+    /// Counts so many explicit steps with so many evaluations each.
+    #[inline]
+    pub(crate) fn count_explicit(&mut self, steps: u64, evaluations: u32) {
+        self.steps += steps;
+        self.evaluations += steps * u64::from(evaluations);
+    }
+
     /// Counts a step that was accepted.
     #[inline]
     pub(crate) fn count(&mut self, work: Work) {

@@ -20,6 +20,32 @@ pub struct Step<'a, V> {
 }
 
 impl<V> Step<'_, V> {
+    /// The time `t0 + c h` of the node `c`.
+    #[inline(always)]
+    pub fn at<T: Scalar>(&self, c: Coefficient) -> T {
+        self.span().at(c)
+    }
+
+    /// From when to when it goes.
+    #[inline(always)]
+    pub const fn span(&self) -> Span {
+        Span {
+            time: self.time,
+            size: self.size,
+        }
+    }
+}
+
+/// From when to when a step goes: from `time` to `time + size`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Time at the start, t0.
+    pub time: f64,
+    /// Step size h; negative for a step backward.
+    pub size: f64,
+}
+
+impl Span {
     /// The time `t0 + c h` of the node `c`; in double precision, as times are, whatever the scalar.
     #[inline(always)]
     pub fn at<T: Scalar>(&self, c: Coefficient) -> T {

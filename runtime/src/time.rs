@@ -5,6 +5,7 @@ use num_traits::Float;
 use crate::Error;
 
 /// The times `start + k size`.
+#[derive(Clone, Copy)]
 pub(crate) struct Clock {
     start: f64,
     size: f64,
@@ -22,7 +23,12 @@ impl Clock {
 
     /// The time after one step more.
     pub(crate) fn next(&self) -> f64 {
-        self.start + (self.count + 1) as f64 * self.size
+        self.later(1)
+    }
+
+    /// The time after so many steps more.
+    pub(crate) fn later(&self, steps: u64) -> f64 {
+        self.start + (self.count + steps) as f64 * self.size
     }
 
     pub(crate) const fn tick(&mut self) {

@@ -263,9 +263,7 @@ where
         let (h, steps) = steps(end, step_size);
         let mut integrator =
             Integrator::<M, S, V, R>::with_summation(method, system, start.clone(), h).ok()?;
-        for _ in 0..steps {
-            integrator.step().ok()?;
-        }
+        integrator.take_steps(steps).ok()?;
         let State { q, p, .. } = integrator.state();
         Some([q.as_slice(), p.as_slice()].concat())
     })

@@ -1,7 +1,7 @@
 //! Problems with few components: the stages in lanes.
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Compensated, Hamiltonian, Method, Plain, SeparableHamiltonian, State};
+use symplectic::{Compensated, HamiltonianInLanes, Integrator, Method, Plain, State};
 use wide::{f64x2, f64x4, f64x8};
 
 use super::{Pair, Problem, rule};
@@ -19,7 +19,7 @@ pub(super) fn separable<S, B, const N: usize>(
     pairs: &mut Vec<Pair>,
     problem: &Problem<S, B, SVector<f64, N>>,
 ) where
-    S: SeparableHamiltonian<SVector<f64, N>> + Copy + 'static,
+    S: HamiltonianInLanes<SVector<f64, N>> + Copy + 'static,
     B: systems::Separable<N> + Copy + 'static,
 {
     problem.gauss::<f64x8, _, 8>(pairs, ("Gauss 8", Gauss8), &rule!(Gauss8), 1.0);
@@ -37,7 +37,7 @@ pub(super) fn general<S, B, const N: usize>(
     pairs: &mut Vec<Pair>,
     problem: &Problem<S, B, SVector<f64, N>>,
 ) where
-    S: Hamiltonian<SVector<f64, N>> + Copy + 'static,
+    S: HamiltonianInLanes<SVector<f64, N>> + Copy + 'static,
     B: systems::General<N> + Copy + 'static,
 {
     problem.coupled::<f64x8, _, 8>(pairs, ("Gauss 8", Gauss8), &rule!(Gauss8), 1.0);
@@ -48,7 +48,7 @@ pub(super) fn general<S, B, const N: usize>(
 
 impl<S, B, const N: usize> Problem<S, B, SVector<f64, N>>
 where
-    S: SeparableHamiltonian<SVector<f64, N>> + Copy + 'static,
+    S: HamiltonianInLanes<SVector<f64, N>> + Copy + 'static,
     B: systems::Separable<N> + Copy + 'static,
 {
     fn gauss<L: Lanes + 'static, M: Method, const STAGES: usize>(
@@ -61,17 +61,29 @@ where
         let (h, steps, tolerance) = (fraction * self.step_size, self.steps, self.tolerance);
         let (system, (q, p)) = (self.by_hand, arrays(&self.start));
         let by_hand = SecondOrder::<L, STAGES>::new(rule, h);
-        pairs.push(self.pair::<M, Plain>(method, h, steps, move || {
-            let (mut q, mut p) = (q, p);
-            by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
-            [q, p].concat()
-        }));
+        pairs.push(self.pair(
+            method,
+            h,
+            steps,
+            Integrator::<_, _, _, Plain>::in_second_order_lanes,
+            move || {
+                let (mut q, mut p) = (q, p);
+                by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
+                [q, p].concat()
+            },
+        ));
         let by_hand = NoDrift::<L, STAGES>::new(rule, h);
-        pairs.push(self.pair::<M, Compensated>(method, h, steps, move || {
-            let (mut q, mut p) = (Double::new(q), Double::new(p));
-            by_hand.run(&system, (&mut q, &mut p), 1e4 * tolerance, steps);
-            [q.high, p.high].concat()
-        }));
+        pairs.push(self.pair(
+            method,
+            h,
+            steps,
+            Integrator::<_, _, _, Compensated>::in_second_order_lanes,
+            move || {
+                let (mut q, mut p) = (Double::new(q), Double::new(p));
+                by_hand.run(&system, (&mut q, &mut p), 1e4 * tolerance, steps);
+                [q.high, p.high].concat()
+            },
+        ));
     }
 
     fn splitting<K: Splitting + 'static, M: Method>(
@@ -82,16 +94,28 @@ where
     ) {
         let (h, steps) = (fraction * self.step_size, self.steps);
         let (system, (q, p)) = (self.by_hand, arrays(&self.start));
-        let plain = self.pair::<M, Plain>(method, h, steps, move || {
-            let (mut q, mut p) = (q, p);
-            explicit::run::<K, B, N>(&system, (&mut q, &mut p), h, steps);
-            [q, p].concat()
-        });
-        let compensated = self.pair::<M, Compensated>(method, h, steps, move || {
-            let (mut q, mut p) = (Double::new(q), Double::new(p));
-            explicit::run_compensated::<K, B, N>(&system, (&mut q, &mut p), h, steps);
-            [q.high, p.high].concat()
-        });
+        let plain = self.pair(
+            method,
+            h,
+            steps,
+            Ok::<Integrator<_, _, _, Plain>, _>,
+            move || {
+                let (mut q, mut p) = (q, p);
+                explicit::run::<K, B, N>(&system, (&mut q, &mut p), h, steps);
+                [q, p].concat()
+            },
+        );
+        let compensated = self.pair(
+            method,
+            h,
+            steps,
+            Ok::<Integrator<_, _, _, Compensated>, _>,
+            move || {
+                let (mut q, mut p) = (Double::new(q), Double::new(p));
+                explicit::run_compensated::<K, B, N>(&system, (&mut q, &mut p), h, steps);
+                [q.high, p.high].concat()
+            },
+        );
         pairs.extend([plain, compensated].map(|pair| Pair {
             same_arithmetic: true,
             ..pair
@@ -101,7 +125,7 @@ where
 
 impl<S, B, const N: usize> Problem<S, B, SVector<f64, N>>
 where
-    S: Hamiltonian<SVector<f64, N>> + Copy + 'static,
+    S: HamiltonianInLanes<SVector<f64, N>> + Copy + 'static,
     B: systems::General<N> + Copy + 'static,
 {
     fn coupled<L: Lanes + 'static, M: Method, const STAGES: usize>(
@@ -114,17 +138,29 @@ where
         let (h, steps, tolerance) = (fraction * self.step_size, self.steps, self.tolerance);
         let (system, (q, p)) = (self.by_hand, arrays(&self.start));
         let by_hand = FirstOrder::<L, STAGES>::new(rule, h);
-        pairs.push(self.pair::<M, Plain>(method, h, steps, move || {
-            let (mut q, mut p) = (q, p);
-            by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
-            [q, p].concat()
-        }));
+        pairs.push(self.pair(
+            method,
+            h,
+            steps,
+            |i: Integrator<_, _, _, Plain>| Ok(i.in_lanes()),
+            move || {
+                let (mut q, mut p) = (q, p);
+                by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
+                [q, p].concat()
+            },
+        ));
         let by_hand = NoDriftGeneral::<L, STAGES>::new(rule, h);
-        pairs.push(self.pair::<M, Compensated>(method, h, steps, move || {
-            let (mut q, mut p) = (Double::new(q), Double::new(p));
-            by_hand.run(&system, (&mut q, &mut p), steps);
-            [q.high, p.high].concat()
-        }));
+        pairs.push(self.pair(
+            method,
+            h,
+            steps,
+            |i: Integrator<_, _, _, Compensated>| Ok(i.in_lanes()),
+            move || {
+                let (mut q, mut p) = (Double::new(q), Double::new(p));
+                by_hand.run(&system, (&mut q, &mut p), steps);
+                [q.high, p.high].concat()
+            },
+        ));
     }
 }
 

@@ -1,7 +1,7 @@
 //! The long chain: lanes along the components, with plain sums.
 
 use symplectic::nalgebra::DVector;
-use symplectic::{Method, Plain};
+use symplectic::{Integrator, Method, Plain};
 
 use super::{Pair, Problem, rule};
 use crate::baseline::chain::{self, Blocks};
@@ -31,12 +31,18 @@ pub(super) fn chain(pairs: &mut Vec<Pair>) {
     let begin = problem.blocks();
     let by_hand = chain::SecondOrder::<8>::new(&rule!(Gauss8), PARTICLES, step_size);
     let gauss = ("Gauss 8", Gauss8);
-    pairs.push(problem.pair::<_, Plain>(gauss, step_size, steps, move || {
-        let (mut q, mut p) = begin.clone();
-        let mut by_hand = by_hand.clone();
-        by_hand.run(&mut q, &mut p, tolerance, steps);
-        q.values().chain(p.values()).collect()
-    }));
+    pairs.push(problem.pair(
+        gauss,
+        step_size,
+        steps,
+        Ok::<Integrator<_, _, _, Plain>, _>,
+        move || {
+            let (mut q, mut p) = begin.clone();
+            let mut by_hand = by_hand.clone();
+            by_hand.run(&mut q, &mut p, tolerance, steps);
+            q.values().chain(p.values()).collect()
+        },
+    ));
     pairs.push(problem.explicit::<explicit::Verlet, _>(("Verlet", VelocityVerlet), 0.05, 200));
     let forest_ruth = ("Forest–Ruth", ForestRuth);
     pairs.push(problem.explicit::<explicit::ForestRuth, _>(forest_ruth, 0.1, 100));
@@ -58,10 +64,16 @@ impl Chain {
         steps: u64,
     ) -> Pair {
         let begin = self.blocks();
-        self.pair::<M, Plain>(method, step_size, steps, move || {
-            let (mut q, mut p) = begin.clone();
-            chain::explicit::<K>(&mut q, &mut p, step_size, steps);
-            q.values().chain(p.values()).collect()
-        })
+        self.pair(
+            method,
+            step_size,
+            steps,
+            Ok::<Integrator<_, _, _, Plain>, _>,
+            move || {
+                let (mut q, mut p) = begin.clone();
+                chain::explicit::<K>(&mut q, &mut p, step_size, steps);
+                q.values().chain(p.values()).collect()
+            },
+        )
     }
 }

@@ -3,7 +3,7 @@
 mod few;
 mod many;
 
-use symplectic::{Error, Hamiltonian, Integrator, Method, State, Summation, Vector};
+use symplectic::{Error, Hamiltonian, Integrator, Method, Solver, State, Summation, Vector};
 
 use crate::baseline::systems;
 use crate::measure::largest;
@@ -163,21 +163,21 @@ where
     V: Vector<Scalar = f64>,
 {
     /// A pair for `steps` steps of `step_size`.
-    fn pair<M: Method, R: Summation>(
+    fn pair<M: Method, R: Summation, N: Solver<V, S>>(
         &self,
         method: (&'static str, M),
         step_size: f64,
         steps: u64,
+        solved: fn(Integrator<M, S, V, R>) -> Result<Integrator<M, S, V, R, N>, Error>,
         baseline: impl Fn() -> Vec<f64> + 'static,
     ) -> Pair {
         let (system, start) = (self.system, self.start.clone());
         let library = move || {
             let start = start.clone();
-            let mut integrator =
-                Integrator::<M, S, V, R>::with_summation(method.1, system, start, step_size)?;
-            for _ in 0..steps {
-                integrator.step()?;
-            }
+            let mut integrator = solved(Integrator::with_summation(
+                method.1, system, start, step_size,
+            )?)?;
+            integrator.take_steps(steps)?;
             let State { q, p, .. } = integrator.state();
             Ok([q.as_slice(), p.as_slice()].concat())
         };

@@ -1,9 +1,9 @@
 //! Splittings: each evaluation is applied to the state as soon as it is made, so that no stage is stored.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::{Bodies, base, evaluation_name, literal};
+use super::{Plan, class_name, evaluation_name, literal};
 use crate::schedule::{Node, Phases, StepGraph};
 
 /// The evaluations of a splitting in their order.
@@ -19,68 +19,76 @@ impl<'g, 'a> Chain<'g, 'a> {
         Some(Chain { graph, evaluations })
     }
 
-    /// The code of the step.
-    pub(super) fn bodies(&self) -> Bodies {
+    /// The plan, a type of this name.
+    pub(super) fn plan(&self, name: &Ident) -> Plan {
         // The first evaluation, if any: it is left in its place by the last one of its kind.
-        let carried = !Phases::new(self.graph).carried().is_empty();
-        let mut moved = [false; 2];
-        let mut lines = Vec::new();
-        for (number, &node) in self.evaluations.iter().enumerate() {
-            let is_force = matches!(node, Node::Force(_));
-            let value = |moved: bool, end: TokenStream, start: TokenStream| {
-                if moved { quote!(&*#end) } else { start }
-            };
-            let q = value(moved[0], quote!(q1), quote!(step.q));
-            let p = value(moved[1], quote!(p1), quote!(step.p));
-            let evaluation = self.graph.evaluation(node);
-            let time = literal::coefficient(&evaluation.time);
-            let weight = literal::coefficient(&evaluation.weight);
-            let function = evaluation_name(node);
-            let stage = literal::count(super::index(node) + 1);
-            let kind = literal::identifier(if is_force { "Force" } else { "Velocity" });
-            let argument = if is_force { &q } else { &p };
-            let evaluate = quote! {
-                system.#function(step.at(#time), #q, #p, #function);
-                witness.evaluation(::symplectic::Quantity::#kind, #stage, #argument, #function);
-            };
-            lines.push(if number == 0 && carried {
-                quote!(if !kept.evaluation { #evaluate })
-            } else {
-                evaluate
-            });
-            let (out, low, from) = if is_force {
-                (quote!(p1), quote!(p1_low), quote!(step.p, step.p_low))
-            } else {
-                (quote!(q1), quote!(q1_low), quote!(step.q, step.q_low))
-            };
-            let moved = &mut moved[usize::from(is_force)];
-            lines.push(if *moved {
-                quote!(::symplectic::advance_in_place::<R, V>(#out, #low, step.size, #weight, #function);)
-            } else {
-                quote!(::symplectic::advance::<R, V>(#out, #low, #from, step.size, #weight, #function);)
-            });
-            *moved = true;
-        }
-        for (moved, node, out) in [
-            (moved[0], Node::Position(0), quote!(q1, q1_low)),
-            (moved[1], Node::Momentum(0), quote!(p1, p1_low)),
-        ] {
-            if !moved {
-                let base = base(node);
-                lines.push(quote!(::symplectic::total::<R, V, 0>(#out, #base, []);));
+        let carried = Phases::new(self.graph).carried().len();
+        let lines = self.evaluations.iter().enumerate();
+        let lines = lines.map(|(number, &node)| self.line(node, number == 0 && carried > 0));
+        let class = class_name(self.graph.class);
+        let count = Literal::usize_unsuffixed(self.evaluations.len());
+        let carried = Literal::usize_unsuffixed(carried);
+        let code = quote! {
+            pub struct #name;
+
+            #[allow(unused_variables)]
+            impl ::symplectic::SplittingPlan for #name {
+                type Class = ::symplectic::#class;
+
+                const EVALUATIONS: u32 = #count;
+                const CARRIED: u32 = #carried;
+
+                #[inline(always)]
+                fn apply<
+                    R: ::symplectic::Summation,
+                    V: ::symplectic::Vector,
+                    S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+                    W: ::symplectic::Witness,
+                >(
+                    span: ::symplectic::Span,
+                    system: &S,
+                    evaluations: &mut ::symplectic::Evaluations<V>,
+                    kept: ::symplectic::Kept,
+                    state: ::symplectic::Outcome<'_, V>,
+                    witness: &mut W,
+                ) {
+                    let ::symplectic::Evaluations { velocity, force } = evaluations;
+                    let ::symplectic::Outcome { q, q_low, p, p_low } = state;
+                    #(#lines)*
+                }
             }
+        };
+        Plan {
+            name: quote!(::symplectic::Splitting<#name>),
+            code,
         }
-        Bodies {
-            coupling: "Explicit",
-            stages: quote!(::symplectic::Evaluations<V>),
-            begin: TokenStream::new(),
-            sweep: quote!(::symplectic::Change::default()),
-            finish: quote! {
-                let ::symplectic::Evaluations { velocity, force } = stages;
-                #(#lines)*
-            },
-            counts: [self.evaluations.len(), 0, 0, 0],
-            carried: usize::from(carried),
+    }
+
+    /// An evaluation, unless it is `carried`, and what it does to the state.
+    fn line(&self, node: Node, carried: bool) -> TokenStream {
+        let is_force = matches!(node, Node::Force(_));
+        let evaluation = self.graph.evaluation(node);
+        let time = literal::coefficient(&evaluation.time);
+        let weight = literal::coefficient(&evaluation.weight);
+        let function = evaluation_name(node);
+        let stage = literal::count(super::index(node) + 1);
+        let (kind, argument, moved) = if is_force {
+            ("Force", quote!(q), quote!(p, p_low))
+        } else {
+            ("Velocity", quote!(p), quote!(q, q_low))
+        };
+        let kind = literal::identifier(kind);
+        let evaluate = quote! {
+            system.#function(span.at(#time), &*q, &*p, #function);
+            witness.evaluation(::symplectic::Quantity::#kind, #stage, &*#argument, #function);
+        };
+        let evaluate = match carried {
+            true => quote!(if !kept.evaluation { #evaluate }),
+            false => evaluate,
+        };
+        quote! {
+            #evaluate
+            ::symplectic::advance::<R, V>(#moved, span.size, #weight, #function);
         }
     }
 }

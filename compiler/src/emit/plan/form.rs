@@ -89,7 +89,7 @@ impl Form {
             _ => quote!(q1, q1_low),
         };
         let (slot, weight) = (slot(node), literal::coefficient(&evaluation.weight));
-        quote!(::symplectic::advance_in_place::<R, V>(#out, step.size, #weight, &#slot);)
+        quote!(::symplectic::advance::<R, V>(#out, step.size, #weight, &#slot);)
     }
 
     /// Sets a stage value to the start of the step.

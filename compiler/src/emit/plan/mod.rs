@@ -82,13 +82,11 @@ fn class_name(class: Class) -> Ident {
 
 /// A plan of stages: a type of this name and its implementation of `StagePlan`.
 fn of_stages(graph: &StepGraph<'_>, name: &Ident) -> Plan {
-    let (bodies, matrices) = match Chain::new(graph) {
-        Some(chain) => (chain.bodies(), None),
-        None => {
-            let stored = Stored::new(graph, Form::new(graph));
-            (stored.bodies(), stored.matrices(name))
-        }
-    };
+    if let Some(chain) = Chain::new(graph) {
+        return chain.plan(name);
+    }
+    let stored = Stored::new(graph, Form::new(graph));
+    let (bodies, matrices) = (stored.bodies(), stored.matrices(name));
     let Bodies {
         stages,
         begin,

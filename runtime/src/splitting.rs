@@ -1,0 +1,122 @@
+//! Splittings: drifts and kicks, applied to the state in place.
+
+use core::marker::PhantomData;
+
+use crate::{
+    Class, Evaluations, Failure, Hamiltonian, Kept, Outcome, Plan, Solver, Span, StageStorage,
+    Step, Summation, Vector, Witness, Work, copy,
+};
+
+/// How a splitting goes through one step of a system of one [`Class`]: each evaluation is in the later stages in full, so
+/// it is applied to the state at once, and no stage is stored.
+pub trait SplittingPlan {
+    /// The class of systems that it steps.
+    type Class: Class;
+
+    /// The number of evaluations of a step.
+    const EVALUATIONS: u32;
+    /// How many of the first ones are not made where the step before has [kept](Kept::evaluation) them.
+    const CARRIED: u32;
+
+    /// Takes the step `span` from `state`, in place, and shows its evaluations to `witness`.
+    fn apply<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>, W: Witness>(
+        span: Span,
+        system: &S,
+        evaluations: &mut Evaluations<V>,
+        kept: Kept,
+        state: Outcome<'_, V>,
+        witness: &mut W,
+    );
+}
+
+/// The plan of a splitting. There is no solver in its code.
+#[derive(Clone, Copy, Debug)]
+pub struct Splitting<P>(PhantomData<P>);
+
+impl<P: SplittingPlan> Splitting<P> {
+    /// Puts the state before `step` where the one after it is to be.
+    #[inline(always)]
+    fn start<R: Summation, V: Vector>(step: &Step<'_, V>, state: &mut Outcome<'_, V>) {
+        copy(state.q, step.q);
+        copy(state.p, step.p);
+        if R::COMPENSATED {
+            copy(state.q_low, step.q_low);
+            copy(state.p_low, step.p_low);
+        }
+    }
+}
+
+impl<P: SplittingPlan> Plan for Splitting<P> {
+    type Class = P::Class;
+    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>> = Evaluations<V>;
+
+    const EVALUATIONS_IN_PLACE: Option<u32> = Some(P::EVALUATIONS - P::CARRIED);
+
+    #[inline(always)]
+    fn take<R, V, S, N>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Evaluations<V>,
+        kept: Kept,
+        _max_iterations: u32,
+        mut outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+    {
+        Self::start::<R, V>(step, &mut outcome);
+        P::apply::<R, V, S, ()>(step.span(), system, memory, kept, outcome, &mut ());
+        let carried = if kept.evaluation { P::CARRIED } else { 0 };
+        Ok(Work {
+            iterations: 0,
+            evaluations: P::EVALUATIONS - carried,
+        })
+    }
+
+    fn observe<R, V, S, N, W>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Evaluations<V>,
+        mut outcome: Outcome<'_, V>,
+        witness: &mut W,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+        W: Witness,
+    {
+        *memory = Evaluations::like(step.q);
+        Self::start::<R, V>(step, &mut outcome);
+        P::apply::<R, V, S, W>(
+            step.span(),
+            system,
+            memory,
+            Kept::default(),
+            outcome,
+            witness,
+        );
+    }
+
+    #[inline(always)]
+    fn take_in_place<R, V, S, N>(
+        span: Span,
+        system: &S,
+        memory: &mut Evaluations<V>,
+        state: Outcome<'_, V>,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+    {
+        let kept = Kept {
+            evaluation: true,
+            stages: false,
+        };
+        P::apply::<R, V, S, ()>(span, system, memory, kept, state, &mut ());
+    }
+}

@@ -1,0 +1,149 @@
+//! Many steps at once are the steps one by one.
+
+use symplectic::nalgebra::{DVector, Vector1, Vector2};
+use symplectic::{
+    Error, Integrator, Method, Quantity, Retry, SeparableHamiltonian, State, Summation, Vector,
+    composition, separable, tableau,
+};
+
+tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+tableau! { SymplecticEuler { basis: polynomial(1), nodes: [0] } }
+tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
+composition! { TripleJump { base: velocity-verlet, weights: triple_jump(4) } }
+
+/// A driven oscillator in each component.
+struct Driven;
+
+impl<V: Vector<Scalar = f64>> SeparableHamiltonian<V> for Driven {
+    fn velocity(&self, _time: f64, p: &V, velocity: &mut V) {
+        velocity.as_mut_slice().copy_from_slice(p.as_slice());
+    }
+
+    fn force(&self, time: f64, q: &V, force: &mut V) {
+        for (k, (force, q)) in force
+            .as_mut_slice()
+            .iter_mut()
+            .zip(q.as_slice())
+            .enumerate()
+        {
+            *force = time.cos() - (k + 1) as f64 * q;
+        }
+    }
+}
+
+fn same_bits<M: Method, V: Vector<Scalar = f64>, R: Summation>(
+    method: M,
+    start: &State<V>,
+) -> Result<(), Error> {
+    let integrator =
+        || Integrator::<M, Driven, V, R>::with_summation(method, Driven, start.clone(), 0.01);
+    for count in [0, 1, 2, 256, 257, 258, 1000] {
+        let (mut at_once, mut one_by_one) = (integrator()?, integrator()?);
+        for _ in 0..count {
+            one_by_one.step()?;
+        }
+        at_once.take_steps(count)?;
+        // What comes after does not differ either.
+        for _ in 0..3 {
+            assert_eq!(at_once.state(), one_by_one.state(), "{} {count}", M::NAME);
+            assert_eq!(at_once.remainder(), one_by_one.remainder());
+            assert_eq!(at_once.statistics(), one_by_one.statistics());
+            at_once.step()?;
+            one_by_one.step()?;
+        }
+    }
+    // To a time that is no multiple of the step size, with and without somebody who looks.
+    let (mut at_once, mut one_by_one) = (integrator()?, integrator()?);
+    one_by_one.integrate_with(7.777, |_| {})?;
+    assert_eq!(at_once.integrate_to(7.777)?, one_by_one.state());
+    assert_eq!(at_once.statistics(), one_by_one.statistics());
+    Ok(())
+}
+
+#[test]
+fn many_steps_are_the_steps_one_by_one() -> Result<(), Error> {
+    fn check<M: Method>(method: M) -> Result<(), Error> {
+        let fixed = State::new(0.5, Vector2::new(0.3, -0.2), Vector2::new(0.1, 1.0));
+        same_bits::<_, _, symplectic::Compensated>(method, &fixed)?;
+        same_bits::<_, _, symplectic::Plain>(method, &fixed)?;
+        let vector = |n: usize| DVector::from_fn(n, |i, _| (i as f64).sin());
+        same_bits::<_, _, symplectic::Compensated>(method, &State::new(0.0, vector(5), vector(5)))
+    }
+    check(StoermerVerlet)?;
+    check(SymplecticEuler)?;
+    check(TripleJump)?;
+    check(Midpoint)
+}
+
+/// The error, the state and the counts are those of the step that fails.
+#[test]
+fn a_step_that_fails_among_many_is_found() -> Result<(), Error> {
+    // Free fall towards a force that is not finite below 0.
+    let well = || {
+        separable::<Vector1<f64>, _, _>(
+            |_, p, velocity| *velocity = *p,
+            |_, q, force| force[0] = q[0].sqrt() - 1.0,
+        )
+    };
+    let start = State::new(0.0, Vector1::new(0.5), Vector1::new(-1.0));
+    let mut at_once = Integrator::new(StoermerVerlet, well(), start.clone(), 0.001)?;
+    let mut one_by_one = Integrator::new(StoermerVerlet, well(), start, 0.001)?;
+    let mut steps = 0;
+    let expected = loop {
+        match one_by_one.step() {
+            Ok(_) => steps += 1,
+            Err(error) => break error,
+        }
+    };
+    assert!(steps > 300);
+    let error = at_once.take_steps(10_000).expect_err("below zero");
+    assert_eq!(error, expected);
+    assert!(
+        matches!(error, Error::NonFinite { what: Quantity::Force, step, .. } if step == steps + 1)
+    );
+    assert_eq!(at_once.state(), one_by_one.state());
+    assert_eq!(at_once.steps(), one_by_one.steps());
+
+    // Halved steps do not help below zero, and are tried.
+    at_once.set_retry(Retry::Split { halvings: 2 });
+    assert_eq!(
+        at_once.take_steps(10_000).expect_err("still below"),
+        expected
+    );
+    Ok(())
+}
+
+#[test]
+fn a_result_resized_in_the_middle_is_an_error() -> Result<(), Error> {
+    let resizing = separable::<DVector<f64>, _, _>(
+        |_, p, velocity| velocity.copy_from(p),
+        |time, q, force| *force = if time > 3.0 { DVector::zeros(1) } else { -q },
+    );
+    let start = State::new(0.0, DVector::from_element(2, 1.0), DVector::zeros(2));
+    let mut integrator = Integrator::new(StoermerVerlet, resizing, start, 0.01)?;
+    let error = integrator.take_steps(1000).expect_err("another dimension");
+    assert!(
+        matches!(
+            error,
+            Error::EvaluationDimension {
+                found: 1,
+                expected: 2,
+                step: 301,
+                ..
+            }
+        ),
+        "{error:?}"
+    );
+    assert_eq!(integrator.steps(), 300);
+    Ok(())
+}
+
+/// Time stands still where steps are below its resolution.
+#[test]
+fn steps_too_small_for_the_time_are_refused() -> Result<(), Error> {
+    let start = State::new(1e16, Vector1::new(1.0), Vector1::new(0.0));
+    let mut integrator = Integrator::new(StoermerVerlet, Driven, start, 0.5)?;
+    let error = integrator.take_steps(1000).expect_err("no time passes");
+    assert!(matches!(error, Error::TimeResolution { .. }), "{error:?}");
+    Ok(())
+}
