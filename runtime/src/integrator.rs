@@ -528,7 +528,6 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         let Some(evaluations) = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE else {
             return false;
         };
-        let before = *clock;
         let (first, last) = (clock.next(), clock.later(steps));
         if first == self.state.time || clock.later(steps - 1) == last && steps > 1 {
             return false;
@@ -539,8 +538,9 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             copy(&mut self.next_low.0, &self.low.0);
             copy(&mut self.next_low.1, &self.low.1);
         }
-        let mut time = self.state.time;
-        for _ in 0..steps {
+        for number in 0..steps {
+            // Nothing of this remains where the system does not look at the time.
+            let time = clock.later(number);
             let State { q, p, .. } = &mut self.state;
             let (q_low, p_low) = (&mut self.low.0, &mut self.low.1);
             <PlanOf<M, S, V> as Plan>::take_in_place::<R, V, S, N>(
@@ -549,8 +549,6 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
                 &mut self.memory,
                 Outcome { q, q_low, p, p_low },
             );
-            time = clock.next();
-            clock.tick();
         }
         let State { q, p, .. } = &self.state;
         let dimension = self.next.0.dimension();
@@ -560,10 +558,10 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             mem::swap(&mut self.low, &mut self.next_low);
             self.memory = StageStorage::like(&self.state.q);
             self.kept = Kept::default();
-            *clock = before;
             return false;
         }
-        self.state.time = time;
+        clock.skip(steps);
+        self.state.time = last;
         self.last_size = size;
         self.statistics.count_explicit(steps, evaluations);
         true

@@ -32,7 +32,11 @@ impl Clock {
     }
 
     pub(crate) const fn tick(&mut self) {
-        self.count += 1;
+        self.skip(1);
+    }
+
+    pub(crate) const fn skip(&mut self, steps: u64) {
+        self.count += steps;
     }
 }
 
