@@ -181,8 +181,7 @@ impl<L: Substeps> Plan for Composition<L> {
                 Err(Failure::NonFinite { what, stage })
             });
             let taken = taken.map_err(|failure| failure.after(substep.stages))?;
-            work.iterations += taken.iterations;
-            work.evaluations += taken.evaluations;
+            work += taken;
         }
         Ok(work)
     }

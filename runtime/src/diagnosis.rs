@@ -123,6 +123,11 @@ impl Attempt {
                 residual,
                 iterations,
             },
+            Some(Failure::SingularMatrix) => Error::SingularMatrix {
+                time,
+                step_size,
+                step,
+            },
             Some(Failure::NonFinite { what, stage }) => Error::NonFinite {
                 time,
                 step_size,

@@ -6,7 +6,7 @@ use core::fmt;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The fixed-point iteration for the coupled stages did not settle.
+    /// The iteration for the coupled stages did not settle.
     #[error(
         "step {step} of size {step_size} at time {time}: the stages did not converge in {iterations} iterations \
          (relative change {residual:e} in the last one); take a smaller step"
@@ -42,6 +42,19 @@ pub enum Error {
         /// For an evaluation the stage it belongs to, from 1, among those that the plan stores; none for the
         /// result of the step.
         stage: Option<usize>,
+    },
+
+    /// A linear system of the Newton iteration for the coupled stages has a zero pivot, or one that is not finite.
+    #[error(
+        "step {step} of size {step_size} at time {time}: a matrix of the Newton iteration is singular; take another step size"
+    )]
+    SingularMatrix {
+        /// Time at the start of the step.
+        time: f64,
+        /// Step size.
+        step_size: f64,
+        /// Number of the step, from 1.
+        step: u64,
     },
 
     /// An evaluation of the system left a vector of another dimension than it was given.
@@ -175,6 +188,8 @@ pub enum Quantity {
     Velocity,
     /// −∂H/∂q.
     Force,
+    /// A derivative of the velocity or the force.
+    Derivative,
     /// H.
     Energy,
 }
@@ -187,6 +202,7 @@ impl fmt::Display for Quantity {
             Self::Momentum => "momentum",
             Self::Velocity => "velocity",
             Self::Force => "force",
+            Self::Derivative => "derivative of the velocity or the force",
             Self::Energy => "energy",
         })
     }

@@ -33,8 +33,8 @@ impl<P: StagePlan> Plan for Explicit<P> {
         P::begin::<R, V, S>(step, system, memory, kept);
         P::finish::<R, V, S, ()>(step, system, memory, kept, outcome, &mut ());
         Ok(Work {
-            iterations: 0,
             evaluations: P::EVALUATIONS.at_begin(kept) + P::EVALUATIONS.finish,
+            ..Work::default()
         })
     }
 

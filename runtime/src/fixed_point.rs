@@ -188,7 +188,7 @@ fn solve<C: Class, T: Scalar>(
     let solved = iterate::<C, T, _>(sweeps, max_iterations);
     let iterations = match solved {
         Ok(iterations) | Err(Failure::NoConvergence { iterations, .. }) => iterations,
-        Err(Failure::NonFinite { .. }) => 1,
+        Err(Failure::NonFinite { .. } | Failure::SingularMatrix) => 1,
     };
     work.iterations += iterations;
     work.evaluations += iterations * counts.sweep;

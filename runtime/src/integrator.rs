@@ -235,7 +235,8 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     ///
     /// # Errors
     ///
-    /// [`Error::NoConvergence`], [`Error::NonFinite`], [`Error::EvaluationDimension`], [`Error::TimeResolution`];
+    /// [`Error::NoConvergence`], [`Error::NonFinite`], [`Error::EvaluationDimension`], [`Error::TimeResolution`], with
+    /// a Newton iteration [`Error::SingularMatrix`];
     /// the state is untouched.
     pub fn step(&mut self) -> Result<&State<V>, Error> {
         self.advance(self.step_size, self.clock.next())?;
@@ -582,7 +583,10 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     /// Takes a step that failed with `error` once more in parts, if it is to be.
     #[cold]
     fn take_again(&mut self, size: f64, time: f64, error: Error) -> Result<(), Error> {
-        let of_the_size = matches!(error, Error::NoConvergence { .. } | Error::NonFinite { .. });
+        let of_the_size = matches!(
+            error,
+            Error::NoConvergence { .. } | Error::NonFinite { .. } | Error::SingularMatrix { .. }
+        );
         if !of_the_size || self.retry == Retry::Never {
             return Err(error);
         }

@@ -18,11 +18,13 @@
 //! | What it computes with | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors) |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`] |
 //! | Running it | [`State`], [`Integrator`], [`Error`], [`Retry`], [`Statistics`] |
+//! | How coupled stages are found | [`Solver`]: [`FixedPoint`], [`InLanes`], [`Newton`], [`FixedPointThenNewton`] |
 //! | What generates a step | [`generating_function`], of Type II |
 //! | The method, as the macro emits it | [`Method`], [`StagePlan`], [`Composition`], [`Stages`], [`Coefficient`], [`combine`], [`relax`] |
 //!
 //! A [`Separable`] system with an [`Explicit`] plan is straight-line code with no solver in it; anything else
-//! is [`Coupled`] and goes through the iteration of a [`Solver`], of [`FixedPoint`] unless told otherwise. The types of the system and of the method decide
+//! is [`Coupled`] and goes through the iteration of a [`Solver`]: of [`FixedPoint`] unless told otherwise, of [`Newton`] for
+//! stiff systems. The types of the system and of the method decide
 //! which, not a test at run time.
 //!
 //! ```
@@ -52,8 +54,9 @@
 //! # Features
 //!
 //! * `std` (default): elementary functions from the standard library; implies `alloc`.
-//! * `alloc`: dynamic vectors, [`nalgebra::DVector`], and [`generating_function`].
-//! * neither: `no_std` without an allocator; static vectors, elementary functions from `libm`.
+//! * `alloc`: dynamic vectors, [`nalgebra::DVector`], [`Newton`], and [`generating_function`].
+//! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and [`Newton`] takes derivatives by dual numbers; implies `std`.
+//! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, elementary functions from `libm`.
 
 #![no_std]
 
@@ -82,6 +85,8 @@ mod integrator;
 mod kernel;
 mod lanes;
 mod method;
+#[cfg(feature = "alloc")]
+mod newton;
 mod retry;
 mod scalar;
 mod second_order;
@@ -123,6 +128,14 @@ pub use kernel::{
 pub use lanes::{F64x4, F64x8, HamiltonianInLanes, Lanes};
 pub use method::{Method, Plan, StagePlan};
 pub use nalgebra;
+#[cfg(feature = "alloc")]
+pub use newton::{
+    Analytic, BandMatrix, Banded, Coupling, Dense, Derivatives, Differences, FixedPointThenNewton,
+    FixedPointThenNewtonMemory, Jacobian, LinearSolver, Linearized, Matrices, Newton, NewtonMemory,
+    Parts,
+};
+#[cfg(feature = "num-dual")]
+pub use newton::{DualNumbers, HamiltonianInDuals};
 pub use num_traits;
 pub use retry::Retry;
 pub use scalar::Scalar;
@@ -131,7 +144,7 @@ pub use solver::Solver;
 pub use splitting::{Splitting, SplittingPlan};
 pub use splitting_macros::{composition, splitting};
 pub use stage::{Evaluations, StageStorage, Stages};
-pub use stage_tableau::{HalfTableau, SecondOrderTableau, StageTableau};
+pub use stage_tableau::{Decoupling, HalfTableau, SecondOrderTableau, StageTableau};
 pub use state::State;
 pub use states::States;
 pub use statistics::Statistics;

@@ -32,6 +32,9 @@ pub trait StageTableau: StagePlan {
     /// For systems whose velocity is the momentum, where the method is separably symplectic.
     const SECOND_ORDER: Option<SecondOrderTableau>;
 
+    /// How the linear systems of a Newton iteration fall apart; `None` where they do not, or where it is not known.
+    const DECOUPLING: Option<Decoupling> = None;
+
     /// A value for each group of lanes, by its number from 0.
     fn groups<T: Clone + Debug>(make: impl FnMut(usize) -> T) -> Self::Groups<T>;
 }
@@ -70,4 +73,21 @@ pub struct SecondOrderTableau {
     pub columns: &'static [&'static [f64]],
     /// `1 − c_k`
     pub rest: &'static [f64],
+}
+
+/// A transformation `X⁻¹ B X` of a stage matrix to blocks on the diagonal.
+///
+/// For a [`Separable`](crate::Separable) system `B = Ã A`, the product of the matrices of momenta and positions, which takes
+/// velocities to velocities. For a [`General`](crate::General) one `B = A`, and there is a transformation only where
+/// `A = Ã`. A real eigenvalue is a block, and so is a pair `α ± iω` of complex ones, `[[α, −ω], [ω, α]]`: s linear systems of
+/// n unknowns for a velocity each become as many of n unknowns that are solved one after the other, two in one complex
+/// system (Butcher, 1976; Hairer & Wanner, *Solving ODEs II*, IV.8).
+#[derive(Clone, Copy, Debug)]
+pub struct Decoupling {
+    /// The blocks in their order: `(α, ω)`, with `ω = 0` for a real eigenvalue.
+    pub blocks: &'static [(f64, f64)],
+    /// `X` by rows.
+    pub to_stages: &'static [&'static [f64]],
+    /// `X⁻¹` by rows.
+    pub from_stages: &'static [&'static [f64]],
 }

@@ -25,7 +25,7 @@ use crate::Work;
 pub struct Statistics {
     /// Steps taken; of one that was [split](crate::Retry::Split), its parts.
     pub steps: u64,
-    /// Attempts at a step, or at its parts, that failed and were made good by shorter steps.
+    /// Attempts at a step, or at its parts, that failed and were made good by shorter steps or by another solver.
     pub rejected: u64,
     /// Fixed-point sweeps; 0 for an explicit method.
     pub iterations: u64,
@@ -33,6 +33,8 @@ pub struct Statistics {
     pub most_iterations: u32,
     /// Evaluations of a velocity or a force.
     pub evaluations: u64,
+    /// Times the linear systems of a Newton iteration were made and factored: one for each pair of stages.
+    pub factorisations: u64,
 }
 
 impl Statistics {
@@ -59,5 +61,7 @@ impl Statistics {
         self.iterations += u64::from(work.iterations);
         self.most_iterations = self.most_iterations.max(work.iterations);
         self.evaluations += u64::from(work.evaluations);
+        self.factorisations += u64::from(work.factorisations);
+        self.rejected += u64::from(work.rejected);
     }
 }

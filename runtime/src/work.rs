@@ -1,14 +1,30 @@
 //! What a step took, or why it could not be taken.
 
+use core::ops::AddAssign;
+
 use crate::Quantity;
 
 /// What a step took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Fixed-point sweeps.
+    /// Sweeps of the fixed-point iteration, or of another one.
     pub iterations: u32,
-    /// Evaluations of a velocity or a force.
+    /// Evaluations of a velocity or a force; those that derivatives are made of are not counted.
     pub evaluations: u32,
+    /// Times the linear systems of a Newton iteration were made and factored.
+    pub factorisations: u32,
+    /// Attempts to find the stages that failed and were made good by another solver.
+    pub rejected: u32,
+}
+
+impl AddAssign for Work {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        self.iterations += other.iterations;
+        self.evaluations += other.evaluations;
+        self.factorisations += other.factorisations;
+        self.rejected += other.rejected;
+    }
 }
 
 /// Why the stages of a step could not be found.
@@ -28,6 +44,8 @@ pub enum Failure {
         /// The stage of the evaluation, from 1.
         stage: Option<usize>,
     },
+    /// A linear system of a Newton iteration has no solution: [`Error::SingularMatrix`](crate::Error::SingularMatrix).
+    SingularMatrix,
 }
 
 impl Failure {
@@ -38,7 +56,7 @@ impl Failure {
                 what,
                 stage: stage.map(|stage| stages + stage),
             },
-            Self::NoConvergence { .. } => self,
+            Self::NoConvergence { .. } | Self::SingularMatrix => self,
         }
     }
 }
