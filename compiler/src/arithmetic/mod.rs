@@ -2,9 +2,11 @@
 //! functions, correct rounding.
 
 pub mod algebraic_number;
+pub mod eigen;
 pub mod elementary;
 pub mod enclosure_cache;
 pub mod factor;
+pub mod fixed;
 pub mod interval;
 pub mod linear_solver;
 pub mod matrix;

@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::form::Form;
 use super::second_order::SecondOrder;
-use super::{extrapolation, literal};
+use super::{decoupling, extrapolation, literal};
 use crate::schedule::{Evaluation, StepGraph};
 
 /// The implementation of `StageTableau` for the plan of a step, a type of this name.
@@ -81,6 +81,7 @@ pub(super) fn code(graph: &StepGraph<'_>, form: &Form, name: &Ident) -> TokenStr
     };
     let lanes = literal::identifier(lanes);
     let groups = Literal::usize_unsuffixed(groups);
+    let decoupling = decoupling::code(graph, &positions, &momenta);
     let increments = matches!(form, Form::Increments(_));
     quote! {
         impl ::symplectic::StageTableau for #name {
@@ -91,6 +92,7 @@ pub(super) fn code(graph: &StepGraph<'_>, form: &Form, name: &Ident) -> TokenStr
             const POSITIONS: ::symplectic::HalfTableau = #position_half;
             const MOMENTA: ::symplectic::HalfTableau = #momentum_half;
             const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = #second_order;
+            #decoupling
 
             #[inline(always)]
             fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(

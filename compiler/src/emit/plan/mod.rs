@@ -2,6 +2,7 @@
 
 mod chain;
 mod composed;
+mod decoupling;
 mod form;
 mod matrices;
 mod stored;
