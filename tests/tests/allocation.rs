@@ -10,7 +10,10 @@ use std::alloc::System;
 
 use nalgebra::DVector;
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
-use symplectic::{Error, Hamiltonian, Integrator, Method, State, hamiltonian, separable};
+use symplectic::{
+    Banded, Dense, Differences, Error, FixedPoint, FixedPointThenNewton, Hamiltonian, Integrator,
+    Method, Newton, Solver, State, hamiltonian, separable,
+};
 use symplectic_tests::methods::{Gauss4, Lobatto3, StoermerVerlet};
 
 symplectic::composition! {
@@ -22,13 +25,15 @@ symplectic::composition! {
 static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
 /// Allocations in a hundred steps and one run to an end.
-fn allocations<M: Method, S: Hamiltonian<DVector<f64>>>(
+fn allocations<M: Method, S: Hamiltonian<DVector<f64>>, N: Solver<DVector<f64>, S>>(
     method: M,
     system: S,
+    solver: N,
 ) -> Result<usize, Error> {
     let q = DVector::from_fn(40, |i, _| (i as f64).sin());
     let start = State::new(0.0, q.clone(), -q);
-    let mut integrator = Integrator::new(method, system, start, 0.01)?;
+    let integrator = Integrator::new(method, system, start, 0.01)?;
+    let mut integrator = integrator.with_solver(solver);
     let region = Region::new(ALLOCATOR);
     for _ in 0..100 {
         integrator.step()?;
@@ -57,20 +62,29 @@ fn main() -> Result<(), Error> {
             |_, q, p, force| force.zip_zip_apply(q, p, |f, q, p| *f = -q * (p * p + 1.0)),
         )
     };
-    assert_eq!(allocations(StoermerVerlet, chain())?, 0);
-    assert_eq!(allocations(Lobatto3, chain())?, 0);
-    assert_eq!(allocations(Gauss4, chain())?, 0);
-    assert_eq!(allocations(StoermerVerlet, coupled())?, 0);
-    assert_eq!(allocations(Gauss4, coupled())?, 0);
-    assert_eq!(allocations(TripleJump, chain())?, 0);
-    assert_eq!(allocations(TripleJump, coupled())?, 0);
+    assert_eq!(allocations(StoermerVerlet, chain(), FixedPoint)?, 0);
+    assert_eq!(allocations(Lobatto3, chain(), FixedPoint)?, 0);
+    assert_eq!(allocations(Gauss4, chain(), FixedPoint)?, 0);
+    assert_eq!(allocations(StoermerVerlet, coupled(), FixedPoint)?, 0);
+    assert_eq!(allocations(Gauss4, coupled(), FixedPoint)?, 0);
+    assert_eq!(allocations(TripleJump, chain(), FixedPoint)?, 0);
+    assert_eq!(allocations(TripleJump, coupled(), FixedPoint)?, 0);
+    let dense = Newton::<Dense<Differences>>::new();
+    let banded = Newton::<Banded<1, Differences>>::new();
+    assert_eq!(allocations(Gauss4, chain(), dense)?, 0);
+    assert_eq!(allocations(Gauss4, chain(), banded)?, 0);
+    assert_eq!(allocations(Gauss4, coupled(), dense)?, 0);
+    assert_eq!(allocations(Lobatto3, coupled(), banded)?, 0);
+    assert_eq!(allocations(TripleJump, chain(), dense)?, 0);
+    let both = FixedPointThenNewton::<Dense<Differences>>::new();
+    assert_eq!(allocations(Gauss4, chain(), both)?, 0);
 
     // The count sees what a system allocates itself.
     let wasteful = separable::<DVector<f64>, _, _>(
         |_, p, velocity| *velocity = p.clone(),
         |_, q, force| force.copy_from(&(-q)),
     );
-    assert!(allocations(StoermerVerlet, wasteful)? >= 400);
+    assert!(allocations(StoermerVerlet, wasteful, FixedPoint)? >= 400);
     println!("steps allocate nothing ... ok");
     Ok(())
 }
