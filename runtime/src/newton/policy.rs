@@ -20,19 +20,19 @@ const PATIENCE: u32 = 16;
 ///
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
-/// use symplectic::nalgebra::Vector2;
+/// use symplectic::nalgebra::Vector1;
 /// use symplectic::{Dense, Differences, Error, FixedPointThenNewton, Integrator, State, separable};
 ///
 /// # fn main() -> Result<(), Error> {
-/// let kepler = separable(
-///     |_time, p: &Vector2<f64>, velocity| *velocity = *p,
-///     |_time, q, force| *force = -q / q.norm().powi(3),
+/// // An oscillator that is stiff for a while: ω² = 1 + 10⁸ exp(−(t − 5)²).
+/// let oscillator = separable::<Vector1<f64>, _, _>(
+///     |_time, p, velocity| *velocity = *p,
+///     |time, q, force| *force = -q * (1.0 + 1e8 * (-(time - 5.0) * (time - 5.0)).exp()),
 /// );
-/// // From the apocentre of an orbit with eccentricity 0.99; at the pericentre steps of 1/16 do not converge.
-/// let start = State::new(0.0, Vector2::new(1.99, 0.0), Vector2::new(0.0, (0.01_f64 / 1.99).sqrt()));
+/// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
 /// let solver = FixedPointThenNewton::<Dense<Differences>>::new();
-/// let mut integrator = Integrator::new(Midpoint, kepler, start, 0.0625)?.with_solver(solver);
-/// integrator.integrate_to(6.0)?;
+/// let mut integrator = Integrator::new(Midpoint, oscillator, start, 0.01)?.with_solver(solver);
+/// integrator.integrate_to(10.0)?;
 /// assert!(integrator.statistics().rejected > 0);
 /// # Ok(())
 /// # }
