@@ -5,8 +5,8 @@ use core::marker::PhantomData;
 use crate::diagnosis::{FirstFault, culprit};
 use crate::stage::is_finite;
 use crate::{
-    Class, Coefficient, Failure, Hamiltonian, Kept, Outcome, Plan, Quantity, Solver, StageStorage,
-    Step, Summation, Vector, Witness, Work,
+    Class, Coefficient, Failure, Hamiltonian, Inside, Interpolation, Kept, Outcome, Plan, Quantity,
+    Solver, StageStorage, Step, Summation, Vector, Witness, Work,
 };
 
 /// A step `Φ_{γh}` of a composition.
@@ -199,6 +199,17 @@ impl<L: Substeps> Plan for Composition<L> {
         S: Hamiltonian<V, Class = Self::Class>,
         N: Solver<V, S>,
         W: Witness,
+    {
+    }
+
+    const INTERPOLATION: Interpolation = Interpolation::Hermite;
+
+    /// Only the stages of the last substep are left.
+    fn extend<V, S, N>(_memory: &Self::Memory<V, S, N>, _at: Inside, _q: &mut V, _p: &mut V)
+    where
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
     {
     }
 }

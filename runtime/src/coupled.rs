@@ -3,8 +3,8 @@
 use core::marker::PhantomData;
 
 use crate::{
-    Failure, Hamiltonian, Kept, Outcome, Plan, Solver, StageTableau, Step, Summation, Vector,
-    Witness, Work,
+    Failure, Hamiltonian, Inside, Interpolation, Kept, Outcome, Plan, Solver, StageTableau, Step,
+    Summation, Vector, Witness, Work,
 };
 
 /// The plan of a step some stages of which depend on each other: a [`Solver`] finds them.
@@ -47,5 +47,17 @@ impl<P: StageTableau> Plan for Coupled<P> {
         N: Solver<V, S>,
         W: Witness,
     {
+    }
+
+    const INTERPOLATION: Interpolation =
+        Interpolation::of_stages(P::MOMENTA.polynomial, P::POSITIONS.polynomial);
+
+    fn extend<V, S, N>(memory: &N::Memory<P>, at: Inside, q: &mut V, p: &mut V)
+    where
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+    {
+        N::extend::<P>(memory, at, q, p);
     }
 }

@@ -161,6 +161,21 @@ pub enum Error {
         momentum_time: f64,
     },
 
+    /// There is no step whose inside could be looked at: none has been taken from the present state.
+    #[error("there is no last step; take one first")]
+    NoStep,
+
+    /// A time was asked for that is not in the last step.
+    #[error("the time {time} is not in the last step, from {start} to {end}")]
+    OutsideStep {
+        /// The time given.
+        time: f64,
+        /// Time at the start of the step.
+        start: f64,
+        /// Time at the end of the step.
+        end: f64,
+    },
+
     /// The step is so small that it does not change the time.
     #[error(
         "a step of size {step_size} does not change the time {time}, which has 53 bits; take a larger step, or \

@@ -3,8 +3,8 @@
 use core::marker::PhantomData;
 
 use crate::{
-    Failure, Hamiltonian, Kept, Outcome, Plan, Solver, StagePlan, StageStorage, Step, Summation,
-    Vector, Witness, Work,
+    Failure, Hamiltonian, Inside, Interpolation, Kept, Outcome, Plan, Solver, StagePlan,
+    StageStorage, Step, Summation, Vector, Witness, Work,
 };
 
 /// The plan of a step in which every stage is computed from the ones before it. There is no solver in its code.
@@ -54,5 +54,16 @@ impl<P: StagePlan> Plan for Explicit<P> {
         *memory = P::Stages::like(step.q);
         P::begin::<R, V, S>(step, system, memory, Kept::default());
         P::finish::<R, V, S, W>(step, system, memory, Kept::default(), outcome, witness);
+    }
+
+    const INTERPOLATION: Interpolation = Interpolation::Hermite;
+
+    /// Stages of an explicit method make no polynomial.
+    fn extend<V, S, N>(_memory: &P::Stages<V>, _at: Inside, _q: &mut V, _p: &mut V)
+    where
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
     }
 }

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use crate::{
-    Change, Class, EvaluationCounts, Failure, Hamiltonian, Kept, Outcome, Quantity, Scalar,
+    Change, Class, EvaluationCounts, Failure, Hamiltonian, Inside, Kept, Outcome, Quantity, Scalar,
     Separable, Solver, StagePlan, StageStorage, StageTableau, Step, Summation, Vector, Work,
 };
 
@@ -52,6 +52,12 @@ impl<V: Vector, S: Hamiltonian<V>> Solver<V, S> for FixedPoint {
         S: Hamiltonian<V, Class = P::Class>,
     {
         by_stages::<P, R, V, S>(step, system, stages, kept, max_iterations, outcome)
+    }
+
+    fn extend<P: StageTableau>(stages: &P::Stages<V>, at: Inside, q: &mut V, p: &mut V) {
+        let [velocities, forces] = P::stored(stages);
+        at.add(&P::MOMENTA, P::INCREMENTS, velocities, q);
+        at.add(&P::POSITIONS, P::INCREMENTS, forces, p);
     }
 }
 

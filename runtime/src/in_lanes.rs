@@ -5,8 +5,8 @@ use core::marker::PhantomData;
 use crate::fixed_point::{Sweeps, settle};
 use crate::kernel::{add, sum};
 use crate::{
-    Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, HamiltonianInLanes, Kept,
-    Lanes, Outcome, PartChange, Quantity, Scalar, Solver, StageStorage, StageTableau, Step,
+    Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, HamiltonianInLanes, Inside,
+    Kept, Lanes, Outcome, PartChange, Quantity, Scalar, Solver, StageStorage, StageTableau, Step,
     Summation, Vector, Work,
 };
 
@@ -133,6 +133,34 @@ where
             step.size,
         );
         Ok(work)
+    }
+
+    fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside, q: &mut V, p: &mut V) {
+        extend::<P, V>(&P::MOMENTA, at, &stages.velocity, q);
+        extend::<P, V>(&P::POSITIONS, at, &stages.force, p);
+    }
+}
+
+/// Adds to `out` the part that vanishes at both ends of the step, of the evaluations of one half.
+fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
+    half: &HalfTableau,
+    at: Inside,
+    terms: &P::Groups<Laned<V, P>>,
+    out: &mut V,
+) {
+    let Some(polynomial) = half.polynomial else {
+        return;
+    };
+    for stage in 0..half.count {
+        let factor = at.factor(polynomial, stage);
+        let factor = if P::INCREMENTS {
+            factor
+        } else {
+            at.size * factor
+        };
+        for (k, out) in out.as_mut_slice().iter_mut().enumerate() {
+            *out += factor * entry::<P, V>(terms, stage, k);
+        }
     }
 }
 

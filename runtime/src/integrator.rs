@@ -4,13 +4,16 @@ use core::fmt;
 use core::marker::PhantomData;
 use core::mem;
 
+use crate::dense::LastStep;
 use crate::diagnosis::{Attempt, FirstFault};
+use crate::interpolation::Line;
 use crate::stage::is_finite;
 use crate::time::{Clock, uniform};
 use crate::{
-    Class, Compensated, Error, Failure, FixedPoint, Hamiltonian, HamiltonianInLanes, InLanes, Kept,
-    Method, Outcome, Plain, Plan, Quantity, Retry, Scalar, SecondOrderInLanes, Solver, Span,
-    StageStorage, State, States, Statistics, Step, Summation, Vector, Work, copy,
+    Class, Compensated, Error, Failure, FixedPoint, Hamiltonian, HamiltonianInLanes, InLanes,
+    Inside, Interpolation, Kept, Method, Outcome, Plain, Plan, Quantity, Retry, Scalar,
+    SecondOrderInLanes, Solver, Span, StageStorage, State, States, Statistics, Step, Summation,
+    Vector, Work, copy,
 };
 #[cfg(feature = "alloc")]
 use crate::{GeneratingFunction, generating_function::generating};
@@ -74,6 +77,8 @@ pub struct Integrator<
     kept: Kept,
     /// Size of the step before.
     last_size: f64,
+    /// Time at the start of the step before.
+    last_time: f64,
     clock: Clock,
     step_size: f64,
     max_iterations: u32,
@@ -179,6 +184,19 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     /// needs more gains less than a factor of 1.2 a sweep.
     pub const DEFAULT_MAX_ITERATIONS: u32 = 200;
 
+    /// What the states inside a step are computed from, and their order: see [`dense`](Self::dense).
+    ///
+    /// ```
+    /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, Hamiltonian, Interpolation, Method, acceleration};
+    /// fn order<M: Method, S: Hamiltonian<Vector1<f64>>>(_method: M, _system: S) -> u32 {
+    ///     Integrator::<M, S, Vector1<f64>>::INTERPOLATION.order()
+    /// }
+    /// assert_eq!(order(Gauss4, acceleration(|_, q: &Vector1<f64>, acceleration| *acceleration = -q)), 5);
+    /// ```
+    pub const INTERPOLATION: Interpolation = <PlanOf<M, S, V> as Plan>::INTERPOLATION;
+
     /// [`new`](Integrator::new) with the sums that the type says.
     ///
     /// # Errors
@@ -201,6 +219,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             memory: StageStorage::like(&state.q),
             kept: Kept::default(),
             last_size: step_size,
+            last_time: state.time,
             clock: Clock::new(state.time, step_size),
             state,
             step_size,
@@ -222,6 +241,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             next: self.next,
             next_low: self.next_low,
             last_size: self.last_size,
+            last_time: self.last_time,
             clock: self.clock,
             step_size: self.step_size,
             max_iterations: self.max_iterations,
@@ -638,7 +658,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         if R::COMPENSATED {
             mem::swap(&mut self.low, &mut self.next_low);
         }
-        self.state.time = time;
+        self.last_time = mem::replace(&mut self.state.time, time);
         self.statistics.count(work);
         self.last_size = size;
         self.kept = Kept {
@@ -691,6 +711,28 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         self.memory = StageStorage::like(&self.state.q);
         self.kept = Kept::default();
         error
+    }
+
+    /// The last step, if its stages are still there.
+    pub(crate) fn last_step(&self) -> Option<LastStep<'_, V>> {
+        self.kept.stages.then(|| LastStep {
+            start: self.last_time,
+            end: self.state.time,
+            size: self.last_size,
+            positions: Line {
+                start: (&self.next.0, &self.next_low.0),
+                end: (&self.state.q, &self.low.0),
+            },
+            momenta: Line {
+                start: (&self.next.1, &self.next_low.1),
+                end: (&self.state.p, &self.low.1),
+            },
+        })
+    }
+
+    /// Adds what the stages of the last step say about its inside: see [`Plan::extend`].
+    pub(crate) fn extend(&self, at: Inside, q: &mut V, p: &mut V) {
+        <PlanOf<M, S, V> as Plan>::extend::<V, S, N>(&self.memory, at, q, p);
     }
 
     const fn restart_clock(&mut self) {

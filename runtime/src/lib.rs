@@ -73,6 +73,7 @@ mod closures;
 mod coefficient;
 mod composition;
 mod coupled;
+mod dense;
 mod diagnosis;
 mod error;
 mod explicit;
@@ -82,6 +83,7 @@ mod generating_function;
 mod hamiltonian;
 mod in_lanes;
 mod integrator;
+mod interpolation;
 mod kernel;
 mod lanes;
 mod method;
@@ -113,6 +115,7 @@ pub use closures::{
 pub use coefficient::{Coefficient, Coefficients};
 pub use composition::{Composition, CompositionMemory, Substep, Substeps};
 pub use coupled::Coupled;
+pub use dense::DenseOutput;
 pub use error::{Error, Quantity};
 pub use explicit::Explicit;
 pub use fixed_point::FixedPoint;
@@ -121,6 +124,7 @@ pub use generating_function::{GeneratingFunction, generating_function};
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
 pub use in_lanes::{InLanes, LaneStages};
 pub use integrator::Integrator;
+pub use interpolation::{Inside, Interpolation};
 pub use kernel::{
     advance, combine, copy, copy_to, factors, relax, scale, total, transform, weighted_total,
     weights,
@@ -144,7 +148,9 @@ pub use solver::Solver;
 pub use splitting::{Splitting, SplittingPlan};
 pub use splitting_macros::{composition, splitting};
 pub use stage::{Evaluations, StageStorage, Stages};
-pub use stage_tableau::{Decoupling, HalfTableau, SecondOrderTableau, StageTableau};
+pub use stage_tableau::{
+    Decoupling, HalfTableau, SecondOrderTableau, StagePolynomial, StageTableau, StoredEvaluations,
+};
 pub use state::State;
 pub use states::States;
 pub use statistics::Statistics;

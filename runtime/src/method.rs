@@ -3,8 +3,9 @@
 use core::fmt::Debug;
 
 use crate::{
-    Change, Class, Coefficients, EvaluationCounts, Failure, General, Hamiltonian, Kept, Outcome,
-    Separable, Solver, Span, StageStorage, Step, Summation, Vector, Witness, Work,
+    Change, Class, Coefficients, EvaluationCounts, Failure, General, Hamiltonian, Inside,
+    Interpolation, Kept, Outcome, Separable, Solver, Span, StageStorage, Step, Summation, Vector,
+    Witness, Work,
 };
 
 /// A symplectic partitioned Runge–Kutta method: a type without a value, emitted from a proved tableau.
@@ -90,6 +91,17 @@ pub trait Plan {
         S: Hamiltonian<V, Class = Self::Class>,
         N: Solver<V, S>,
         W: Witness;
+
+    /// What values inside a step are computed from.
+    const INTERPOLATION: Interpolation;
+
+    /// Adds to `q` and `p` how far they are inside the last step from the straight line between its ends, where that
+    /// follows from the [stages](Interpolation::Stages) in `memory`.
+    fn extend<V, S, N>(memory: &Self::Memory<V, S, N>, at: Inside, q: &mut V, p: &mut V)
+    where
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>;
 }
 
 /// How the stages of a [`Method`] are found for systems of one [`Class`].

@@ -3,7 +3,8 @@
 use core::fmt::Debug;
 
 use crate::{
-    Failure, Hamiltonian, Kept, Outcome, StageStorage, StageTableau, Step, Summation, Vector, Work,
+    Failure, Hamiltonian, Inside, Kept, Outcome, StageStorage, StageTableau, Step, Summation,
+    Vector, Work,
 };
 
 /// Finds the stages of a [`Coupled`](crate::Coupled) plan, for a system `S` over the vectors `V`.
@@ -30,4 +31,8 @@ pub trait Solver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
         P: StageTableau,
         R: Summation,
         S: Hamiltonian<V, Class = P::Class>;
+
+    /// Adds to `q` and `p` how far they are inside the last step from the straight line between its ends, by the
+    /// [polynomials](crate::HalfTableau::polynomial) through the evaluations in `memory`.
+    fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside, q: &mut V, p: &mut V);
 }

@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use crate::{Lanes, StagePlan};
+use crate::{Lanes, StagePlan, Vector};
 
 /// The coupled stages of a plan as matrices, for solvers that treat them all at once.
 ///
@@ -37,6 +37,28 @@ pub trait StageTableau: StagePlan {
 
     /// A value for each group of lanes, by its number from 0.
     fn groups<T: Clone + Debug>(make: impl FnMut(usize) -> T) -> Self::Groups<T>;
+
+    /// The velocities and the forces that a step has left in its memory.
+    fn stored<V: Vector>(stages: &Self::Stages<V>) -> [StoredEvaluations<'_, V>; 2];
+}
+
+/// Velocities or forces as a step leaves them, stage by stage.
+#[derive(Clone, Copy, Debug)]
+pub struct StoredEvaluations<'a, V> {
+    /// One for each stage: the evaluation, or the increment made of it.
+    pub values: &'a [V],
+    /// The stages whose evaluations are as they are although others are increments: the next step begins with them.
+    pub carried: &'static [usize],
+}
+
+/// The polynomial through the evaluations of a step at its nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StagePolynomial {
+    /// For k = 1, …, s − 1 an entry for each stage: `γ_jk` of its Lagrange polynomial `ℓ_j = Σ_k γ_jk L_k` in Legendre
+    /// polynomials on [0, 1], divided by the weight `b_j` where evaluations are increments. Correctly rounded.
+    pub legendre: &'static [&'static [f64]],
+    /// The order of its integral: see [`Interpolation`](crate::Interpolation).
+    pub order: u32,
 }
 
 /// One half of a [`StageTableau`]: stage values, and the evaluations at them.
@@ -55,6 +77,9 @@ pub struct HalfTableau {
     /// The matrix that takes the increments of the evaluations to those of the next step of the same size, by its columns;
     /// empty where there is none.
     pub extrapolation: &'static [&'static [f64]],
+    /// What the evaluations are inside the step; none where times coincide or where the weights are not those of a
+    /// polynomial. It has as many entries as there are stages.
+    pub polynomial: Option<StagePolynomial>,
 }
 
 /// The coefficients for second-order systems `q'' = f(q)`, from which the momentum stages are eliminated (Nyström):

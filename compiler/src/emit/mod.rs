@@ -7,6 +7,7 @@
 //! stage is a line of its own: no product with zero, equal stages computed once, stages
 //! in order where they are explicit, no evaluation that the previous step has made already.
 
+mod extension;
 mod extrapolation;
 mod literal;
 mod plan;

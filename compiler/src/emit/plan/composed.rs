@@ -26,7 +26,7 @@ impl Composed<'_> {
         let names: Vec<Ident> = (1..=count).map(|k| format_ident!("{name}{k}")).collect();
         let plans = (0..count).map(|k| {
             let graph = StepGraph::new(self.class, &self.methods[k], &self.numbers[k]);
-            of_stages(&graph, &names[k])
+            of_stages(&graph, &names[k], None)
         });
         let plans: Vec<Plan> = plans.collect();
         let names: Vec<&TokenStream> = plans.iter().map(|plan| &plan.name).collect();

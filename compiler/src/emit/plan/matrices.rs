@@ -3,13 +3,21 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
+use super::super::extension::{Extension, StagePolynomials};
 use super::form::Form;
 use super::second_order::SecondOrder;
-use super::{decoupling, extrapolation, literal};
-use crate::schedule::{Evaluation, StepGraph};
+use super::{decoupling, extrapolation, index, literal};
+use crate::schedule::{Evaluation, Node, StepGraph};
 
-/// The implementation of `StageTableau` for the plan of a step, a type of this name.
-pub(super) fn code(graph: &StepGraph<'_>, form: &Form, name: &Ident) -> TokenStream {
+/// The implementation of `StageTableau` for the plan of a step, a type of this name, in the memory of which the `carried`
+/// evaluations are as they are.
+pub(super) fn code(
+    graph: &StepGraph<'_>,
+    form: &Form,
+    name: &Ident,
+    carried: Vec<Node>,
+    polynomials: Option<&StagePolynomials<'_, '_>>,
+) -> TokenStream {
     let most = graph.forces.len().max(graph.velocities.len());
     let (lanes, width) = if most <= 4 {
         ("F64x4", 4)
@@ -35,7 +43,8 @@ pub(super) fn code(graph: &StepGraph<'_>, form: &Form, name: &Ident) -> TokenStr
     };
     let half = |evaluations: &[Evaluation<'_>],
                 others: usize,
-                entry: &dyn Fn(usize, usize) -> f64| {
+                entry: &dyn Fn(usize, usize) -> f64,
+                polynomial: TokenStream| {
         let count = evaluations.len();
         let padded = |value: &dyn Fn(usize) -> f64| fill(count, value);
         let columns = (0..others).map(|j| padded(&|i| entry(i, j)));
@@ -58,11 +67,10 @@ pub(super) fn code(graph: &StepGraph<'_>, form: &Form, name: &Ident) -> TokenStr
                 times: &#times,
                 weights: &#weights,
                 extrapolation: &[#(&#extrapolation),*],
+                polynomial: #polynomial,
             }
         }
     };
-    let position_half = half(&graph.forces, graph.velocities.len(), &position);
-    let momentum_half = half(&graph.velocities, graph.forces.len(), &momentum);
     let second_order = match SecondOrder::new(graph) {
         Some(SecondOrder { nodes, matrix }) => {
             let count = nodes.len();
@@ -79,6 +87,45 @@ pub(super) fn code(graph: &StepGraph<'_>, form: &Form, name: &Ident) -> TokenStr
         }
         None => quote!(::core::option::Option::None),
     };
+    let (of_forces, of_velocities) = (Node::Force(0), Node::Velocity(0));
+    let extension = |kind| polynomials?.extension(graph, kind, matches!(form, Form::Increments(_)));
+    let [force_extension, velocity_extension] = [extension(of_forces), extension(of_velocities)];
+    let polynomial = |extension: &Option<Extension>| match extension {
+        Some(Extension { rows, order }) => {
+            let rows = rows.iter().map(|row| literal::array(row));
+            let order = Literal::usize_unsuffixed(*order);
+            quote!(::core::option::Option::Some(::symplectic::StagePolynomial { legendre: &[#(&#rows),*], order: #order }))
+        }
+        None => quote!(::core::option::Option::None),
+    };
+    let force_polynomial = polynomial(&force_extension);
+    // Where both halves are the same, the second is the first.
+    let velocity_polynomial = if velocity_extension == force_extension {
+        quote!(Self::POSITIONS.polynomial)
+    } else {
+        polynomial(&velocity_extension)
+    };
+    let position_half = half(
+        &graph.forces,
+        graph.velocities.len(),
+        &position,
+        force_polynomial,
+    );
+    let momentum_half = half(
+        &graph.velocities,
+        graph.forces.len(),
+        &momentum,
+        velocity_polynomial,
+    );
+    let carried = |kind: Node| {
+        let same = std::mem::discriminant(&kind);
+        let own = carried
+            .iter()
+            .filter(|&&node| std::mem::discriminant(&node) == same);
+        let indices = own.map(|&node| literal::count(index(node)));
+        quote!(&[#(#indices),*])
+    };
+    let (carried_forces, carried_velocities) = (carried(of_forces), carried(of_velocities));
     let lanes = literal::identifier(lanes);
     let groups = Literal::usize_unsuffixed(groups);
     let decoupling = decoupling::code(graph, &positions, &momenta);
@@ -99,6 +146,14 @@ pub(super) fn code(graph: &StepGraph<'_>, form: &Form, name: &Ident) -> TokenStr
                 make: impl ::core::ops::FnMut(usize) -> T,
             ) -> [T; #groups] {
                 ::core::array::from_fn(make)
+            }
+
+            #[inline(always)]
+            fn stored<V: ::symplectic::Vector>(stages: &Self::Stages<V>) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+                [
+                    ::symplectic::StoredEvaluations { values: &stages.velocity, carried: #carried_velocities },
+                    ::symplectic::StoredEvaluations { values: &stages.force, carried: #carried_forces },
+                ]
             }
         }
     }

@@ -10,6 +10,7 @@ mod stored;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
+use super::extension::StagePolynomials;
 use super::{extrapolation, literal, literal::identifier, relative, second_order};
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
@@ -56,10 +57,11 @@ pub(super) fn plans(
 ) -> Result<[Plan; 2], ErrorKind> {
     let (methods, substeps) = substeps(&tableau.provenance().definition)?;
     let parts: Vec<_> = methods.iter().map(Tableau::numbers).collect();
+    let polynomials = StagePolynomials::new(numbers);
     Ok(names.map(|(class, name)| {
         let graph = StepGraph::new(class, tableau, numbers);
         if substeps.len() < 2 || Phases::new(&graph).coupled.is_empty() {
-            return of_stages(&graph, name);
+            return of_stages(&graph, name, Some(&polynomials));
         }
         let composed = Composed {
             class,
@@ -81,13 +83,18 @@ fn class_name(class: Class) -> Ident {
     })
 }
 
-/// A plan of stages: a type of this name and its implementation of `StagePlan`.
-fn of_stages(graph: &StepGraph<'_>, name: &Ident) -> Plan {
+/// A plan of stages: a type of this name and its implementation of `StagePlan`. Without polynomials there are no values
+/// inside its steps.
+fn of_stages(
+    graph: &StepGraph<'_>,
+    name: &Ident,
+    polynomials: Option<&StagePolynomials<'_, '_>>,
+) -> Plan {
     if let Some(chain) = Chain::new(graph) {
         return chain.plan(name);
     }
     let stored = Stored::new(graph, Form::new(graph));
-    let (bodies, matrices) = (stored.bodies(), stored.matrices(name));
+    let (bodies, matrices) = (stored.bodies(), stored.matrices(name, polynomials));
     let Bodies {
         stages,
         begin,

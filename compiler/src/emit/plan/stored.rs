@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use super::super::extension::StagePolynomials;
 use super::form::Form;
 use super::{Bodies, base, evaluation_name, extrapolation, index, literal, matrices, slot, start};
 use crate::schedule::{Class, Node, Phases, StageValue, StepGraph};
@@ -61,9 +62,16 @@ impl<'g, 'a> Stored<'g, 'a> {
     }
 
     /// The stages all together, as matrices of the type of this name, where they are coupled.
-    pub(super) fn matrices(&self, name: &Ident) -> Option<TokenStream> {
+    pub(super) fn matrices(
+        &self,
+        name: &Ident,
+        polynomials: Option<&StagePolynomials<'_, '_>>,
+    ) -> Option<TokenStream> {
         let coupled = !self.phases.coupled.is_empty();
-        coupled.then(|| matrices::code(self.graph, &self.form, name))
+        coupled.then(|| {
+            let carried = self.carried.iter().map(|&(_, last)| last).collect();
+            matrices::code(self.graph, &self.form, name, carried, polynomials)
+        })
     }
 
     /// The coupled nodes of the kind of a node.

@@ -1,0 +1,257 @@
+//! Values inside a step, from its stages.
+
+use std::cell::OnceCell;
+
+use num_rational::BigRational;
+
+use crate::algebra::Number;
+use crate::arithmetic::interval::Interval;
+use crate::arithmetic::rational::ratio;
+use crate::arithmetic::rounding::to_f64;
+use crate::coefficients::Coefficients;
+use crate::schedule::{Class, Evaluation, Node, StepGraph};
+
+use super::relative::decide;
+
+/// The polynomials through the evaluations of a tableau at its nodes, worked out when they are asked for.
+pub(super) struct StagePolynomials<'n, 'a> {
+    numbers: &'n Coefficients<Number<'a>>,
+    nodes: OnceCell<Option<Nodes<'n, 'a>>>,
+}
+
+/// What a polynomial through evaluations makes of them inside a step.
+#[derive(Debug, PartialEq)]
+pub(super) struct Extension {
+    /// For k = 1, …, s − 1 an entry for each evaluation: its part in the Legendre coefficient of degree k.
+    pub rows: Vec<Vec<f64>>,
+    /// The largest m for which values inside a step of size h have errors of `O(hᵐ)`, apart from those of its start.
+    pub order: usize,
+}
+
+impl<'n, 'a> StagePolynomials<'n, 'a> {
+    pub(super) const fn new(numbers: &'n Coefficients<Number<'a>>) -> Self {
+        StagePolynomials {
+            numbers,
+            nodes: OnceCell::new(),
+        }
+    }
+
+    /// The extension of the velocities or of the forces of a step, whatever the index of `kind`.
+    ///
+    /// Let `ℓ_j` be the Lagrange polynomials of the nodes and `L_k` the Legendre polynomials on [0, 1]. Then
+    /// `ℓ_j = Σ_k γ_jk L_k`; an entry is `γ_jk`, or `γ_jk/b_j` where evaluations are increments. `None` where nodes
+    /// coincide or where the weights are not the integrals of the `ℓ_j`: a polynomial through all evaluations would not
+    /// lead to the end of the step.
+    pub(super) fn extension(
+        &self,
+        graph: &StepGraph<'_>,
+        kind: Node,
+        increments: bool,
+    ) -> Option<Extension> {
+        let nodes = self.nodes.get_or_init(|| Nodes::new(self.numbers));
+        let nodes = nodes.as_ref()?;
+        let evaluations = match kind {
+            Node::Force(_) => &graph.forces,
+            _ => &graph.velocities,
+        };
+        let groups: Vec<_> = evaluations.iter().map(|e| stages(graph, e)).collect();
+        let count = nodes.times.len();
+        if groups.iter().map(Vec::len).sum::<usize>() != count {
+            return None;
+        }
+        let entry = |k: usize, (group, evaluation): (&Vec<usize>, &Evaluation<'_>)| {
+            let enclose = |bits| {
+                let sum = nodes.enclosed(bits, |nodes| nodes.legendre(group, k))?;
+                match increments {
+                    true => sum.divide(&evaluation.weight.enclose(bits)),
+                    false => Some(sum),
+                }
+            };
+            decide(enclose, to_f64).filter(|value| value.is_finite())
+        };
+        let row = |k| {
+            let pairs = groups.iter().zip(evaluations);
+            pairs.map(|pair| entry(k, pair)).collect()
+        };
+        let rows: Option<Vec<Vec<f64>>> = (1..count).map(row).collect();
+        let stage_order = match (graph.class, kind) {
+            (Class::General, _) => nodes.stage_orders[0].min(nodes.stage_orders[1]),
+            (Class::Separable, Node::Force(_)) => nodes.stage_orders[0],
+            (Class::Separable, _) => nodes.stage_orders[1],
+        };
+        Some(Extension {
+            rows: rows?,
+            order: count.min(stage_order + 1) + 1,
+        })
+    }
+}
+
+/// The stages of the tableau that an evaluation belongs to.
+fn stages(graph: &StepGraph<'_>, evaluation: &Evaluation<'_>) -> Vec<usize> {
+    let position = evaluation.position.map(|i| &graph.positions[i].stages);
+    let momentum = evaluation.momentum.map(|i| &graph.momenta[i].stages);
+    match (position, momentum) {
+        (Some(first), Some(second)) => {
+            let both = first.iter().filter(|stage| second.contains(stage));
+            both.copied().collect()
+        }
+        (Some(stages), None) | (None, Some(stages)) => stages.clone(),
+        (None, None) => Vec::new(),
+    }
+}
+
+/// The nodes of a tableau.
+struct Nodes<'n, 'a> {
+    times: &'n [Number<'a>],
+    first: Enclosed,
+    /// For what the first does not tell from zero.
+    second: OnceCell<Enclosed>,
+    /// The largest η with `Σ_j a_ij c_j^(k−1) = c_i^k/k` for all k ≤ η, for a and for ã.
+    stage_orders: [usize; 2],
+}
+
+impl<'n, 'a> Nodes<'n, 'a> {
+    /// The row sums of a, or else those of ã, if they are distinct and both weights those of interpolation.
+    fn new(numbers: &'n Coefficients<Number<'a>>) -> Option<Self> {
+        let nodes = |times: &'n [Number<'a>]| {
+            let first = Enclosed::new(times, 0);
+            let distinct = first
+                .divisors
+                .iter()
+                .all(|divisor| divisor.sign().is_some());
+            let interpolating = [&numbers.b, &numbers.b_tilde]
+                .iter()
+                .all(|weights| first.integrates(weights));
+            (distinct && interpolating).then(|| Nodes {
+                times,
+                stage_orders: [&numbers.a, &numbers.a_tilde].map(|a| first.stage_order(a)),
+                first,
+                second: OnceCell::new(),
+            })
+        };
+        nodes(&numbers.c).or_else(|| nodes(&numbers.c_tilde))
+    }
+
+    /// Something of enclosures with at least this many binary places.
+    fn enclosed<T>(&self, bits: u32, of: impl Fn(&Enclosed) -> T) -> T {
+        if bits <= self.first.bits {
+            return of(&self.first);
+        }
+        let second = self.second.get_or_init(|| Enclosed::new(self.times, bits));
+        if bits <= second.bits {
+            return of(second);
+        }
+        of(&Enclosed::new(self.times, bits))
+    }
+}
+
+/// Enclosures of what Lagrange polynomials are made of.
+struct Enclosed {
+    bits: u32,
+    /// The powers `c_j^m`, m ≤ s, for each m.
+    powers: Vec<Vec<Interval>>,
+    /// The coefficients of `Π_{i≠j} (x − c_i)`, for each j from that of `x⁰` on.
+    products: Vec<Vec<Interval>>,
+    /// `Π_{i≠j} (c_j − c_i)`
+    divisors: Vec<Interval>,
+}
+
+impl Enclosed {
+    fn new(times: &[Number<'_>], bits: u32) -> Self {
+        let times: Vec<Interval> = times.iter().map(|time| time.enclose(bits)).collect();
+        let bits = times.first().map_or(bits, Interval::bits);
+        let one = Interval::enclosing(&ratio(1, 1), bits);
+        let mut powers = vec![vec![one.clone(); times.len()]];
+        for m in 0..times.len() {
+            let next = powers[m].iter().zip(&times).map(|(c, t)| c.multiply(t));
+            powers.push(next.collect());
+        }
+        let others = |j: usize| {
+            let others = times.iter().enumerate().filter(move |&(i, _)| i != j);
+            others.map(|(_, time)| time)
+        };
+        let product = |j: usize| {
+            others(j).fold(vec![one.clone()], |product, time| {
+                let zero = Interval::enclosing(&ratio(0, 1), bits);
+                let shifted = std::iter::once(&zero).chain(&product);
+                let lower = product.iter().map(Some).chain([None]);
+                let terms = shifted.zip(lower).map(|(shifted, own)| match own {
+                    Some(own) => shifted.subtract(&own.multiply(time)),
+                    None => shifted.clone(),
+                });
+                terms.collect()
+            })
+        };
+        let divisor = |j: usize| {
+            others(j).fold(one.clone(), |product, time| {
+                product.multiply(&times[j].subtract(time))
+            })
+        };
+        Enclosed {
+            products: (0..times.len()).map(product).collect(),
+            divisors: (0..times.len()).map(divisor).collect(),
+            powers,
+            bits,
+        }
+    }
+
+    /// Whether `Σ_j w_j c_j^m = 1/(m + 1)` for all m < s, as far as is known.
+    fn integrates(&self, weights: &[Number<'_>]) -> bool {
+        let weights: Vec<_> = weights.iter().map(|w| w.enclose(self.bits)).collect();
+        let exact = |m: usize| self.sum(&weights, m).contains(&ratio(1, m as i64 + 1));
+        (0..weights.len()).all(exact)
+    }
+
+    /// The largest η ≤ s with `Σ_j a_ij c_j^(k−1) = c_i^k/k` for k ≤ η, as far as is known.
+    fn stage_order(&self, matrix: &[Vec<Number<'_>>]) -> usize {
+        let enclose = |row: &Vec<Number<'_>>| row.iter().map(|a| a.enclose(self.bits)).collect();
+        let rows: Vec<Vec<Interval>> = matrix.iter().map(enclose).collect();
+        let holds = |k: usize| {
+            rows.iter().zip(&self.powers[k]).all(|(row, power)| {
+                let rest = self.sum(row, k - 1);
+                let rest = rest.subtract(&power.scale(&ratio(1, k as i64)));
+                rest.contains(&ratio(0, 1))
+            })
+        };
+        (1..=rows.len()).take_while(|&k| holds(k)).count()
+    }
+
+    /// `Σ_j factor_j c_j^m`
+    fn sum(&self, factors: &[Interval], m: usize) -> Interval {
+        let zero = Interval::enclosing(&ratio(0, 1), self.bits);
+        let products = factors.iter().zip(&self.powers[m]);
+        products.fold(zero, |sum, (factor, power)| {
+            sum.add(&factor.multiply(power))
+        })
+    }
+
+    /// The Legendre coefficient of degree k of the sum of the Lagrange polynomials of some stages: with
+    /// `∫_0^1 x^m L_k = m!²/((m − k)! (m + k + 1)!)` for m ≥ k, and zero below.
+    fn legendre(&self, stages: &[usize], k: usize) -> Option<Interval> {
+        let moments = moments(k, self.divisors.len());
+        let zero = Interval::enclosing(&ratio(0, 1), self.bits);
+        stages.iter().try_fold(zero.clone(), |sum, &j| {
+            let terms = self.products[j][k..].iter().zip(&moments);
+            let integral = terms.fold(zero.clone(), |sum, (coefficient, moment)| {
+                sum.add(&coefficient.scale(moment))
+            });
+            let integral = integral.scale(&ratio(2 * k as i64 + 1, 1));
+            Some(sum.add(&integral.divide(&self.divisors[j])?))
+        })
+    }
+}
+
+/// `∫_0^1 x^m L_k` for m = k, …, s − 1.
+fn moments(k: usize, stages: usize) -> Vec<BigRational> {
+    let (mut moment, k) = (ratio(1, 1), k as i64);
+    for i in 1..=k {
+        moment *= ratio(i, k + i);
+    }
+    moment *= ratio(1, 2 * k + 1);
+    let mut moments = Vec::new();
+    for m in k..stages as i64 {
+        moments.push(moment.clone());
+        moment *= ratio((m + 1) * (m + 1), (m + 1 - k) * (m + k + 2));
+    }
+    moments
+}
