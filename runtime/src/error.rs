@@ -176,6 +176,15 @@ pub enum Error {
         end: f64,
     },
 
+    /// A slice is not as long as the vector that is to be made of it.
+    #[error("a vector with {expected} components cannot be made of {found} numbers")]
+    Length {
+        /// The dimension of the vector.
+        expected: usize,
+        /// The length of the slice.
+        found: usize,
+    },
+
     /// The step is so small that it does not change the time.
     #[error(
         "a step of size {step_size} does not change the time {time}, which has 53 bits; take a larger step, or \

@@ -1,5 +1,9 @@
 //! Where a system is.
 
+use nalgebra::SVector;
+
+use crate::{Error, Scalar, Vector};
+
 /// A point of phase space at a time.
 ///
 /// ```
@@ -23,5 +27,58 @@ impl<V> State<V> {
     /// The state `(q, p)` at `time`.
     pub const fn new(time: f64, q: V, p: V) -> Self {
         Self { time, q, p }
+    }
+}
+
+impl<V: Vector> State<V> {
+    /// The state with these components, in vectors of static or dynamic dimension.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Dimension`] where the slices differ in length, [`Error::Length`] where a static vector has another
+    /// dimension.
+    ///
+    /// ```
+    /// use symplectic::nalgebra::{DVector, Vector2};
+    /// use symplectic::{Error, State};
+    ///
+    /// let state: State<DVector<f64>> = State::from_slices(0.0, &[0.4, 0.0], &[0.0, 2.0])?;
+    /// assert_eq!(state.as_slices(), (&[0.4, 0.0][..], &[0.0, 2.0][..]));
+    /// let wrong = State::<Vector2<f64>>::from_slices(0.0, &[0.4], &[2.0]);
+    /// assert_eq!(wrong, Err(Error::Length { expected: 2, found: 1 }));
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn from_slices(time: f64, q: &[V::Scalar], p: &[V::Scalar]) -> Result<Self, Error> {
+        if q.len() != p.len() {
+            return Err(Error::Dimension {
+                position: q.len(),
+                momentum: p.len(),
+            });
+        }
+        Ok(Self::new(time, V::from_slice(q)?, V::from_slice(p)?))
+    }
+
+    /// The components of position and momentum.
+    pub fn as_slices(&self) -> (&[V::Scalar], &[V::Scalar]) {
+        (self.q.as_slice(), self.p.as_slice())
+    }
+}
+
+impl<T: Scalar, const N: usize> State<SVector<T, N>> {
+    /// The state with these components.
+    ///
+    /// ```
+    /// use symplectic::State;
+    ///
+    /// let state = State::from_arrays(0.0, [0.4, 0.0], [0.0, 2.0]);
+    /// assert_eq!(state.to_arrays(), ([0.4, 0.0], [0.0, 2.0]));
+    /// ```
+    pub fn from_arrays(time: f64, q: [T; N], p: [T; N]) -> Self {
+        Self::new(time, SVector::from(q), SVector::from(p))
+    }
+
+    /// The components of position and momentum.
+    pub fn to_arrays(&self) -> ([T; N], [T; N]) {
+        (self.q.data.0[0], self.p.data.0[0])
     }
 }

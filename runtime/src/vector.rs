@@ -4,7 +4,7 @@ use core::fmt::Debug;
 
 use nalgebra::SVector;
 
-use crate::Scalar;
+use crate::{Error, Scalar};
 
 /// A position, a momentum or one of their derivatives: components of one [`Scalar`] type, contiguous in memory.
 ///
@@ -30,6 +30,12 @@ pub trait Vector: Clone + Debug + PartialEq + 'static {
     fn as_slice(&self) -> &[Self::Scalar];
     /// The components, to be written.
     fn as_mut_slice(&mut self) -> &mut [Self::Scalar];
+    /// The vector with these components.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] where a vector of this type has another dimension.
+    fn from_slice(components: &[Self::Scalar]) -> Result<Self, Error>;
     /// The zero vector of the same dimension.
     fn zeros_like(&self) -> Self;
     /// The zero vector of the same dimension over another scalar.
@@ -53,6 +59,17 @@ impl<T: Scalar, const N: usize> Vector for SVector<T, N> {
     #[inline(always)]
     fn as_mut_slice(&mut self) -> &mut [T] {
         &mut self.data.0[0]
+    }
+
+    #[inline]
+    fn from_slice(components: &[T]) -> Result<Self, Error> {
+        match <[T; N]>::try_from(components) {
+            Ok(components) => Ok(Self::from(components)),
+            Err(_) => Err(Error::Length {
+                expected: N,
+                found: components.len(),
+            }),
+        }
     }
 
     #[inline]
@@ -84,6 +101,11 @@ impl<T: Scalar> Vector for nalgebra::DVector<T> {
     #[inline(always)]
     fn as_mut_slice(&mut self) -> &mut [T] {
         self.data.as_mut_slice()
+    }
+
+    #[inline]
+    fn from_slice(components: &[T]) -> Result<Self, Error> {
+        Ok(nalgebra::DVector::from_column_slice(components))
     }
 
     #[inline]

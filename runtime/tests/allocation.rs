@@ -55,6 +55,10 @@ impl<T: Scalar> Vector for Counted<T> {
         &mut self.0
     }
 
+    fn from_slice(components: &[T]) -> Result<Self, Error> {
+        Ok(Self::new(components.to_vec()))
+    }
+
     fn zeros_like(&self) -> Self {
         self.zeros_with()
     }
