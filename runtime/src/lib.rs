@@ -84,6 +84,7 @@ mod hamiltonian;
 mod in_lanes;
 mod integrator;
 mod interpolation;
+mod invariant;
 mod kernel;
 mod lanes;
 mod method;
@@ -125,6 +126,7 @@ pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
 pub use in_lanes::{InLanes, LaneStages};
 pub use integrator::Integrator;
 pub use interpolation::{Inside, Interpolation};
+pub use invariant::Invariant;
 pub use kernel::{
     advance, combine, copy, copy_to, factors, relax, scale, total, transform, weighted_total,
     weights,
