@@ -176,6 +176,25 @@ pub enum Error {
         end: f64,
     },
 
+    /// An output time is not finite, or comes before the one before it or before the last step.
+    #[error(
+        "the output time {time} is not finite or comes before {before}; give times in the direction of the steps, none \
+         before the last step"
+    )]
+    OutputTime {
+        /// The time given.
+        time: f64,
+        /// The output time before it, or the earliest time that there can be.
+        before: f64,
+    },
+
+    /// The function of an [`Event`](crate::Event) is not a number.
+    #[error("the function whose zeros are events is not a number at time {time}")]
+    EventValue {
+        /// The time.
+        time: f64,
+    },
+
     /// A slice is not as long as the vector that is to be made of it.
     #[error("a vector with {expected} components cannot be made of {found} numbers")]
     Length {

@@ -1,8 +1,10 @@
 //! Steps, and what holds between them.
 
+use core::convert::Infallible;
 use core::fmt;
 use core::marker::PhantomData;
 use core::mem;
+use core::ops::ControlFlow;
 
 use crate::dense::LastStep;
 use crate::diagnosis::{Attempt, FirstFault};
@@ -22,7 +24,7 @@ use crate::{GeneratingFunction, generating_function::generating};
 const BLOCK: u64 = 256;
 
 /// The plan of the method `M` for the class of the system `S`.
-type PlanOf<M, S, V> = <<S as Hamiltonian<V>>::Class as Class>::Plan<M>;
+pub(crate) type PlanOf<M, S, V> = <<S as Hamiltonian<V>>::Class as Class>::Plan<M>;
 
 /// A method that steps a system from a state.
 ///
@@ -387,20 +389,57 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         end: f64,
         mut observe: F,
     ) -> Result<&State<V>, Error> {
+        self.steps_to(end, |integrator, next| {
+            integrator.advance(next.size, next.time)?;
+            observe(&integrator.state);
+            Ok(ControlFlow::<Infallible>::Continue(()))
+        })?;
+        Ok(&self.state)
+    }
+
+    /// Lets `take` take the steps of [`integrate_to`](Self::integrate_to), until it breaks.
+    #[inline]
+    pub(crate) fn steps_to<B>(
+        &mut self,
+        end: f64,
+        mut take: impl FnMut(&mut Self, NextStep) -> Result<ControlFlow<B>, Error>,
+    ) -> Result<ControlFlow<B>, Error> {
         let start = self.state.time;
-        let (count, size) = uniform(start, end, self.step_size)?;
+        let (steps, size) = uniform(start, end, self.step_size)?;
         let mut clock = Clock::new(start, size);
-        let mut outcome = Ok(());
-        for step in 1..=count {
-            outcome = self.advance(size, if step == count { end } else { clock.next() });
-            if outcome.is_err() {
+        let mut outcome = Ok(ControlFlow::Continue(()));
+        for number in 1..=steps {
+            let next = NextStep {
+                size,
+                time: if number == steps { end } else { clock.next() },
+                number,
+                steps,
+            };
+            outcome = take(self, next);
+            if !matches!(outcome, Ok(ControlFlow::Continue(()))) {
                 break;
             }
             clock.tick();
-            observe(&self.state);
         }
         self.restart_clock();
-        outcome.map(|()| &self.state)
+        outcome
+    }
+
+    /// One step, like [`step`](Self::step), the parts of which are shown to `see`.
+    pub(crate) fn step_in_sight(
+        &mut self,
+        mut see: impl FnMut(&Self) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let (size, time) = (self.step_size, self.clock.next());
+        let outcome = self.advance_in_sight(size, time, &mut |integrator| {
+            see(integrator)?;
+            Ok(ControlFlow::<Infallible>::Continue(()))
+        });
+        match outcome {
+            Ok(_) => self.clock.tick(),
+            Err(_) => self.restart_clock(),
+        }
+        outcome.map(|_| ())
     }
 
     /// An endless iterator over the states after each step. [`Iterator::take`] what is needed.
@@ -590,19 +629,55 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 
     /// One step of size `size`, to the time `time`. The clock is the caller's.
     #[inline]
-    fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
+    pub(crate) fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
         match self.prepare(size, time) {
             Ok(work) => {
                 self.accept(size, time, work);
                 Ok(())
             }
-            Err(error) => self.take_again(size, time, error),
+            Err(error) => self.take_again(size, time, error).map(|_| ()),
         }
     }
 
-    /// Takes a step that failed with `error` once more in parts, if it is to be.
+    /// [`advance`](Self::advance) that shows the step to `see` as long as it does not break: each of its parts, if it has
+    /// to be taken in parts.
+    #[inline]
+    pub(crate) fn advance_in_sight<B>(
+        &mut self,
+        size: f64,
+        time: f64,
+        see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
+    ) -> Result<ControlFlow<B>, Error> {
+        match self.prepare(size, time) {
+            Ok(work) => {
+                self.accept(size, time, work);
+                see(self)
+            }
+            Err(error) => self.take_again_in_sight(size, time, error, see),
+        }
+    }
+
+    /// [`take_again`](Self::take_again), and once more for `see` when it is known in how many parts.
     #[cold]
-    fn take_again(&mut self, size: f64, time: f64, error: Error) -> Result<(), Error> {
+    fn take_again_in_sight<B>(
+        &mut self,
+        size: f64,
+        time: f64,
+        error: Error,
+        see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
+    ) -> Result<ControlFlow<B>, Error> {
+        let (state, low) = (self.state.clone(), self.low.clone());
+        let parts = self.take_again(size, time, error)?;
+        let statistics = self.statistics;
+        (self.state, self.low, self.kept) = (state, low, Kept::default());
+        let seen = self.take_in_parts(size, time, parts, see);
+        self.statistics = statistics;
+        seen
+    }
+
+    /// Takes a step that failed with `error` once more in parts, if it is to be; returns how many.
+    #[cold]
+    fn take_again(&mut self, size: f64, time: f64, error: Error) -> Result<u32, Error> {
         let of_the_size = matches!(
             error,
             Error::NoConvergence { .. } | Error::NonFinite { .. } | Error::SingularMatrix { .. }
@@ -613,9 +688,10 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         let (state, low) = (self.state.clone(), self.low.clone());
         let statistics = self.statistics;
         for (failed, parts) in (1..).zip(self.retry.parts()) {
-            if self.take_in_parts(size, time, parts).is_ok() {
+            let mut unseen = |_: &Self| Ok(ControlFlow::<Infallible>::Continue(()));
+            if self.take_in_parts(size, time, parts, &mut unseen).is_ok() {
                 self.statistics.rejected += failed;
-                return Ok(());
+                return Ok(parts);
             }
             self.state = state.clone();
             self.low = low.clone();
@@ -624,8 +700,15 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         Err(error)
     }
 
-    /// Takes a step as several equal ones; where one fails, the state is that before it.
-    fn take_in_parts(&mut self, size: f64, end: f64, parts: u32) -> Result<(), Error> {
+    /// Takes a step as several equal ones, which `see` sees until it breaks; where one fails, the state is that before it.
+    fn take_in_parts<B>(
+        &mut self,
+        size: f64,
+        end: f64,
+        parts: u32,
+        see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
+    ) -> Result<ControlFlow<B>, Error> {
+        let mut seen = ControlFlow::Continue(());
         let part = size / f64::from(parts);
         let mut clock = Clock::new(self.state.time, part);
         for number in 1..=parts {
@@ -633,8 +716,11 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             let work = self.prepare(part, time)?;
             self.accept(part, time, work);
             clock.tick();
+            if seen.is_continue() {
+                seen = see(self)?;
+            }
         }
-        Ok(())
+        Ok(seen)
     }
 
     /// Computes a step of size `size`, to the time `time`, into `next`; returns what it took.
@@ -715,7 +801,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 
     /// The last step, if its stages are still there.
     pub(crate) fn last_step(&self) -> Option<LastStep<'_, V>> {
-        self.kept.stages.then(|| LastStep {
+        self.kept.stages.then_some(LastStep {
             start: self.last_time,
             end: self.state.time,
             size: self.last_size,
@@ -728,6 +814,11 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
                 end: (&self.state.p, &self.low.1),
             },
         })
+    }
+
+    /// The bound on the sweeps of one step.
+    pub(crate) const fn max_iterations(&self) -> u32 {
+        self.max_iterations
     }
 
     /// Adds what the stages of the last step say about its inside: see [`Plan::extend`].
@@ -752,6 +843,17 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt
             .field("statistics", &self.statistics)
             .finish_non_exhaustive()
     }
+}
+
+/// A step that is to be taken.
+#[derive(Clone, Copy)]
+pub(crate) struct NextStep {
+    pub(crate) size: f64,
+    /// Where it ends.
+    pub(crate) time: f64,
+    /// Its number, from 1, among all `steps`.
+    pub(crate) number: u64,
+    pub(crate) steps: u64,
 }
 
 /// A step of size `size` from a state and what it leaves out.

@@ -17,8 +17,9 @@
 //! | The system: a trait, or closures | [`Hamiltonian`], [`SeparableHamiltonian`], [`separable`], [`hamiltonian`], [`acceleration`] |
 //! | What it computes with | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors) |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`] |
-//! | Running it | [`State`], [`Integrator`], [`Error`], [`Retry`], [`Statistics`] |
+//! | Running it | [`State`], [`Integrator`], [`Error`], [`Retry`], [`Statistics`], [`Progress`], [`Invariant`] |
 //! | How coupled stages are found | [`Solver`]: [`FixedPoint`], [`InLanes`], [`Newton`], [`FixedPointThenNewton`] |
+//! | Between the steps | [`DenseOutput`], [`Interpolation`], [`Event`] |
 //! | What generates a step | [`generating_function`], of Type II |
 //! | The method, as the macro emits it | [`Method`], [`StagePlan`], [`Composition`], [`Stages`], [`Coefficient`], [`combine`], [`relax`] |
 //!
@@ -76,6 +77,7 @@ mod coupled;
 mod dense;
 mod diagnosis;
 mod error;
+mod event;
 mod explicit;
 mod fixed_point;
 #[cfg(feature = "alloc")]
@@ -90,7 +92,11 @@ mod lanes;
 mod method;
 #[cfg(feature = "alloc")]
 mod newton;
+mod output;
+mod partial;
+mod progress;
 mod retry;
+mod root;
 mod scalar;
 mod second_order;
 mod solver;
@@ -118,6 +124,7 @@ pub use composition::{Composition, CompositionMemory, Substep, Substeps};
 pub use coupled::Coupled;
 pub use dense::DenseOutput;
 pub use error::{Error, Quantity};
+pub use event::Event;
 pub use explicit::Explicit;
 pub use fixed_point::FixedPoint;
 #[cfg(feature = "alloc")]
@@ -143,6 +150,7 @@ pub use newton::{
 #[cfg(feature = "num-dual")]
 pub use newton::{DualNumbers, HamiltonianInDuals};
 pub use num_traits;
+pub use progress::Progress;
 pub use retry::Retry;
 pub use scalar::Scalar;
 pub use second_order::SecondOrderInLanes;

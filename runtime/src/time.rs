@@ -40,6 +40,22 @@ impl Clock {
     }
 }
 
+/// Checks that steps from `start` to `end` can be counted.
+pub(crate) fn check_count(start: f64, end: f64, step_size: f64) -> Result<(), Error> {
+    if ((end - start) / step_size).abs() < MOST_STEPS {
+        Ok(())
+    } else {
+        Err(Error::StepCount {
+            time: start,
+            end,
+            step_size,
+        })
+    }
+}
+
+/// The numbers of steps below this one are doubles.
+const MOST_STEPS: f64 = (1_u64 << 53) as f64;
+
 /// The smallest number of equal steps from `start` to `end` that are no longer than `|step_size|`, and their size.
 pub(crate) fn uniform(start: f64, end: f64, step_size: f64) -> Result<(u64, f64), Error> {
     let span = end - start;
@@ -54,7 +70,7 @@ pub(crate) fn uniform(start: f64, end: f64, step_size: f64) -> Result<(u64, f64)
     // steps can come out above it by the roundings of both times, the step size, the difference and the quotient.
     let doubt = f64::EPSILON * (2.0 * ratio + ((start.abs() + end.abs()) / step_size).abs());
     let count = Float::ceil(ratio - doubt).max(1.0);
-    if count < (1_u64 << 53) as f64 {
+    if count < MOST_STEPS {
         Ok((count as u64, span / count))
     } else {
         Err(Error::StepCount {
