@@ -41,6 +41,13 @@ pub fn start<T: Scalar>() -> State<SVector<T, 2>> {
     )
 }
 
+/// From the place (q_2, p_2) of the section q_1 = 0, with this energy and q_1 growing; not a number where there is no such
+/// state.
+pub fn on_section(energy: f64, q2: f64, p2: f64) -> State<SVector<f64, 2>> {
+    let rest = 2.0 * energy - p2 * p2 - q2 * q2 + 2.0 / 3.0 * q2 * q2 * q2;
+    State::from_arrays(0.0, [0.0, q2], [rest.sqrt(), p2])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
