@@ -53,7 +53,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     ///     }
     /// })?;
     /// // The first step beyond π/2.
-    /// assert_eq!(stopped, ControlFlow::Break(13));
+    /// assert_eq!(stopped, Some(13));
     /// # Ok(())
     /// # }
     /// ```
