@@ -255,3 +255,78 @@ fn moments(k: usize, stages: usize) -> Vec<BigRational> {
     }
     moments
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::definition::Definition;
+    use crate::limits::Limits;
+
+    /// The extensions of velocities and forces, for systems of a class.
+    fn extensions(definition: &str, class: Class, increments: bool) -> [Option<Extension>; 2] {
+        let definition = Definition::parse(definition).expect("a definition");
+        let tableau = definition.derive(&Limits::default()).expect("derived");
+        let numbers = tableau.numbers();
+        let graph = StepGraph::new(class, &tableau, &numbers);
+        let polynomials = StagePolynomials::new(&numbers);
+        [Node::Velocity(0), Node::Force(0)]
+            .map(|kind| polynomials.extension(&graph, kind, increments))
+    }
+
+    /// With Gauss nodes `γ_jk/b_j = (2k + 1) L_k(c_j)`.
+    #[test]
+    fn gauss_nodes_have_legendre_polynomials() {
+        let [velocities, forces] = extensions(
+            "basis: polynomial(3), nodes: gauss(3)",
+            Class::General,
+            true,
+        );
+        let velocities = velocities.expect("a polynomial");
+        let root = 0.6_f64.sqrt();
+        assert_eq!(
+            velocities.rows,
+            [[-3.0 * root, 0.0, 3.0 * root], [2.0, -2.5, 2.0]]
+        );
+        assert_eq!(velocities.order, 4);
+        assert_eq!(Some(velocities), forces);
+        let [evaluations, _] = extensions(
+            "basis: polynomial(3), nodes: gauss(3)",
+            Class::General,
+            false,
+        );
+        let rows = evaluations.expect("a polynomial").rows;
+        assert_eq!(
+            rows[1],
+            [2.0 * (5.0 / 18.0), -2.5 * (4.0 / 9.0), 2.0 * (5.0 / 18.0)]
+        );
+    }
+
+    #[test]
+    fn orders_follow_from_those_of_the_stages() {
+        let orders = |definition: &str, class| {
+            extensions(definition, class, false).map(|half| half.map(|half| half.order))
+        };
+        let lobatto = "basis: polynomial(4), nodes: lobatto(4)";
+        assert_eq!(orders(lobatto, Class::Separable), [Some(4), Some(5)]);
+        assert_eq!(orders(lobatto, Class::General), [Some(4), Some(4)]);
+        let exchanged = "basis: polynomial(4), nodes: lobatto(4), exchange: true";
+        assert_eq!(orders(exchanged, Class::Separable), [Some(5), Some(4)]);
+        let midpoint = "basis: polynomial(1), nodes: gauss(1)";
+        assert_eq!(orders(midpoint, Class::General), [Some(2), Some(2)]);
+    }
+
+    /// Weights that are not those of a polynomial, by a little too, and nodes that coincide.
+    #[test]
+    fn other_methods_have_none() {
+        for definition in [
+            "basis: [1, cos(pi*t), sin(pi*t)], nodes: [0, 1/2, 1]",
+            "a: [[1/4, 1/4 - sqrt(3)/6], [1/4 + sqrt(3)/6, 1/4]], b: [1/2 + 1e-40, 1/2 - 1e-40]",
+            "a: [[1/2, 0], [1/2, 0]], b: [1/2, 1/2]",
+        ] {
+            let extensions = extensions(definition, Class::General, false);
+            assert_eq!(extensions, [None, None], "{definition}");
+        }
+        let gauss = "a: [[1/4, 1/4 - sqrt(3)/6], [1/4 + sqrt(3)/6, 1/4]], b: [1/2, 1/2]";
+        assert!(extensions(gauss, Class::General, false)[0].is_some());
+    }
+}
