@@ -7,10 +7,11 @@
 mod common;
 
 use std::cell::Cell;
+use std::ops::ControlFlow;
 
 use common::systems::Pendulum;
 use common::{Midpoint, StoermerVerlet};
-use symplectic::{Error, Integrator, Method, Scalar, State, Vector};
+use symplectic::{Error, Event, Integrator, Method, Scalar, State, Vector};
 
 thread_local! {
     static COUNT: Cell<u64> = const { Cell::new(0) };
@@ -66,6 +67,43 @@ impl<T: Scalar> Vector for Counted<T> {
     fn zeros_with<U: Scalar>(&self) -> Counted<U> {
         Counted::new(vec![U::zero(); self.0.len()])
     }
+}
+
+/// Memory for what is between the steps is made once in a run, not once in a step or for an event.
+#[test]
+fn looking_into_steps_makes_no_vectors() -> Result<(), Error> {
+    fn check<M: Method>(method: M) -> Result<(), Error> {
+        let start = State::new(0.0, Counted::new(vec![1.0; 5]), Counted::new(vec![0.0; 5]));
+        let mut integrator = Integrator::new(method, Pendulum::default(), start, 0.1)?;
+        let event = Event::crossing(|state: &State<Counted<f64>>| state.q.0[0]);
+        let mut run = |duration: f64| {
+            let end = integrator.state().time + duration;
+            let mut events = 0;
+            let count = made(|| {
+                integrator.integrate_with_events(end, &event, |_| {
+                    events += 1;
+                    ControlFlow::<()>::Continue(())
+                })
+            });
+            let times: Vec<f64> = (1..=100)
+                .map(|k| end + 0.03 + duration * f64::from(k) / 100.0)
+                .collect();
+            let output = made(|| integrator.integrate_at(&times, |_| {}).map(|_| ()));
+            count.1?;
+            output.1?;
+            Ok::<_, Error>((count.0, output.0, events))
+        };
+        let (short, long) = (run(10.0)?, run(100.0)?);
+        assert_eq!((short.0, short.1), (long.0, long.1), "{}", M::NAME);
+        assert!(long.2 > 5 * short.2);
+        let (mut q, mut p) = (integrator.state().q.clone(), integrator.state().p.clone());
+        let dense = integrator.dense()?;
+        let (count, outcome) = made(|| dense.write(dense.span().0, &mut q, &mut p));
+        assert_eq!(count, 0);
+        outcome
+    }
+    check(StoermerVerlet)?;
+    check(Midpoint)
 }
 
 #[test]
