@@ -115,14 +115,10 @@ impl<'n, 'a> Nodes<'n, 'a> {
     fn new(numbers: &'n Coefficients<Number<'a>>) -> Option<Self> {
         let nodes = |times: &'n [Number<'a>]| {
             let first = Enclosed::new(times, 0);
-            let distinct = first
-                .divisors
-                .iter()
-                .all(|divisor| divisor.sign().is_some());
             let interpolating = [&numbers.b, &numbers.b_tilde]
                 .iter()
                 .all(|weights| first.integrates(weights));
-            (distinct && interpolating).then(|| Nodes {
+            (first.legendre.is_some() && interpolating).then(|| Nodes {
                 times,
                 stage_orders: [&numbers.a, &numbers.a_tilde].map(|a| first.stage_order(a)),
                 first,
@@ -150,10 +146,8 @@ struct Enclosed {
     bits: u32,
     /// The powers `c_j^m`, m ≤ s, for each m.
     powers: Vec<Vec<Interval>>,
-    /// The coefficients of `Π_{i≠j} (x − c_i)`, for each j from that of `x⁰` on.
-    products: Vec<Vec<Interval>>,
-    /// `Π_{i≠j} (c_j − c_i)`
-    divisors: Vec<Interval>,
+    /// The Legendre coefficients of each Lagrange polynomial `ℓ_j`, from degree 0 on; `None` where nodes are not told apart.
+    legendre: Option<Vec<Vec<Interval>>>,
 }
 
 impl Enclosed {
@@ -187,9 +181,20 @@ impl Enclosed {
                 product.multiply(&times[j].subtract(time))
             })
         };
+        let moments: Vec<_> = (0..times.len()).map(|k| moments(k, times.len())).collect();
+        let legendre = |j: usize| {
+            // ℓ_j = Π_{i≠j} (x − c_i)/(c_j − c_i)
+            let (product, divisor) = (product(j), divisor(j));
+            let coefficient = |(k, moments): (usize, &Vec<BigRational>)| {
+                let zero = Interval::enclosing(&ratio(0, 1), bits);
+                let terms = product[k..].iter().zip(moments);
+                let sum = terms.fold(zero, |sum, (c, moment)| sum.add(&c.scale(moment)));
+                sum.divide(&divisor)
+            };
+            moments.iter().enumerate().map(coefficient).collect()
+        };
         Enclosed {
-            products: (0..times.len()).map(product).collect(),
-            divisors: (0..times.len()).map(divisor).collect(),
+            legendre: (0..times.len()).map(legendre).collect(),
             powers,
             bits,
         }
@@ -225,29 +230,20 @@ impl Enclosed {
         })
     }
 
-    /// The Legendre coefficient of degree k of the sum of the Lagrange polynomials of some stages: with
-    /// `∫_0^1 x^m L_k = m!²/((m − k)! (m + k + 1)!)` for m ≥ k, and zero below.
+    /// The Legendre coefficient of degree k of the sum of the Lagrange polynomials of some stages.
     fn legendre(&self, stages: &[usize], k: usize) -> Option<Interval> {
-        let moments = moments(k, self.divisors.len());
+        let legendre = self.legendre.as_ref()?;
         let zero = Interval::enclosing(&ratio(0, 1), self.bits);
-        stages.iter().try_fold(zero.clone(), |sum, &j| {
-            let terms = self.products[j][k..].iter().zip(&moments);
-            let integral = terms.fold(zero.clone(), |sum, (coefficient, moment)| {
-                sum.add(&coefficient.scale(moment))
-            });
-            let integral = integral.scale(&ratio(2 * k as i64 + 1, 1));
-            Some(sum.add(&integral.divide(&self.divisors[j])?))
-        })
+        Some(stages.iter().fold(zero, |sum, &j| sum.add(&legendre[j][k])))
     }
 }
 
-/// `∫_0^1 x^m L_k` for m = k, …, s − 1.
+/// `(2k + 1) ∫_0^1 x^m L_k = (2k + 1) m!²/((m − k)! (m + k + 1)!)` for m = k, …, s − 1; for a smaller m it is zero.
 fn moments(k: usize, stages: usize) -> Vec<BigRational> {
     let (mut moment, k) = (ratio(1, 1), k as i64);
     for i in 1..=k {
         moment *= ratio(i, k + i);
     }
-    moment *= ratio(1, 2 * k + 1);
     let mut moments = Vec::new();
     for m in k..stages as i64 {
         moments.push(moment.clone());
