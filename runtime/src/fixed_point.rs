@@ -97,6 +97,12 @@ pub(crate) trait Sweeps {
     /// How many evaluations they make.
     fn evaluations(&self) -> EvaluationCounts;
 
+    /// The relative change by which the iteration is seen to go on.
+    #[inline(always)]
+    fn progress<C: Class>(change: &Change) -> f64 {
+        C::progress(change)
+    }
+
     /// Starting values; evaluations that are made once.
     fn begin(&mut self, kept: Kept);
 
@@ -217,7 +223,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
     let mut idle = 0;
     for iteration in 1..=max_iterations {
         let change = sweeps.sweep();
-        let residual = C::progress(&change);
+        let residual = W::progress::<C>(&change);
         if change.residual().is_nan() {
             // In the first sweep the system has been evaluated at the start and next to it: that the state is
             // out of bounds is likelier than that the iteration is. Later it has run away.

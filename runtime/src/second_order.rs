@@ -7,8 +7,8 @@ use crate::in_lanes::{ByLanes, LaneStages, Sums, entry, extrapolate, fill, lanes
 use crate::kernel::add;
 use crate::{
     Change, Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes,
-    Kept, Outcome, PartChange, Quantity, Scalar, SecondOrderTableau, Solver, StageTableau, Step,
-    Summation, Vector, Work,
+    Inside, Kept, Outcome, PartChange, Quantity, Scalar, SecondOrderTableau, Solver, StageTableau,
+    Step, Summation, Vector, Work,
 };
 
 /// [`InLanes`] for second-order systems `q'' = f(q)`, whose velocity is the momentum: only the positions are iterated, with
@@ -120,6 +120,10 @@ where
             }
         }
         Ok(work)
+    }
+
+    fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside, q: &mut V, p: &mut V) {
+        <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
     }
 }
 

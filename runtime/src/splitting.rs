@@ -3,8 +3,8 @@
 use core::marker::PhantomData;
 
 use crate::{
-    Class, Evaluations, Failure, Hamiltonian, Kept, Outcome, Plan, Solver, Span, StageStorage,
-    Step, Summation, Vector, Witness, Work, copy,
+    Class, Evaluations, Failure, Hamiltonian, Inside, Interpolation, Kept, Outcome, Plan, Solver,
+    Span, StageStorage, Step, Summation, Vector, Witness, Work, copy,
 };
 
 /// How a splitting goes through one step of a system of one [`Class`]: each evaluation is in the later stages in full, so
@@ -71,8 +71,8 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         P::apply::<R, V, S, ()>(step.span(), system, memory, kept, outcome, &mut ());
         let carried = if kept.evaluation { P::CARRIED } else { 0 };
         Ok(Work {
-            iterations: 0,
             evaluations: P::EVALUATIONS - carried,
+            ..Work::default()
         })
     }
 
@@ -99,6 +99,17 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
             outcome,
             witness,
         );
+    }
+
+    const INTERPOLATION: Interpolation = Interpolation::Hermite;
+
+    /// There are no stages to make a polynomial of.
+    fn extend<V, S, N>(_memory: &Evaluations<V>, _at: Inside, _q: &mut V, _p: &mut V)
+    where
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+    {
     }
 
     #[inline(always)]

@@ -8,6 +8,7 @@ use super::linear::{Coupling, LinearSolver};
 use super::memory::{NewtonMemory, rows};
 use crate::fixed_point::Sweeps;
 use crate::kernel::add;
+use crate::stage::first_non_finite_of;
 use crate::{
     Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, Kept, Outcome, PartChange,
     Quantity, Scalar, StageStorage, StageTableau, Step, Summation, Vector,
@@ -47,6 +48,8 @@ where
     S: Hamiltonian<V, Class = P::Class>,
     L: LinearSolver<V, S>,
 {
+    const HASTY: bool = !R::COMPENSATED;
+
     fn evaluations(&self) -> EvaluationCounts {
         EvaluationCounts {
             begin: 0,
@@ -84,8 +87,17 @@ where
         }
     }
 
+    /// Both halves are corrected at once: neither is a function of the other.
+    fn progress<C: Class>(change: &Change) -> f64 {
+        change.residual()
+    }
+
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.memory.non_finite()
+    }
+
+    fn non_finite_force(&self) -> Option<usize> {
+        first_non_finite_of(&self.memory.force)
     }
 
     fn sweep(&mut self) -> Change {

@@ -21,8 +21,8 @@ pub use policy::{FixedPointThenNewton, FixedPointThenNewtonMemory};
 
 use crate::fixed_point::settle;
 use crate::{
-    Failure, Hamiltonian, Integrator, Kept, Method, Outcome, Solver, StageTableau, Step, Summation,
-    Vector, Work,
+    Failure, Hamiltonian, Inside, Integrator, Kept, Method, Outcome, Solver, StageTableau, Step,
+    StoredEvaluations, Summation, Vector, Work,
 };
 use increments::ByIncrements;
 
@@ -146,5 +146,16 @@ impl<V: Vector, S: Hamiltonian<V>, L: LinearSolver<V, S>> Solver<V, S> for Newto
         let mut work = settled.map_err(|failure| sweeps.failure().unwrap_or(failure))?;
         work.factorisations = sweeps.finish(outcome);
         Ok(work)
+    }
+
+    fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside, q: &mut V, p: &mut V) {
+        let halves = [(&P::MOMENTA, &memory.u, q), (&P::POSITIONS, &memory.w, p)];
+        for (half, values, out) in halves {
+            let increments = StoredEvaluations {
+                values,
+                carried: &[],
+            };
+            at.add(half, P::INCREMENTS, increments, out);
+        }
     }
 }

@@ -6,8 +6,8 @@ use super::linear::LinearSolver;
 use super::{Newton, memory::NewtonMemory};
 use crate::fixed_point::by_stages;
 use crate::{
-    Failure, Hamiltonian, Kept, Outcome, Quantity, Solver, StageStorage, StageTableau, Step,
-    Summation, Vector, Work,
+    Failure, FixedPoint, Hamiltonian, Inside, Kept, Outcome, Quantity, Solver, StageStorage,
+    StageTableau, Step, Summation, Vector, Work,
 };
 
 /// Steps that are left to Newton's iteration after one that the fixed-point iteration has failed at.
@@ -164,5 +164,13 @@ where
         memory.was_newton = true;
         work.rejected = rejected;
         Ok(work)
+    }
+
+    fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside, q: &mut V, p: &mut V) {
+        if memory.was_newton {
+            <Newton<L> as Solver<V, S>>::extend::<P>(&memory.newton, at, q, p);
+        } else {
+            <FixedPoint as Solver<V, S>>::extend::<P>(&memory.fixed_point, at, q, p);
+        }
     }
 }
