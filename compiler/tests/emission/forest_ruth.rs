@@ -282,14 +282,13 @@ const _: () = {
                 c_tilde: C_TILDE,
             }
         };
-        type General = ForestRuthGeneral;
-        type Separable = ForestRuthSeparable;
+        type General = ::symplectic::Coupled<ForestRuthGeneral>;
+        type Separable = ::symplectic::Splitting<ForestRuthSeparable>;
     }
     pub struct ForestRuthGeneral;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for ForestRuthGeneral {
         type Class = ::symplectic::General;
-        type Coupling = ::symplectic::Coupled;
         type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 4, 4>;
         const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
             begin: 0,
@@ -310,9 +309,6 @@ const _: () = {
             kept: ::symplectic::Kept,
         ) {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::copy(&mut q[1], step.q);
-            ::symplectic::copy(&mut q[2], step.q);
-            ::symplectic::copy(&mut q[3], step.q);
             ::symplectic::copy(&mut p[0], step.p);
             ::symplectic::copy(&mut p[1], step.p);
             ::symplectic::copy(&mut p[2], step.p);
@@ -332,20 +328,7 @@ const _: () = {
                     &mut velocity[0],
                 );
             ::symplectic::copy_to(velocity, 0, [1, 2]);
-        }
-        #[inline]
-        fn sweep<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
-        >(
-            step: &::symplectic::Step<'_, V>,
-            system: &S,
-            stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::Change {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::Change::default();
-            ::symplectic::relax::<
+            ::symplectic::combine::<
                 R,
                 V,
                 _,
@@ -364,9 +347,8 @@ const _: () = {
                     ],
                 ),
                 [&velocity[0]],
-                &mut change.q,
             );
-            ::symplectic::relax::<
+            ::symplectic::combine::<
                 R,
                 V,
                 _,
@@ -390,9 +372,8 @@ const _: () = {
                     ],
                 ),
                 [&velocity[0], &velocity[1]],
-                &mut change.q,
             );
-            ::symplectic::relax::<
+            ::symplectic::combine::<
                 R,
                 V,
                 _,
@@ -421,8 +402,20 @@ const _: () = {
                     ],
                 ),
                 [&velocity[0], &velocity[1], &velocity[2]],
-                &mut change.q,
             );
+        }
+        #[inline]
+        fn sweep<
+            R: ::symplectic::Summation,
+            V: ::symplectic::Vector,
+            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+        >(
+            step: &::symplectic::Step<'_, V>,
+            system: &S,
+            stages: &mut Self::Stages<V>,
+        ) -> ::symplectic::Change {
+            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            let mut change = ::symplectic::Change::default();
             system
                 .force(
                     step.at(::symplectic::Coefficient::exact(0.0)),
@@ -614,6 +607,84 @@ const _: () = {
                     &p[2],
                     &mut velocity[2],
                 );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
+                &mut q[1],
+                step.q,
+                step.q_low,
+                ::symplectic::weights(
+                    step.size,
+                    [
+                        ::symplectic::Coefficient::new(
+                            1.3512071919596575,
+                            8.42741775545176e-17,
+                            1.3512071,
+                        ),
+                    ],
+                ),
+                [&velocity[0]],
+                &mut change.q,
+            );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
+                &mut q[2],
+                step.q,
+                step.q_low,
+                ::symplectic::weights(
+                    step.size,
+                    [
+                        ::symplectic::Coefficient::new(
+                            1.3512071919596575,
+                            8.42741775545176e-17,
+                            1.3512071,
+                        ),
+                        ::symplectic::Coefficient::new(
+                            (-1.7024143839193153),
+                            5.349624981599612e-17,
+                            (-1.7024144),
+                        ),
+                    ],
+                ),
+                [&velocity[0], &velocity[1]],
+                &mut change.q,
+            );
+            ::symplectic::relax::<
+                R,
+                V,
+                _,
+            >(
+                &mut q[3],
+                step.q,
+                step.q_low,
+                ::symplectic::weights(
+                    step.size,
+                    [
+                        ::symplectic::Coefficient::new(
+                            1.3512071919596575,
+                            8.42741775545176e-17,
+                            1.3512071,
+                        ),
+                        ::symplectic::Coefficient::new(
+                            (-1.7024143839193153),
+                            5.349624981599612e-17,
+                            (-1.7024144),
+                        ),
+                        ::symplectic::Coefficient::new(
+                            1.3512071919596575,
+                            8.42741775545176e-17,
+                            1.3512071,
+                        ),
+                    ],
+                ),
+                [&velocity[0], &velocity[1], &velocity[2]],
+                &mut change.q,
+            );
             change
         }
         #[inline]
@@ -708,77 +779,118 @@ const _: () = {
             );
         }
     }
+    impl ::symplectic::StageTableau for ForestRuthGeneral {
+        type Lanes = ::symplectic::F64x4;
+        type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; 1];
+        const INCREMENTS: bool = false;
+        const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+            count: 4,
+            columns: &[
+                &[0.0, 1.3512071919596575, 1.3512071919596575, 1.3512071919596575],
+                &[0.0, 0.0, (-1.7024143839193153), (-1.7024143839193153)],
+                &[0.0, 0.0, 0.0, 1.3512071919596575],
+                &[0.0, 0.0, 0.0, 0.0],
+            ],
+            times: &[0.0, 1.3512071919596575, (-0.35120719195965766), 1.0],
+            weights: &[
+                0.6756035959798288,
+                (-0.17560359597982883),
+                (-0.17560359597982883),
+                0.6756035959798288,
+            ],
+            extrapolation: &[],
+            polynomial: ::core::option::Option::None,
+        };
+        const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+            count: 4,
+            columns: &[
+                &[
+                    0.6756035959798288,
+                    0.6756035959798288,
+                    0.6756035959798288,
+                    0.6756035959798288,
+                ],
+                &[
+                    0.0,
+                    (-0.17560359597982883),
+                    (-0.17560359597982883),
+                    (-0.17560359597982883),
+                ],
+                &[0.0, 0.0, (-0.17560359597982883), (-0.17560359597982883)],
+                &[0.0, 0.0, 0.0, 0.6756035959798288],
+            ],
+            times: &[0.6756035959798288, 0.5, 0.32439640402017117, 1.0],
+            weights: &[
+                1.3512071919596575,
+                (-1.7024143839193153),
+                1.3512071919596575,
+                0.0,
+            ],
+            extrapolation: &[],
+            polynomial: Self::POSITIONS.polynomial,
+        };
+        const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
+        #[inline(always)]
+        fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+            make: impl ::core::ops::FnMut(usize) -> T,
+        ) -> [T; 1] {
+            ::core::array::from_fn(make)
+        }
+        #[inline(always)]
+        fn stored<V: ::symplectic::Vector>(
+            stages: &Self::Stages<V>,
+        ) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+            [
+                ::symplectic::StoredEvaluations {
+                    values: &stages.velocity,
+                    carried: &[],
+                },
+                ::symplectic::StoredEvaluations {
+                    values: &stages.force,
+                    carried: &[],
+                },
+            ]
+        }
+    }
     pub struct ForestRuthSeparable;
     #[allow(unused_variables)]
-    impl ::symplectic::StagePlan for ForestRuthSeparable {
+    impl ::symplectic::SplittingPlan for ForestRuthSeparable {
         type Class = ::symplectic::Separable;
-        type Coupling = ::symplectic::Explicit;
-        type Stages<V: ::symplectic::Vector> = ::symplectic::Evaluations<V>;
-        const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
-            begin: 7,
-            start: 0,
-            sweep: 0,
-            finish: 0,
-            carried: 1,
-        };
-        #[inline]
-        fn begin<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
-        >(
-            step: &::symplectic::Step<'_, V>,
-            system: &S,
-            stages: &mut Self::Stages<V>,
-            kept: ::symplectic::Kept,
-        ) {}
-        #[inline]
-        fn sweep<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
-        >(
-            step: &::symplectic::Step<'_, V>,
-            system: &S,
-            stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::Change {
-            ::symplectic::Change::default()
-        }
-        #[inline]
-        fn finish<
+        const EVALUATIONS: u32 = 7;
+        const CARRIED: u32 = 1;
+        #[inline(always)]
+        fn apply<
             R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
             W: ::symplectic::Witness,
         >(
-            step: &::symplectic::Step<'_, V>,
+            span: ::symplectic::Span,
             system: &S,
-            stages: &mut Self::Stages<V>,
+            evaluations: &mut ::symplectic::Evaluations<V>,
             kept: ::symplectic::Kept,
-            outcome: ::symplectic::Outcome<'_, V>,
+            state: ::symplectic::Outcome<'_, V>,
             witness: &mut W,
         ) {
-            let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
-            let ::symplectic::Evaluations { velocity, force } = stages;
+            let ::symplectic::Evaluations { velocity, force } = evaluations;
+            let ::symplectic::Outcome { q, q_low, p, p_low } = state;
             if !kept.evaluation {
                 system
                     .force(
-                        step.at(::symplectic::Coefficient::exact(0.0)),
-                        step.q,
-                        step.p,
+                        span.at(::symplectic::Coefficient::exact(0.0)),
+                        &*q,
+                        &*p,
                         force,
                     );
-                witness.evaluation(::symplectic::Quantity::Force, 1, step.q, force);
+                witness.evaluation(::symplectic::Quantity::Force, 1, &*q, force);
             }
             ::symplectic::advance::<
                 R,
                 V,
             >(
-                p1,
-                p1_low,
-                step.p,
-                step.p_low,
-                step.size,
+                p,
+                p_low,
+                span.size,
                 ::symplectic::Coefficient::new(
                     0.6756035959798288,
                     4.21370887772588e-17,
@@ -788,7 +900,7 @@ const _: () = {
             );
             system
                 .velocity(
-                    step
+                    span
                         .at(
                             ::symplectic::Coefficient::new(
                                 0.6756035959798288,
@@ -796,20 +908,18 @@ const _: () = {
                                 0.67560357,
                             ),
                         ),
-                    step.q,
-                    &*p1,
+                    &*q,
+                    &*p,
                     velocity,
                 );
-            witness.evaluation(::symplectic::Quantity::Velocity, 1, &*p1, velocity);
+            witness.evaluation(::symplectic::Quantity::Velocity, 1, &*p, velocity);
             ::symplectic::advance::<
                 R,
                 V,
             >(
-                q1,
-                q1_low,
-                step.q,
-                step.q_low,
-                step.size,
+                q,
+                q_low,
+                span.size,
                 ::symplectic::Coefficient::new(
                     1.3512071919596575,
                     8.42741775545176e-17,
@@ -819,7 +929,7 @@ const _: () = {
             );
             system
                 .force(
-                    step
+                    span
                         .at(
                             ::symplectic::Coefficient::new(
                                 1.3512071919596575,
@@ -827,18 +937,18 @@ const _: () = {
                                 1.3512071,
                             ),
                         ),
-                    &*q1,
-                    &*p1,
+                    &*q,
+                    &*p,
                     force,
                 );
-            witness.evaluation(::symplectic::Quantity::Force, 2, &*q1, force);
-            ::symplectic::advance_in_place::<
+            witness.evaluation(::symplectic::Quantity::Force, 2, &*q, force);
+            ::symplectic::advance::<
                 R,
                 V,
             >(
-                p1,
-                p1_low,
-                step.size,
+                p,
+                p_low,
+                span.size,
                 ::symplectic::Coefficient::new(
                     (-0.17560359597982883),
                     1.337406245399903e-17,
@@ -848,19 +958,19 @@ const _: () = {
             );
             system
                 .velocity(
-                    step.at(::symplectic::Coefficient::exact(0.5)),
-                    &*q1,
-                    &*p1,
+                    span.at(::symplectic::Coefficient::exact(0.5)),
+                    &*q,
+                    &*p,
                     velocity,
                 );
-            witness.evaluation(::symplectic::Quantity::Velocity, 2, &*p1, velocity);
-            ::symplectic::advance_in_place::<
+            witness.evaluation(::symplectic::Quantity::Velocity, 2, &*p, velocity);
+            ::symplectic::advance::<
                 R,
                 V,
             >(
-                q1,
-                q1_low,
-                step.size,
+                q,
+                q_low,
+                span.size,
                 ::symplectic::Coefficient::new(
                     (-1.7024143839193153),
                     5.349624981599612e-17,
@@ -870,7 +980,7 @@ const _: () = {
             );
             system
                 .force(
-                    step
+                    span
                         .at(
                             ::symplectic::Coefficient::new(
                                 (-0.35120719195965766),
@@ -878,18 +988,18 @@ const _: () = {
                                 (-0.3512072),
                             ),
                         ),
-                    &*q1,
-                    &*p1,
+                    &*q,
+                    &*p,
                     force,
                 );
-            witness.evaluation(::symplectic::Quantity::Force, 3, &*q1, force);
-            ::symplectic::advance_in_place::<
+            witness.evaluation(::symplectic::Quantity::Force, 3, &*q, force);
+            ::symplectic::advance::<
                 R,
                 V,
             >(
-                p1,
-                p1_low,
-                step.size,
+                p,
+                p_low,
+                span.size,
                 ::symplectic::Coefficient::new(
                     (-0.17560359597982883),
                     1.337406245399903e-17,
@@ -899,7 +1009,7 @@ const _: () = {
             );
             system
                 .velocity(
-                    step
+                    span
                         .at(
                             ::symplectic::Coefficient::new(
                                 0.32439640402017117,
@@ -907,18 +1017,18 @@ const _: () = {
                                 0.3243964,
                             ),
                         ),
-                    &*q1,
-                    &*p1,
+                    &*q,
+                    &*p,
                     velocity,
                 );
-            witness.evaluation(::symplectic::Quantity::Velocity, 3, &*p1, velocity);
-            ::symplectic::advance_in_place::<
+            witness.evaluation(::symplectic::Quantity::Velocity, 3, &*p, velocity);
+            ::symplectic::advance::<
                 R,
                 V,
             >(
-                q1,
-                q1_low,
-                step.size,
+                q,
+                q_low,
+                span.size,
                 ::symplectic::Coefficient::new(
                     1.3512071919596575,
                     8.42741775545176e-17,
@@ -927,20 +1037,15 @@ const _: () = {
                 velocity,
             );
             system
-                .force(
-                    step.at(::symplectic::Coefficient::exact(1.0)),
-                    &*q1,
-                    &*p1,
-                    force,
-                );
-            witness.evaluation(::symplectic::Quantity::Force, 4, &*q1, force);
-            ::symplectic::advance_in_place::<
+                .force(span.at(::symplectic::Coefficient::exact(1.0)), &*q, &*p, force);
+            witness.evaluation(::symplectic::Quantity::Force, 4, &*q, force);
+            ::symplectic::advance::<
                 R,
                 V,
             >(
-                p1,
-                p1_low,
-                step.size,
+                p,
+                p_low,
+                span.size,
                 ::symplectic::Coefficient::new(
                     0.6756035959798288,
                     4.21370887772588e-17,

@@ -211,8 +211,6 @@ const _: () = {
                     [&force[0], &force[1]],
                 );
             } else {
-                ::symplectic::copy(&mut q[0], step.q);
-                ::symplectic::copy(&mut q[1], step.q);
                 ::symplectic::copy(&mut p[0], step.p);
                 ::symplectic::copy(&mut p[1], step.p);
                 system
@@ -503,6 +501,10 @@ const _: () = {
                     2.732050807568877,
                 ],
             ],
+            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
+                legendre: &[&[(-1.7320508075688772), 1.7320508075688772]],
+                order: 3,
+            }),
         };
         const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
             count: 2,
@@ -531,12 +533,34 @@ const _: () = {
                     2.732050807568877,
                 ],
             ],
+            polynomial: Self::POSITIONS.polynomial,
         };
+        const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
+        const DECOUPLING: ::core::option::Option<::symplectic::Decoupling> = ::core::option::Option::Some(::symplectic::Decoupling {
+            blocks: &[(0.25, 0.14433756729740643)],
+            to_stages: &[&[0.0, (-0.2679491924311227)], &[1.0, 0.0]],
+            from_stages: &[&[0.0, 1.0], &[(-3.732050807568877), 0.0]],
+        });
         #[inline(always)]
         fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
             make: impl ::core::ops::FnMut(usize) -> T,
         ) -> [T; 1] {
             ::core::array::from_fn(make)
+        }
+        #[inline(always)]
+        fn stored<V: ::symplectic::Vector>(
+            stages: &Self::Stages<V>,
+        ) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+            [
+                ::symplectic::StoredEvaluations {
+                    values: &stages.velocity,
+                    carried: &[],
+                },
+                ::symplectic::StoredEvaluations {
+                    values: &stages.force,
+                    carried: &[],
+                },
+            ]
         }
     }
     pub struct Gauss2Separable;
@@ -609,8 +633,6 @@ const _: () = {
                     [&velocity[0], &velocity[1]],
                 );
             } else {
-                ::symplectic::copy(&mut q[0], step.q);
-                ::symplectic::copy(&mut q[1], step.q);
                 ::symplectic::copy(&mut p[0], step.p);
                 ::symplectic::copy(&mut p[1], step.p);
                 system
@@ -901,6 +923,10 @@ const _: () = {
                     2.732050807568877,
                 ],
             ],
+            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
+                legendre: &[&[(-1.7320508075688772), 1.7320508075688772]],
+                order: 3,
+            }),
         };
         const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
             count: 2,
@@ -929,12 +955,61 @@ const _: () = {
                     2.732050807568877,
                 ],
             ],
+            polynomial: Self::POSITIONS.polynomial,
         };
+        const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::Some(::symplectic::SecondOrderTableau {
+            nodes: &[
+                0.21132486540518713,
+                0.7886751345948129,
+                0.7886751345948129,
+                0.7886751345948129,
+            ],
+            columns: &[
+                &[
+                    0.08333333333333326,
+                    0.5386751345948129,
+                    0.5386751345948129,
+                    0.5386751345948129,
+                ],
+                &[
+                    (-0.038675134594812866),
+                    0.08333333333333326,
+                    0.08333333333333326,
+                    0.08333333333333326,
+                ],
+            ],
+            rest: &[
+                0.7886751345948129,
+                0.21132486540518713,
+                0.21132486540518713,
+                0.21132486540518713,
+            ],
+        });
+        const DECOUPLING: ::core::option::Option<::symplectic::Decoupling> = ::core::option::Option::Some(::symplectic::Decoupling {
+            blocks: &[(0.041666666666666664, 0.07216878364870322)],
+            to_stages: &[&[0.0, (-0.2679491924311227)], &[1.0, 0.0]],
+            from_stages: &[&[0.0, 1.0], &[(-3.732050807568877), 0.0]],
+        });
         #[inline(always)]
         fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
             make: impl ::core::ops::FnMut(usize) -> T,
         ) -> [T; 1] {
             ::core::array::from_fn(make)
+        }
+        #[inline(always)]
+        fn stored<V: ::symplectic::Vector>(
+            stages: &Self::Stages<V>,
+        ) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+            [
+                ::symplectic::StoredEvaluations {
+                    values: &stages.velocity,
+                    carried: &[],
+                },
+                ::symplectic::StoredEvaluations {
+                    values: &stages.force,
+                    carried: &[],
+                },
+            ]
         }
     }
 };

@@ -284,8 +284,6 @@ const _: () = {
                     [&force[0], &force[1]],
                 );
             } else {
-                ::symplectic::copy(&mut q[1], step.q);
-                ::symplectic::copy(&mut q[2], step.q);
                 ::symplectic::copy(&mut p[0], step.p);
                 ::symplectic::copy(&mut p[1], step.p);
                 ::symplectic::copy(&mut p[2], step.p);
@@ -600,6 +598,10 @@ const _: () = {
                 &[0.0, (-3.0), (-2.0), (-2.0)],
                 &[1.0, 12.0, 6.0, 6.0],
             ],
+            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
+                legendre: &[&[(-3.0), 0.0, 3.0], &[2.0, (-1.0), 2.0]],
+                order: 3,
+            }),
         };
         const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
             count: 3,
@@ -620,12 +622,29 @@ const _: () = {
                 &[0.0, (-3.0), (-2.0), (-2.0)],
                 &[1.0, 12.0, 6.0, 6.0],
             ],
+            polynomial: Self::POSITIONS.polynomial,
         };
+        const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
         #[inline(always)]
         fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
             make: impl ::core::ops::FnMut(usize) -> T,
         ) -> [T; 1] {
             ::core::array::from_fn(make)
+        }
+        #[inline(always)]
+        fn stored<V: ::symplectic::Vector>(
+            stages: &Self::Stages<V>,
+        ) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+            [
+                ::symplectic::StoredEvaluations {
+                    values: &stages.velocity,
+                    carried: &[],
+                },
+                ::symplectic::StoredEvaluations {
+                    values: &stages.force,
+                    carried: &[],
+                },
+            ]
         }
     }
     pub struct Lobatto3Separable;
@@ -693,7 +712,6 @@ const _: () = {
                     [&velocity[0], &velocity[1], &velocity[2]],
                 );
             } else {
-                ::symplectic::copy(&mut q[1], step.q);
                 ::symplectic::copy(&mut p[0], step.p);
                 ::symplectic::copy(&mut p[1], step.p);
                 ::symplectic::copy(&mut p[2], step.p);
@@ -927,7 +945,7 @@ const _: () = {
                 V,
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
-            ::symplectic::advance_in_place::<
+            ::symplectic::advance::<
                 R,
                 V,
             >(
@@ -966,6 +984,10 @@ const _: () = {
                 &[0.0, (-3.0), (-2.0), (-2.0)],
                 &[1.0, 12.0, 6.0, 6.0],
             ],
+            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
+                legendre: &[&[(-3.0), 0.0, 3.0], &[2.0, (-1.0), 2.0]],
+                order: 4,
+            }),
         };
         const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
             count: 3,
@@ -986,12 +1008,49 @@ const _: () = {
                 &[0.0, (-3.0), (-2.0), (-2.0)],
                 &[1.0, 12.0, 6.0, 6.0],
             ],
+            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
+                legendre: &[&[(-3.0), 0.0, 3.0], &[2.0, (-1.0), 2.0]],
+                order: 3,
+            }),
         };
+        const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::Some(::symplectic::SecondOrderTableau {
+            nodes: &[0.0, 0.5, 1.0, 1.0],
+            columns: &[
+                &[0.0, 0.5, 1.0, 1.0],
+                &[0.0, 0.0625, 0.5, 0.5],
+                &[0.0, 0.0, 0.0, 0.0],
+            ],
+            rest: &[1.0, 0.5, 0.0, 0.0],
+        });
+        const DECOUPLING: ::core::option::Option<::symplectic::Decoupling> = ::core::option::Option::Some(::symplectic::Decoupling {
+            blocks: &[(0.0, 0.0), (0.0, 0.0), (0.041666666666666664, 0.0)],
+            to_stages: &[&[(-1.6), 0.2, (-0.2)], &[1.0, 0.0, 0.4], &[0.0, 1.0, 1.0]],
+            from_stages: &[
+                &[(-1.6666666666666667), (-1.6666666666666667), 0.3333333333333333],
+                &[(-4.166666666666667), (-6.666666666666667), 1.8333333333333333],
+                &[4.166666666666667, 6.666666666666667, (-0.8333333333333334)],
+            ],
+        });
         #[inline(always)]
         fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
             make: impl ::core::ops::FnMut(usize) -> T,
         ) -> [T; 1] {
             ::core::array::from_fn(make)
+        }
+        #[inline(always)]
+        fn stored<V: ::symplectic::Vector>(
+            stages: &Self::Stages<V>,
+        ) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+            [
+                ::symplectic::StoredEvaluations {
+                    values: &stages.velocity,
+                    carried: &[],
+                },
+                ::symplectic::StoredEvaluations {
+                    values: &stages.force,
+                    carried: &[2],
+                },
+            ]
         }
     }
 };

@@ -88,7 +88,7 @@ const _: () = {
             }
         };
         type General = ::symplectic::Coupled<StoermerVerletGeneral>;
-        type Separable = ::symplectic::Explicit<StoermerVerletSeparable>;
+        type Separable = ::symplectic::Splitting<StoermerVerletSeparable>;
     }
     pub struct StoermerVerletGeneral;
     #[allow(unused_variables)]
@@ -114,7 +114,6 @@ const _: () = {
             kept: ::symplectic::Kept,
         ) {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::copy(&mut q[1], step.q);
             ::symplectic::copy(&mut p[0], step.p);
             system
                 .velocity(
@@ -276,6 +275,10 @@ const _: () = {
             times: &[0.0, 1.0, 1.0, 1.0],
             weights: &[0.5, 0.5, 0.5, 0.5],
             extrapolation: &[&[0.0, (-1.0), (-1.0), (-1.0)], &[1.0, 2.0, 2.0, 2.0]],
+            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
+                legendre: &[&[(-1.0), 1.0]],
+                order: 2,
+            }),
         };
         const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
             count: 2,
@@ -283,119 +286,86 @@ const _: () = {
             times: &[0.5, 0.5, 0.5, 0.5],
             weights: &[0.5, 0.5, 0.5, 0.5],
             extrapolation: &[],
+            polynomial: Self::POSITIONS.polynomial,
         };
+        const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
         #[inline(always)]
         fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
             make: impl ::core::ops::FnMut(usize) -> T,
         ) -> [T; 1] {
             ::core::array::from_fn(make)
         }
+        #[inline(always)]
+        fn stored<V: ::symplectic::Vector>(
+            stages: &Self::Stages<V>,
+        ) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+            [
+                ::symplectic::StoredEvaluations {
+                    values: &stages.velocity,
+                    carried: &[],
+                },
+                ::symplectic::StoredEvaluations {
+                    values: &stages.force,
+                    carried: &[],
+                },
+            ]
+        }
     }
     pub struct StoermerVerletSeparable;
     #[allow(unused_variables)]
-    impl ::symplectic::StagePlan for StoermerVerletSeparable {
+    impl ::symplectic::SplittingPlan for StoermerVerletSeparable {
         type Class = ::symplectic::Separable;
-        type Stages<V: ::symplectic::Vector> = ::symplectic::Evaluations<V>;
-        const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
-            begin: 3,
-            start: 0,
-            sweep: 0,
-            finish: 0,
-            carried: 1,
-        };
-        #[inline]
-        fn begin<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
-        >(
-            step: &::symplectic::Step<'_, V>,
-            system: &S,
-            stages: &mut Self::Stages<V>,
-            kept: ::symplectic::Kept,
-        ) {}
-        #[inline]
-        fn sweep<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
-        >(
-            step: &::symplectic::Step<'_, V>,
-            system: &S,
-            stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::Change {
-            ::symplectic::Change::default()
-        }
-        #[inline]
-        fn finish<
+        const EVALUATIONS: u32 = 3;
+        const CARRIED: u32 = 1;
+        #[inline(always)]
+        fn apply<
             R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
             W: ::symplectic::Witness,
         >(
-            step: &::symplectic::Step<'_, V>,
+            span: ::symplectic::Span,
             system: &S,
-            stages: &mut Self::Stages<V>,
+            evaluations: &mut ::symplectic::Evaluations<V>,
             kept: ::symplectic::Kept,
-            outcome: ::symplectic::Outcome<'_, V>,
+            state: ::symplectic::Outcome<'_, V>,
             witness: &mut W,
         ) {
-            let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
-            let ::symplectic::Evaluations { velocity, force } = stages;
+            let ::symplectic::Evaluations { velocity, force } = evaluations;
+            let ::symplectic::Outcome { q, q_low, p, p_low } = state;
             if !kept.evaluation {
                 system
                     .force(
-                        step.at(::symplectic::Coefficient::exact(0.0)),
-                        step.q,
-                        step.p,
+                        span.at(::symplectic::Coefficient::exact(0.0)),
+                        &*q,
+                        &*p,
                         force,
                     );
-                witness.evaluation(::symplectic::Quantity::Force, 1, step.q, force);
+                witness.evaluation(::symplectic::Quantity::Force, 1, &*q, force);
             }
             ::symplectic::advance::<
                 R,
                 V,
-            >(
-                p1,
-                p1_low,
-                step.p,
-                step.p_low,
-                step.size,
-                ::symplectic::Coefficient::exact(0.5),
-                force,
-            );
+            >(p, p_low, span.size, ::symplectic::Coefficient::exact(0.5), force);
             system
                 .velocity(
-                    step.at(::symplectic::Coefficient::exact(0.5)),
-                    step.q,
-                    &*p1,
+                    span.at(::symplectic::Coefficient::exact(0.5)),
+                    &*q,
+                    &*p,
                     velocity,
                 );
-            witness.evaluation(::symplectic::Quantity::Velocity, 1, &*p1, velocity);
+            witness.evaluation(::symplectic::Quantity::Velocity, 1, &*p, velocity);
             ::symplectic::advance::<
                 R,
                 V,
-            >(
-                q1,
-                q1_low,
-                step.q,
-                step.q_low,
-                step.size,
-                ::symplectic::Coefficient::exact(1.0),
-                velocity,
-            );
+            >(q, q_low, span.size, ::symplectic::Coefficient::exact(1.0), velocity);
             system
-                .force(
-                    step.at(::symplectic::Coefficient::exact(1.0)),
-                    &*q1,
-                    &*p1,
-                    force,
-                );
-            witness.evaluation(::symplectic::Quantity::Force, 2, &*q1, force);
-            ::symplectic::advance_in_place::<
+                .force(span.at(::symplectic::Coefficient::exact(1.0)), &*q, &*p, force);
+            witness.evaluation(::symplectic::Quantity::Force, 2, &*q, force);
+            ::symplectic::advance::<
                 R,
                 V,
-            >(p1, p1_low, step.size, ::symplectic::Coefficient::exact(0.5), force);
+            >(p, p_low, span.size, ::symplectic::Coefficient::exact(0.5), force);
         }
     }
 };
