@@ -113,13 +113,16 @@ fn lanes_give_the_same_bits() -> Result<(), Error> {
     check(Gauss10)
 }
 
+/// A function in lanes and of doubles.
+type Function<L> = (fn(L) -> L, fn(f64) -> f64);
+
 /// Elementary functions in lanes are those of the doubles.
 #[test]
 fn functions_are_taken_lane_by_lane() {
     fn check<L: Lanes>() {
         let value = |lane: usize| 0.1 + 0.1 * lane as f64;
         let x = L::from_fn(value);
-        let functions: [(fn(L) -> L, fn(f64) -> f64); 13] = [
+        let functions: [Function<L>; 13] = [
             (L::sqrt, f64::sqrt),
             (L::recip, f64::recip),
             (L::abs, f64::abs),

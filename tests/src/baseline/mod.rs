@@ -4,6 +4,11 @@
 //! They do what the library does and nothing beside it: no errors, no statistics, no checks, fixed dimension. A test
 //! holds their end states to those of the library.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "one index runs through several arrays"
+)]
+
 pub mod chain;
 pub mod explicit;
 pub mod gauss;

@@ -60,6 +60,9 @@ impl Pair {
     }
 }
 
+/// Gives an integrator its solver.
+type Solved<M, S, V, R, N> = fn(Integrator<M, S, V, R>) -> Result<Integrator<M, S, V, R, N>, Error>;
+
 /// Where a problem starts, and how it is stepped.
 struct Problem<S, B, V> {
     name: &'static str,
@@ -168,7 +171,7 @@ where
         method: (&'static str, M),
         step_size: f64,
         steps: u64,
-        solved: fn(Integrator<M, S, V, R>) -> Result<Integrator<M, S, V, R, N>, Error>,
+        solved: Solved<M, S, V, R, N>,
         baseline: impl Fn() -> Vec<f64> + 'static,
     ) -> Pair {
         let (system, start) = (self.system, self.start.clone());
