@@ -230,7 +230,7 @@ fn parts_of_steps_have_an_inside_too() -> Result<(), Error> {
     let run = || {
         // Near the perihelion more sweeps are needed.
         let mut integrator = Integrator::new(Gauss8, Kepler, perihelion(), 0.8)?;
-        integrator.set_max_iterations(16);
+        integrator.set_max_iterations(14);
         integrator.set_retry(Retry::Split { halvings: 5 });
         Ok::<_, Error>(integrator)
     };

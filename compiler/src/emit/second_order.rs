@@ -101,14 +101,16 @@ fn on_grid(value: &BigRational) -> f64 {
 mod tests {
     use super::*;
     use crate::arithmetic::rounding::exact;
-    use crate::catalogue;
+    use crate::{Limits, catalogue};
 
     /// ν_ik − ν_ki = c_i − c_k for every method of the catalogue that has them, in exact arithmetic, and next to what
     /// they are rounded from.
     #[test]
     fn rounded_coefficients_are_symplectic_exactly() {
         let mut methods = 0;
-        for entry in catalogue::entries() {
+        // As many stages as the macros take.
+        let usual = |entry: &catalogue::Entry| entry.stages <= Limits::default().stages;
+        for entry in catalogue::entries().filter(usual) {
             let tableau = entry.derive().expect("derived");
             let numbers = tableau.numbers();
             let graph = StepGraph::new(Class::Separable, &tableau, &numbers);
