@@ -1,7 +1,7 @@
 //! Problems with few components: the stages in lanes.
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Compensated, HamiltonianInLanes, Integrator, Method, Plain, State};
+use symplectic::{Compensated, HamiltonianInLanes, Integrator, Method, Plain, State, Summation};
 use wide::{f64x2, f64x4, f64x8};
 
 use super::{Pair, Problem, rule};
@@ -61,29 +61,35 @@ where
         let (h, steps, tolerance) = (fraction * self.step_size, self.steps, self.tolerance);
         let (system, (q, p)) = (self.by_hand, arrays(&self.start));
         let by_hand = SecondOrder::<L, STAGES>::new(rule, h);
-        pairs.push(self.pair(
-            method,
-            h,
-            steps,
-            Integrator::<_, _, _, Plain>::in_second_order_lanes,
-            move || {
-                let (mut q, mut p) = (q, p);
-                by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
-                [q, p].concat()
-            },
-        ));
+        pairs.push(self.in_lanes::<M, Plain>(method, h, steps, move || {
+            let (mut q, mut p) = (q, p);
+            by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
+            [q, p].concat()
+        }));
         let by_hand = NoDrift::<L, STAGES>::new(rule, h);
-        pairs.push(self.pair(
-            method,
-            h,
-            steps,
-            Integrator::<_, _, _, Compensated>::in_second_order_lanes,
-            move || {
-                let (mut q, mut p) = (Double::new(q), Double::new(p));
-                by_hand.run(&system, (&mut q, &mut p), 1e4 * tolerance, steps);
-                [q.high, p.high].concat()
-            },
-        ));
+        pairs.push(self.in_lanes::<M, Compensated>(method, h, steps, move || {
+            let (mut q, mut p) = (Double::new(q), Double::new(p));
+            by_hand.run(&system, (&mut q, &mut p), 1e4 * tolerance, steps);
+            [q.high, p.high].concat()
+        }));
+    }
+
+    /// A pair with the stages in lanes, without those of the momenta where the system is q'' = f(q).
+    fn in_lanes<M: Method, R: Summation>(
+        &self,
+        method: (&'static str, M),
+        step_size: f64,
+        steps: u64,
+        baseline: impl Fn() -> Vec<f64> + 'static,
+    ) -> Pair {
+        let first = Integrator::new(method.1, self.system, self.start.clone(), step_size);
+        if first.and_then(Integrator::in_second_order_lanes).is_ok() {
+            let solved = Integrator::<_, _, _, R>::in_second_order_lanes;
+            self.pair(method, step_size, steps, solved, baseline)
+        } else {
+            let solved = |integrator: Integrator<_, _, _, R>| Ok(integrator.in_lanes());
+            self.pair(method, step_size, steps, solved, baseline)
+        }
     }
 
     fn splitting<K: Splitting + 'static, M: Method>(
