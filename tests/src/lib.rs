@@ -1,8 +1,6 @@
 //! What the integration tests, the examples and later the report share: [`scenes`] to integrate, [`methods`] to
 //! integrate them with, and how results are measured ([`measure`], [`counting`], [`order`]).
 
-pub mod baseline;
-pub mod contest;
 pub mod counting;
 pub mod drift;
 pub mod measure;

@@ -6,8 +6,8 @@ mod many;
 use symplectic::{Error, Hamiltonian, Integrator, Method, Solver, State, Summation, Vector};
 
 use crate::baseline::systems;
-use crate::measure::largest;
-use crate::scenes::{
+use symplectic_tests::measure::largest;
+use symplectic_tests::scenes::{
     double_pendulum, fput_springs, henon_heiles, kepler, nonseparable, outer_solar_system,
 };
 
@@ -205,9 +205,9 @@ where
 macro_rules! rule {
     ($method:ident) => {
         $crate::baseline::gauss::Rule {
-            a: $crate::methods::$method::A,
-            b: $crate::methods::$method::B,
-            c: $crate::methods::$method::C,
+            a: ::symplectic_tests::methods::$method::A,
+            b: ::symplectic_tests::methods::$method::B,
+            c: ::symplectic_tests::methods::$method::C,
         }
     };
 }

@@ -16,7 +16,7 @@ use symplectic::nalgebra::{DVector, SVector};
 use symplectic::{
     Compensated, Integrator, Method, Plain, Scalar, SeparableHamiltonian, State, Summation, Vector,
 };
-use symplectic_tests::baseline::lanes::{fast_two_sum, two_sum};
+use symplectic_contest::baseline::lanes::{fast_two_sum, two_sum};
 use symplectic_tests::methods::{ForestRuth, VelocityVerlet};
 
 type Outcome = Result<(), Box<dyn Error>>;

@@ -10,7 +10,7 @@ use crate::baseline::gauss::{FirstOrder, Rule, SecondOrder};
 use crate::baseline::lanes::Lanes;
 use crate::baseline::no_drift::{Double, NoDrift, NoDriftGeneral};
 use crate::baseline::systems;
-use crate::methods::{
+use symplectic_tests::methods::{
     BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4, Gauss6, Gauss8, VelocityVerlet,
 };
 

@@ -6,8 +6,8 @@ use symplectic::{Integrator, Method, Plain};
 use super::{Pair, Problem, rule};
 use crate::baseline::chain::{self, Blocks};
 use crate::baseline::explicit::{self, Splitting};
-use crate::methods::{BlanesMoanSrkn14a, ForestRuth, Gauss8, VelocityVerlet};
-use crate::scenes::fput_chain::{FputChain, PARTICLES, start};
+use symplectic_tests::methods::{BlanesMoanSrkn14a, ForestRuth, Gauss8, VelocityVerlet};
+use symplectic_tests::scenes::fput_chain::{FputChain, PARTICLES, start};
 
 type Chain = Problem<FputChain, (), DVector<f64>>;
 

@@ -8,10 +8,10 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use symplectic_tests::baseline::explicit::{self, BlanesMoan, Verlet};
-use symplectic_tests::baseline::gauss::{FirstOrder, Rule, SecondOrder};
-use symplectic_tests::baseline::no_drift::{Double, NoDrift, NoDriftGeneral};
-use symplectic_tests::baseline::{chain, systems};
+use symplectic_contest::baseline::explicit::{self, BlanesMoan, Verlet};
+use symplectic_contest::baseline::gauss::{FirstOrder, Rule, SecondOrder};
+use symplectic_contest::baseline::no_drift::{Double, NoDrift, NoDriftGeneral};
+use symplectic_contest::baseline::{chain, systems};
 use symplectic_tests::methods::Gauss8;
 use symplectic_tests::scenes::{fput_chain, outer_solar_system};
 use wide::f64x8;

@@ -1,7 +1,7 @@
 //! The integrators written by hand, against which the library is timed, integrate what the library integrates.
 
 use symplectic::Error;
-use symplectic_tests::contest::pairs;
+use symplectic_contest::pairs;
 
 #[test]
 fn library_and_baseline_go_to_the_same_states() -> Result<(), Error> {

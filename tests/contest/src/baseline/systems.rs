@@ -1,8 +1,10 @@
 //! The forces of the scenes, over numbers side by side: the same arithmetic, written anew.
 
 use super::lanes::Lanes;
-use crate::scenes::double_pendulum::GRAVITY;
-use crate::scenes::outer_solar_system::{BODIES, BODIES_AT_START, GRAVITATIONAL_CONSTANT};
+use symplectic_tests::scenes::double_pendulum::GRAVITY;
+use symplectic_tests::scenes::outer_solar_system::{
+    BODIES, BODIES_AT_START, GRAVITATIONAL_CONSTANT,
+};
 
 /// A separable system with quadratic kinetic energy.
 pub trait Separable<const N: usize> {

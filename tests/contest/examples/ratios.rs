@@ -10,7 +10,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use symplectic::Error;
-use symplectic_tests::contest::{Run, pairs};
+use symplectic_contest::{Run, pairs};
 
 /// Runs of each.
 const ROUNDS: usize = 101;

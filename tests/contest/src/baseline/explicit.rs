@@ -24,9 +24,9 @@ macro_rules! splitting {
         pub struct $name;
 
         impl Splitting for $name {
-            const LENGTH: usize = $crate::methods::$method::B.len();
-            const KICKS: &'static [f64] = &$crate::methods::$method::B_TILDE;
-            const DRIFTS: &'static [f64] = &$crate::methods::$method::B;
+            const LENGTH: usize = ::symplectic_tests::methods::$method::B.len();
+            const KICKS: &'static [f64] = &::symplectic_tests::methods::$method::B_TILDE;
+            const DRIFTS: &'static [f64] = &::symplectic_tests::methods::$method::B;
             const DRIFT_FIRST: bool = $drift_first;
         }
     )+};

@@ -15,9 +15,9 @@ use symplectic::nalgebra::SVector;
 use symplectic::{
     Compensated, Hamiltonian, Integrator, Method, Plain, SeparableHamiltonian, State, Summation,
 };
-use symplectic_tests::baseline::gauss::{FirstOrder, Rule, SecondOrder};
-use symplectic_tests::baseline::no_drift::{Double, NoDrift, NoDriftGeneral};
-use symplectic_tests::baseline::{chain, explicit, systems};
+use symplectic_contest::baseline::gauss::{FirstOrder, Rule, SecondOrder};
+use symplectic_contest::baseline::no_drift::{Double, NoDrift, NoDriftGeneral};
+use symplectic_contest::baseline::{chain, explicit, systems};
 use symplectic_tests::methods::{BlanesMoanSrkn14a, Gauss8};
 use symplectic_tests::scenes::{
     double_pendulum, fput_chain, fput_springs, henon_heiles, kepler, nonseparable,
