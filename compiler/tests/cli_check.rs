@@ -143,14 +143,14 @@ fn facts_are_neither_hidden_nor_added_nor_left_out() {
             "`stability.p_stable` does not fit: the file has true, the derivation gives false",
         ),
         (
-            "empty.json",
+            "nothing.json",
             &json,
             r#""p_stable": false"#,
             r#""p_stable": false, "l_stable": []"#,
             "`stability.l_stable` does not fit: the file has [], the derivation gives no such entry",
         ),
         (
-            "empty.toml",
+            "nothing.toml",
             &toml,
             "p_stable = false",
             "p_stable = false\nl_stable = {}",
