@@ -375,9 +375,9 @@ pub(crate) fn values<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
             };
             let new = start + increment;
             let component = &mut out.as_mut_slice()[k];
-            let moved = (new - *component).absolute();
+            let moved = (new - *component).abs();
             difference = difference.larger(moved);
-            scale = scale.larger(new.absolute()).larger(start.absolute());
+            scale = scale.larger(new.abs()).larger(start.abs());
             sum += moved;
             *component = new;
         }

@@ -34,9 +34,6 @@ pub trait Lanes: Scalar {
     /// The doubles of the lanes.
     fn to_array(self) -> Self::Array;
 
-    /// The absolute value of each lane.
-    fn absolute(self) -> Self;
-
     /// The larger of two numbers in each lane; either where one of them is NaN.
     fn larger(self, other: Self) -> Self;
 
@@ -215,11 +212,6 @@ macro_rules! lanes {
             #[inline(always)]
             fn to_array(self) -> [f64; $width] {
                 self.0.to_array()
-            }
-
-            #[inline(always)]
-            fn absolute(self) -> Self {
-                Self(self.0.abs())
             }
 
             #[inline(always)]
