@@ -4,11 +4,13 @@ mod phases;
 mod splitting;
 mod unused;
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 pub use phases::{Evaluations, Phases};
 
 use crate::algebra::{Number, StageAlgebra, group_by};
+use crate::arithmetic::roots::compare;
 use crate::coefficients::Coefficients;
 use crate::pair::Pair;
 use crate::tableau::{Tableau, over_algebra};
@@ -118,13 +120,20 @@ impl<'a> StepGraph<'a> {
         let values = |stages: &[Vec<usize>],
                       evaluations: &[Vec<usize>],
                       (matrix, entries): (&A::Matrix, &[Vec<Number<'a>>]),
-                      complement: &A::Matrix| {
-            let rest = algebra.entries(complement);
+                      (complement, weights): (&A::Matrix, &[Number<'a>])| {
             let value = |stages: &Vec<usize>| {
                 let row = stages[0];
+                let rest = OnceCell::new();
+                let differ = |stage: usize| {
+                    let [entry, weight] = [&entries[row][stage], &weights[stage]];
+                    compare(&entry.enclose(0), &weight.enclose(0)).is_some()
+                };
                 // The row of weights is the one of whose complement b_j − a_ij nothing is left.
                 let vanishes = |group: &Vec<usize>| match group.as_slice() {
-                    [single] => rest[row][*single].is_zero(),
+                    [single] if differ(*single) => false,
+                    [single] => {
+                        rest.get_or_init(|| algebra.row(complement, row))[*single].is_zero()
+                    }
                     _ => merged(complement, row, group).is_zero(),
                 };
                 let coefficient = |group: &Vec<usize>| match group.as_slice() {
@@ -186,19 +195,33 @@ impl<'a> StepGraph<'a> {
                 &groups.positions,
                 velocities,
                 (&pair.a, &numbers.a),
-                &adjoint.a,
+                (&adjoint.a, &numbers.b),
             ),
             momenta: values(
                 &groups.momenta,
                 forces,
                 (&pair.a_tilde, &numbers.a_tilde),
-                &adjoint.a_tilde,
+                (&adjoint.a_tilde, &numbers.b_tilde),
             ),
         };
         match class {
             // Each stage is seen by an evaluation of both kinds there.
             Class::General => graph,
             Class::Separable => graph.without_what_is_not_used(),
+        }
+    }
+
+    /// The stages of the tableau that an evaluation belongs to.
+    pub(crate) fn stages_of(&self, evaluation: &Evaluation<'_>) -> Vec<usize> {
+        let position = evaluation.position.map(|i| &self.positions[i].stages);
+        let momentum = evaluation.momentum.map(|i| &self.momenta[i].stages);
+        match (position, momentum) {
+            (Some(first), Some(second)) => {
+                let both = first.iter().filter(|stage| second.contains(stage));
+                both.copied().collect()
+            }
+            (Some(stages), None) | (None, Some(stages)) => stages.clone(),
+            (None, None) => Vec::new(),
         }
     }
 

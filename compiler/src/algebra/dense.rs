@@ -221,8 +221,11 @@ impl<F: Field> StageAlgebra for Dense<F> {
     }
 
     fn entries<'a>(&'a self, m: &'a Matrix<F>) -> Vec<Vec<Number<'a>>> {
-        let row = |row| self.values(Cow::Borrowed(row));
-        m.iter().map(row).collect()
+        (0..m.len()).map(|row| self.row(m, row)).collect()
+    }
+
+    fn row<'a>(&'a self, m: &'a Matrix<F>, row: usize) -> Vec<Number<'a>> {
+        self.values(Cow::Borrowed(&m[row]))
     }
 
     fn exact_sum(&self, f: &Vector<F>) -> Option<String> {

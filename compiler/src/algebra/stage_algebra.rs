@@ -68,6 +68,8 @@ pub trait StageAlgebra: Debug + PartialEq + Sized {
     fn values<'a>(&'a self, f: Cow<'a, Self::Vector>) -> Vec<Number<'a>>;
     /// The entries of a matrix.
     fn entries<'a>(&'a self, m: &'a Self::Matrix) -> Vec<Vec<Number<'a>>>;
+    /// The entries of one row of a matrix.
+    fn row<'a>(&'a self, m: &'a Self::Matrix, row: usize) -> Vec<Number<'a>>;
     /// A readable exact form of `Σ_i f_i`, where there is one.
     fn exact_sum(&self, f: &Self::Vector) -> Option<String>;
     /// Readable exact forms of the values, where there are any.

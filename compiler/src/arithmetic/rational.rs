@@ -3,7 +3,7 @@
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 /// The rational `numerator/denominator`. The denominator must not be zero.
 pub fn ratio(numerator: i64, denominator: i64) -> BigRational {
@@ -94,31 +94,50 @@ fn simplest_until(low: &BigRational, high: &BigRational, bits: u64) -> BigRation
     if high.is_negative() {
         return -simplest_until(&-high, &-low, bits);
     }
+    // Where all is short, without allocations, and with room for the sum of two.
+    let ends = [low.numer(), low.denom(), high.numer(), high.denom()];
+    let short = |end: &BigInt| (end.bits() < 126).then(|| end.to_u128()).flatten();
+    if let [Some(a), Some(b), Some(c), Some(d)] = ends.map(short) {
+        let (p, q) = simplest([a, b], [c, d], |x| {
+            128 - u64::from(x.leading_zeros()) > bits
+        });
+        return BigRational::new_raw(p.into(), q.into());
+    }
+    let [a, b, c, d] = ends.map(BigInt::clone);
+    let (p, q) = simplest([a, b], [c, d], |x| x.bits() > bits);
+    BigRational::new_raw(p, q)
+}
+
+/// The simplest fraction between two that are positive, or the first convergent towards it with a part that is too long.
+///
+/// No convergent has longer parts than the ends.
+fn simplest<T: Integer + Clone>(
+    [mut a, mut b]: [T; 2],
+    [mut c, mut d]: [T; 2],
+    is_long: impl Fn(&T) -> bool,
+) -> (T, T) {
     // Continued fractions of both ends agree up to the term where the simplest fraction leaves them.
-    let (mut a, mut b) = (low.numer().clone(), low.denom().clone());
-    let (mut c, mut d) = (high.numer().clone(), high.denom().clone());
-    let (mut p0, mut q0, mut p1, mut q1) =
-        (BigInt::zero(), BigInt::one(), BigInt::one(), BigInt::zero());
+    let (mut p0, mut q0, mut p1, mut q1) = (T::zero(), T::one(), T::one(), T::zero());
+    let next = |term: T, last: &T, before: &T| term * last.clone() + before.clone();
     loop {
         // The ends are a/b ≤ c/d, both positive, and the fraction so far ends in one of them.
         let (floor, remainder) = a.div_rem(&b);
-        let above = &floor + 1u32;
-        let term = if remainder.is_zero() {
-            floor
-        } else if &above * &d <= c {
-            above
+        let above = floor.clone() + T::one();
+        let (term, is_last) = if remainder.is_zero() {
+            (floor.clone(), true)
+        } else if above.clone() * d.clone() <= c {
+            (above, true)
         } else {
-            let (p, q) = (&floor * &p1 + &p0, &floor * &q1 + &q0);
-            (p0, q0, p1, q1) = (p1, q1, p, q);
-            if p1.bits().max(q1.bits()) > bits {
-                return BigRational::new_raw(p1, q1);
-            }
-            let high_remainder = c - floor * &d;
-            // Reciprocals of the fractional parts, which exchanges the ends.
-            (a, b, c, d) = (d, high_remainder, b, remainder);
-            continue;
+            (floor.clone(), false)
         };
-        return BigRational::new(&term * &p1 + p0, term * q1 + q0);
+        let (p, q) = (next(term.clone(), &p1, &p0), next(term, &q1, &q0));
+        if is_last || is_long(&p) || is_long(&q) {
+            return (p, q);
+        }
+        (p0, q0, p1, q1) = (p1, q1, p, q);
+        let high_remainder = c - floor * d.clone();
+        // Reciprocals of the fractional parts, which exchanges the ends.
+        (a, b, c, d) = (d, high_remainder, b, remainder);
     }
 }
 

@@ -175,9 +175,19 @@ enum Refined {
 ///
 /// `polynomial` is the squarefree polynomial that the root was isolated for.
 pub fn enclose(polynomial: &Polynomial, root: &Root, bits: u32) -> Interval {
+    enclose_from(polynomial, root, None, bits)
+}
+
+/// [`enclose`], beginning with a `known` enclosure.
+pub fn enclose_from(
+    polynomial: &Polynomial,
+    root: &Root,
+    known: Option<&Interval>,
+    bits: u32,
+) -> Interval {
     match root {
         Root::Rational(value) => Interval::enclosing(value, bits),
-        Root::Irrational(interval) => match refine(polynomial, interval, bits) {
+        Root::Irrational(interval) => match refine(polynomial, narrower(interval, known), bits) {
             Refined::Exactly(value) => Interval::enclosing(&value, bits),
             Refined::Within(fine) => {
                 // Give back exactly the binary places that were asked for, rounded outward.
@@ -193,6 +203,17 @@ pub fn enclose(polynomial: &Polynomial, root: &Root, bits: u32) -> Interval {
             }
         },
     }
+}
+
+/// A known enclosure of the root in an isolating interval, if it is inside of that: then it has a sign change too.
+fn narrower<'i>(isolating: &'i Interval, known: Option<&'i Interval>) -> &'i Interval {
+    let inside = |known: &&Interval| {
+        known.bits >= isolating.bits && {
+            let finer = known.bits - isolating.bits;
+            &isolating.low << finer <= known.low && known.high <= &isolating.high << finer
+        }
+    };
+    known.filter(inside).unwrap_or(isolating)
 }
 
 /// Narrows an interval with a sign change to a width of at most `2⁻ᵗᵃʳᵍᵉᵗ`.
@@ -303,6 +324,15 @@ mod tests {
         assert!((&narrow.high - &narrow.low) <= BigInt::from(2));
         let square = narrow.multiply(&narrow);
         assert!(square.contains(&ratio(2, 1)));
+        // From there, or from what is not narrower than the interval it was isolated in.
+        let wide = narrow.with_bits(1);
+        for known in [&narrow, &wide] {
+            let finer = enclose_from(&p, &roots[3], Some(known), 400);
+            assert_eq!(
+                finer.with_bits(390),
+                enclose(&p, &roots[3], 400).with_bits(390)
+            );
+        }
     }
 
     #[test]

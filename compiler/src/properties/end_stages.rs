@@ -19,7 +19,7 @@ pub(super) fn stiffly_accurate<A: StageAlgebra>(examined: &Examined<'_, A>) -> P
     let last = algebra.stages() - 1;
     // b_j − a_ij is a matrix whose last row is in question.
     let residual = examined.pair.adjoint().a;
-    let differences = algebra.entries(&residual).swap_remove(last);
+    let differences = algebra.row(&residual, last);
     match vanishing(&differences) {
         Ok(evidence) => Property::holding(evidence, None),
         Err(j) => Property::refuted(format!(

@@ -183,18 +183,22 @@ pub(crate) fn vanishing_matrix<A: StageAlgebra>(
     algebra: &A,
     residual: &A::Matrix,
 ) -> Result<Evidence, Entry> {
-    let numbers = algebra.entries(residual);
-    vanishing(numbers.iter().flatten()).map_err(|index| {
-        let (i, j) = (index / algebra.stages(), index % algebra.stages());
-        let exact = algebra.exact_entries(residual)[i].swap_remove(j);
-        Entry {
-            index: subscript(i + 1, j + 1),
-            transposed: subscript(j + 1, i + 1),
-            row: i + 1,
-            column: j + 1,
-            value: exact.unwrap_or_else(|| shown(&numbers[i][j])),
-        }
-    })
+    let mut evidence = Evidence::Proved;
+    for i in 0..algebra.stages() {
+        let numbers = algebra.row(residual, i);
+        let row = vanishing(&numbers).map_err(|j| {
+            let exact = algebra.exact_entries(residual)[i].swap_remove(j);
+            Entry {
+                index: subscript(i + 1, j + 1),
+                transposed: subscript(j + 1, i + 1),
+                row: i + 1,
+                column: j + 1,
+                value: exact.unwrap_or_else(|| shown(&numbers[j])),
+            }
+        })?;
+        evidence = evidence.and(row);
+    }
+    Ok(evidence)
 }
 
 /// How it is known that a vector vanishes, or its first value that does not with its stage, counted

@@ -24,7 +24,7 @@ pub struct ClosedForm {
 }
 
 /// Candidates with longer numerators or denominators than this are not called short.
-const SHORT_BITS: u64 = 64;
+const SHORT_BITS: u64 = 60;
 
 impl ClosedForm {
     /// A rational number.
@@ -284,6 +284,8 @@ impl Quadratic {
 
 /// The simplest rational in an interval, if it is short.
 pub fn short_rational(interval: &Interval) -> Option<BigRational> {
+    // There are no two short rationals as close as that.
+    let interval = interval.with_bits(interval.bits().min(2 * SHORT_BITS as u32 + 4));
     short_between(&interval.low(), &interval.high(), SHORT_BITS)
 }
 

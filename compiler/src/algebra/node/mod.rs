@@ -21,7 +21,7 @@ use super::StageAlgebra;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::power_sums::power_sums;
-use crate::arithmetic::roots::{Root, enclose, real_roots};
+use crate::arithmetic::roots::{Root, enclose_from, real_roots};
 use crate::error::ErrorKind;
 use crate::expression::{Input, parse_list};
 use crate::symbolic::Constant;
@@ -30,6 +30,9 @@ pub use closed_form::ClosedForm;
 pub(super) use closed_form::short_rational;
 pub use number::NodeNumber;
 pub use tensor::Tensor;
+
+/// Enclosures have multiples of this number of binary places, so that few are computed.
+const ENCLOSURE_STEP: u32 = 64;
 
 /// The algebra `Q[x]/(m)` of functions on the roots of a squarefree polynomial with real roots only.
 ///
@@ -186,8 +189,10 @@ impl NodeAlgebra {
         exact.iter().enumerate().map(node).collect()
     }
 
-    /// Enclosures of all nodes with this number of binary places.
+    /// Enclosures of all nodes with at least this number of binary places.
     pub(crate) fn enclose_nodes(&self, bits: u32) -> Arc<Vec<Interval>> {
+        // What is asked for next often has a few more.
+        let bits = bits.next_multiple_of(ENCLOSURE_STEP);
         let mut cache = self
             .enclosures
             .lock()
@@ -198,13 +203,13 @@ impl NodeAlgebra {
             Some(known) if known.first().is_some_and(|i| i.bits() > bits) => {
                 Arc::new(known.iter().map(|node| node.with_bits(bits)).collect())
             }
-            _ => {
-                let nodes = self
-                    .roots
-                    .iter()
-                    .map(|root| enclose(&self.modulus, root, bits))
-                    .collect();
-                Arc::clone(cache.insert(Arc::new(nodes)))
+            known => {
+                let known = |index: usize| known.as_ref().and_then(|known| known.get(index));
+                let roots = self.roots.iter().enumerate();
+                let nodes =
+                    roots.map(|(i, root)| enclose_from(&self.modulus, root, known(i), bits));
+                let nodes = Arc::new(nodes.collect());
+                Arc::clone(cache.insert(nodes))
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Values of functions of the nodes: algebraic numbers.
 
 use std::borrow::Cow;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -29,8 +29,14 @@ enum Source<'a> {
     Entry(&'a Tensor, usize, usize, Arc<Row>),
 }
 
-/// The finest enclosures so far of the entries of a row, which are computed together.
-type Row = Mutex<Vec<Interval>>;
+/// What is known of the entries of a row.
+#[derive(Debug)]
+struct Row {
+    /// The finest enclosures so far, which are computed together.
+    finest: Mutex<Vec<Interval>>,
+    /// Which of them are zero, as far as that has been asked.
+    zeros: Vec<OnceLock<bool>>,
+}
 
 /// Binary places of the first enclosure, beyond the cancellation that the coefficients suggest.
 const FIRST_BITS: u32 = 192;
@@ -59,21 +65,20 @@ impl<'a> NodeNumber<'a> {
         }
     }
 
-    /// The entries of a matrix.
-    pub fn of_tensor(algebra: &'a NodeAlgebra, tensor: &'a Tensor) -> Vec<Vec<Self>> {
+    /// The entries of one row of a matrix.
+    pub fn of_row(algebra: &'a NodeAlgebra, tensor: &'a Tensor, row: usize) -> Vec<Self> {
         let nodes = algebra.enclose_nodes(FIRST_BITS + tensor.bits());
-        (0..algebra.dimension())
-            .map(|row| {
-                let starts = tensor.enclose_row(&nodes, row);
-                let finest = Arc::new(Mutex::new(starts.clone()));
-                let number = |(column, start)| NodeNumber {
-                    algebra,
-                    source: Source::Entry(tensor, row, column, Arc::clone(&finest)),
-                    start,
-                };
-                starts.into_iter().enumerate().map(number).collect()
-            })
-            .collect()
+        let starts = tensor.enclose_row(&nodes, row);
+        let known = Arc::new(Row {
+            zeros: vec![OnceLock::new(); starts.len()],
+            finest: Mutex::new(starts.clone()),
+        });
+        let number = |(column, start)| NodeNumber {
+            algebra,
+            source: Source::Entry(tensor, row, column, Arc::clone(&known)),
+            start,
+        };
+        starts.into_iter().enumerate().map(number).collect()
     }
 
     /// An enclosure with at least this many binary places.
@@ -88,9 +93,9 @@ impl<'a> NodeNumber<'a> {
                 let bits = bits + magnitude_bits(element);
                 self.algebra.enclose_nodes(bits)[*node].evaluate(element)
             }
-            Source::Entry(tensor, row, column, finest) => {
+            Source::Entry(tensor, row, column, known) => {
                 let bits = bits + tensor.bits();
-                let mut finest = finest.lock().unwrap_or_else(PoisonError::into_inner);
+                let mut finest = known.finest.lock().unwrap_or_else(PoisonError::into_inner);
                 if finest[*column].bits() < bits {
                     *finest = tensor.enclose_row(&self.algebra.enclose_nodes(bits), *row);
                 }
@@ -110,6 +115,8 @@ impl<'a> NodeNumber<'a> {
                 &(&**element - &Polynomial::constant(value.clone())),
                 *node,
             ),
+            Source::Entry(tensor, row, column, known) if value.is_zero() => *known.zeros[*column]
+                .get_or_init(|| entry_vanishes(self.algebra, tensor, *row, *column)),
             Source::Entry(tensor, row, column, _) => {
                 let shifted = tensor.subtract(&Tensor::from_products(
                     self.algebra,

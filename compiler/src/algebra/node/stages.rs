@@ -106,13 +106,15 @@ impl StageAlgebra for NodeAlgebra {
     }
 
     fn entries<'a>(&'a self, m: &'a Tensor) -> Vec<Vec<Number<'a>>> {
+        (0..self.dimension()).map(|row| self.row(m, row)).collect()
+    }
+
+    fn row<'a>(&'a self, m: &'a Tensor, row: usize) -> Vec<Number<'a>> {
         if m.is_zero() {
-            let row = vec![Number::Rational(BigRational::default()); self.dimension()];
-            return vec![row; self.dimension()];
+            return vec![Number::Rational(BigRational::default()); self.dimension()];
         }
-        let rows = NodeNumber::of_tensor(self, m).into_iter();
-        rows.map(|row| row.into_iter().map(Number::Node).collect())
-            .collect()
+        let entries = NodeNumber::of_row(self, m, row);
+        entries.into_iter().map(Number::Node).collect()
     }
 
     fn exact_sum(&self, f: &Polynomial) -> Option<String> {
