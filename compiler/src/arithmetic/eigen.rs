@@ -7,7 +7,7 @@ use super::rounding::{exact, to_f64};
 pub type Rows = Vec<Vec<Fixed>>;
 
 /// A similarity `X⁻¹ B X` of a real matrix `B` to blocks on the diagonal.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Blocks {
     /// An eigenvalue `(α, ω)` a block: `α` where `ω` is zero, otherwise `[[α, −ω], [ω, α]]` with `ω > 0`.
     pub values: Vec<(Fixed, Fixed)>,
@@ -15,6 +15,42 @@ pub struct Blocks {
     pub vectors: Rows,
     /// `X⁻¹`
     pub inverse: Rows,
+}
+
+impl Blocks {
+    /// Those of the square of the matrix.
+    #[must_use]
+    pub fn squared(mut self) -> Self {
+        let mut values = Vec::new();
+        let mut column = 0;
+        for (re, im) in &self.values {
+            let square = re.multiply(re).subtract(&im.multiply(im));
+            if im.vanishes() {
+                values.push((square, Fixed::zero()));
+                column += 1;
+                continue;
+            }
+            let product = re.multiply(im);
+            let double = product.add(&product);
+            if double.vanishes() {
+                // −ω² twice.
+                values.extend([(square.clone(), Fixed::zero()), (square, Fixed::zero())]);
+            } else {
+                if double < Fixed::zero() {
+                    // With −ω it is the block of the other one of the two conjugate vectors.
+                    for row in &mut self.vectors {
+                        row[column + 1] = row[column + 1].negate();
+                    }
+                    for entry in &mut self.inverse[column + 1] {
+                        *entry = entry.negate();
+                    }
+                }
+                values.push((square, double.abs()));
+            }
+            column += 2;
+        }
+        Blocks { values, ..self }
+    }
 }
 
 /// Sweeps over the roots of a polynomial, beyond which they are not looked for.
@@ -294,6 +330,10 @@ mod tests {
     fn check(entries: &[&[i64]], expected: &[(i64, i64)]) {
         let matrix = matrix(entries);
         let blocks = diagonalise(&matrix).expect("diagonalisable");
+        check_blocks(&matrix, &blocks, expected);
+    }
+
+    fn check_blocks(matrix: &Rows, blocks: &Blocks, expected: &[(i64, i64)]) {
         let values = blocks.values.iter();
         let values: Vec<_> = values
             .map(|(re, im)| (re.rational(), im.rational()))
@@ -321,7 +361,7 @@ mod tests {
             k += 1;
         }
         let (left, right) = (
-            product(&matrix, &blocks.vectors),
+            product(matrix, &blocks.vectors),
             product(&blocks.vectors, &diagonal),
         );
         let unit = product(&blocks.inverse, &blocks.vectors);
@@ -345,6 +385,20 @@ mod tests {
             &[&[1, 1, 1], &[1, 1, 1], &[1, 1, 1]],
             &[(0, 0), (0, 0), (3, 0)],
         );
+    }
+
+    #[test]
+    fn blocks_of_squares() {
+        let check = |entries: &[&[i64]], expected: &[(i64, i64)]| {
+            let matrix = matrix(entries);
+            let blocks = diagonalise(&matrix).expect("diagonalisable").squared();
+            check_blocks(&product(&matrix, &matrix), &blocks, expected);
+        };
+        check(&[&[1, 1], &[0, 3]], &[(1, 0), (9, 0)]);
+        check(&[&[0, -1], &[1, 0]], &[(-1, 0), (-1, 0)]);
+        // (1 ± 2i)² = −3 ± 4i, and (−1 ± 2i)² = −3 ∓ 4i.
+        check(&[&[3, -2, 0], &[4, -1, 0], &[7, 5, 9]], &[(-3, 4), (81, 0)]);
+        check(&[&[-3, 2, 0], &[-4, 1, 0], &[7, 5, 9]], &[(-3, 4), (81, 0)]);
     }
 
     #[test]

@@ -54,7 +54,7 @@ impl<'n, 'a> StagePolynomials<'n, 'a> {
             Node::Force(_) => &graph.forces,
             _ => &graph.velocities,
         };
-        let groups: Vec<_> = evaluations.iter().map(|e| stages(graph, e)).collect();
+        let groups: Vec<_> = evaluations.iter().map(|e| graph.stages_of(e)).collect();
         let count = nodes.times.len();
         if groups.iter().map(Vec::len).sum::<usize>() != count {
             return None;
@@ -83,20 +83,6 @@ impl<'n, 'a> StagePolynomials<'n, 'a> {
             rows: rows?,
             order: count.min(stage_order + 1) + 1,
         })
-    }
-}
-
-/// The stages of the tableau that an evaluation belongs to.
-fn stages(graph: &StepGraph<'_>, evaluation: &Evaluation<'_>) -> Vec<usize> {
-    let position = evaluation.position.map(|i| &graph.positions[i].stages);
-    let momentum = evaluation.momentum.map(|i| &graph.momenta[i].stages);
-    match (position, momentum) {
-        (Some(first), Some(second)) => {
-            let both = first.iter().filter(|stage| second.contains(stage));
-            both.copied().collect()
-        }
-        (Some(stages), None) | (None, Some(stages)) => stages.clone(),
-        (None, None) => Vec::new(),
     }
 }
 

@@ -3,8 +3,9 @@
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::to_f64;
-use crate::schedule::Evaluation;
+use crate::schedule::{Evaluation, Node, StepGraph};
 
+use super::known::{Extrapolation, Half, Known};
 use super::relative::decide;
 
 /// The matrix that takes the increments `h w_j f_j` of a step to those of the next one of the same size.
@@ -15,8 +16,23 @@ use super::relative::decide;
 /// E_ij = (w_i/w_j) Π_{k≠j} (1 + c_i − c_k)/(c_j − c_k)
 /// ```
 ///
-/// Correctly rounded; `None` where times coincide, as far as is known.
-pub(super) fn matrix(evaluations: &[&Evaluation<'_>]) -> Option<Vec<Vec<f64>>> {
+/// Correctly rounded; `None` where times coincide, as far as is known. `kind` says which evaluations they are, whatever
+/// its index.
+pub(super) fn matrix(
+    graph: &StepGraph<'_>,
+    kind: Node,
+    evaluations: &[&Evaluation<'_>],
+    known: &Known,
+) -> Extrapolation {
+    let half = match kind {
+        Node::Force(_) => Half::Momenta,
+        _ => Half::Positions,
+    };
+    let stages = evaluations.iter().map(|e| graph.stages_of(e)).collect();
+    known.extrapolation(half, stages, || compute(evaluations))
+}
+
+fn compute(evaluations: &[&Evaluation<'_>]) -> Option<Vec<Vec<f64>>> {
     let first = Enclosed::new(evaluations, 0);
     let entry = |i: usize, j: usize| {
         let enclose = |bits| match bits <= first.bits {

@@ -9,6 +9,7 @@
 
 mod extension;
 mod extrapolation;
+mod known;
 mod literal;
 mod plan;
 mod relative;

@@ -8,6 +8,7 @@
 
 use num_rational::BigRational;
 
+use super::known::Known;
 use crate::algebra::{Number, ROUNDING_BITS, ZERO_BITS};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
@@ -37,6 +38,12 @@ impl Rounded {
         single: 1.0,
     };
 
+    const HALF: Self = Rounded {
+        double: 0.5,
+        low: 0.0,
+        single: 0.5,
+    };
+
     /// 1 minus the number, where that is exact in doubles: from 1/2 to 2⁵³. In singles it is to 2²⁴.
     fn complement(self) -> Option<Self> {
         let exact = (0.5..9_007_199_254_740_992.0).contains(&self.double);
@@ -60,7 +67,7 @@ pub struct Relative {
 impl Relative {
     /// The relative coefficients; `None` where the method is not symplectic, where a weight is zero, or so small that
     /// a quotient has no exact complement.
-    pub fn new(graph: &StepGraph<'_>) -> Option<Self> {
+    pub(super) fn new(graph: &StepGraph<'_>, known: &Known) -> Option<Self> {
         let evaluations = || graph.velocities.iter().chain(&graph.forces);
         if evaluations().any(|evaluation| evaluation.weight.is_zero()) {
             return None;
@@ -73,9 +80,17 @@ impl Relative {
         for (f, force) in graph.forces.iter().enumerate() {
             for (v, velocity) in graph.velocities.iter().enumerate() {
                 let (position, momentum) = (force.position?, velocity.momentum?);
-                let (mu, mu_tilde) = complements(
-                    (&graph.positions[position].coefficients[v], &velocity.weight),
-                    (&graph.momenta[momentum].coefficients[f], &force.weight),
+                let (row, row_tilde) = (&graph.positions[position], &graph.momenta[momentum]);
+                let (mu, mu_tilde) = known.complements(
+                    (row.stages.clone(), graph.stages_of(velocity)),
+                    (row_tilde.stages.clone(), graph.stages_of(force)),
+                    |same| {
+                        complements(
+                            (&row.coefficients[v], &velocity.weight),
+                            (&row_tilde.coefficients[f], &force.weight),
+                            same,
+                        )
+                    },
                 )?;
                 relative.positions[position][v] = mu;
                 relative.momenta[momentum][f] = mu_tilde;
@@ -88,14 +103,18 @@ impl Relative {
 /// A coefficient and the weight that it is relative to.
 type Fraction<'n> = (&'n Number<'n>, &'n Number<'n>);
 
-/// Two quotients the sum of which is 1, rounded so that it stays 1; `None` where it is not.
-fn complements(mu: Fraction<'_>, mu_tilde: Fraction<'_>) -> Option<(Rounded, Rounded)> {
+/// Two quotients the sum of which is 1, rounded so that it stays 1; `None` where it is not. If they are the `same`, they
+/// are 1/2, which no enclosure tells.
+fn complements(mu: Fraction<'_>, mu_tilde: Fraction<'_>, same: bool) -> Option<(Rounded, Rounded)> {
     let enclosure = quotient(mu, 0)?;
     if !enclosure
         .add(&quotient(mu_tilde, 0)?)
         .contains(&ratio(1, 1))
     {
         return None;
+    }
+    if same {
+        return Some((Rounded::HALF, Rounded::HALF));
     }
     if mu.0.is_zero() {
         return Some((Rounded::ZERO, Rounded::ONE));
@@ -181,9 +200,10 @@ mod tests {
         for entry in catalogue::entries().filter(usual) {
             let tableau = entry.derive().expect("derived");
             let numbers = tableau.numbers();
+            let known = Known::new(&tableau);
             for class in [Class::General, Class::Separable] {
                 let graph = StepGraph::new(class, &tableau, &numbers);
-                let Some(relative) = Relative::new(&graph) else {
+                let Some(relative) = Relative::new(&graph, &known) else {
                     // With equal weights, a symplectic method has this form.
                     assert!(!tableau.properties().symplectic.holds, "{}", entry.name);
                     continue;

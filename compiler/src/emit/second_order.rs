@@ -15,12 +15,13 @@
 //! with a symmetric S, which is the condition of Suris (1989) for symplecticity. It holds exactly for rounded coefficients
 //! too, if c and S are rounded to multiples of a power of two: the differences are exact.
 
+use num_integer::Integer;
 use num_rational::BigRational;
 
 use super::relative::decide;
 use crate::algebra::Number;
 use crate::arithmetic::interval::Interval;
-use crate::arithmetic::rational::ratio;
+use crate::arithmetic::rational::{dyadic, ratio};
 use crate::arithmetic::rounding::to_f64;
 use crate::schedule::{Class, StepGraph};
 
@@ -37,8 +38,8 @@ pub struct SecondOrder {
 }
 
 impl SecondOrder {
-    /// The coefficients of a symplectic method with the weights `Σ b_j = 1`; `None` where they are not, where a weight
-    /// is zero, or where a coefficient is 2 or more.
+    /// The coefficients of a method, which has to be symplectic, with the weights `Σ b_j = 1`; `None` where they are not,
+    /// where a weight is zero, or where a coefficient is 2 or more.
     pub fn new(graph: &StepGraph<'_>) -> Option<Self> {
         if graph.class != Class::Separable {
             return None;
@@ -93,8 +94,10 @@ fn sum(mut intervals: impl Iterator<Item = Interval>) -> Option<Interval> {
 
 /// The multiple of 2^-[`PLACES`] nearest to a number.
 fn on_grid(value: &BigRational) -> f64 {
-    let scale = BigRational::from_integer(num_bigint::BigInt::from(1) << PLACES);
-    to_f64(&((value * &scale).round() / scale))
+    // The whole part of twice the number and a half.
+    let scaled = (value.numer() << (PLACES + 1)) + value.denom();
+    let nearest = scaled.div_floor(&(value.denom() << 1));
+    to_f64(&dyadic(&nearest, PLACES))
 }
 
 #[cfg(test)]

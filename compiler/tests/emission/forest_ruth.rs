@@ -827,7 +827,7 @@ const _: () = {
                 0.0,
             ],
             extrapolation: &[],
-            polynomial: Self::POSITIONS.polynomial,
+            polynomial: ::core::option::Option::None,
         };
         const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
         #[inline(always)]

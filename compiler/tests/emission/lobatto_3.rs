@@ -622,7 +622,10 @@ const _: () = {
                 &[0.0, (-3.0), (-2.0), (-2.0)],
                 &[1.0, 12.0, 6.0, 6.0],
             ],
-            polynomial: Self::POSITIONS.polynomial,
+            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
+                legendre: &[&[(-3.0), 0.0, 3.0], &[2.0, (-1.0), 2.0]],
+                order: 3,
+            }),
         };
         const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
         #[inline(always)]
@@ -989,30 +992,7 @@ const _: () = {
                 order: 4,
             }),
         };
-        const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
-            count: 3,
-            columns: &[
-                &[1.0, 1.0, 1.0, 1.0],
-                &[(-0.25), 0.5, 1.25, 1.25],
-                &[0.0, 0.0, 0.0, 0.0],
-            ],
-            times: &[0.0, 0.5, 1.0, 1.0],
-            weights: &[
-                0.16666666666666666,
-                0.6666666666666666,
-                0.16666666666666666,
-                0.16666666666666666,
-            ],
-            extrapolation: &[
-                &[0.0, 4.0, 3.0, 3.0],
-                &[0.0, (-3.0), (-2.0), (-2.0)],
-                &[1.0, 12.0, 6.0, 6.0],
-            ],
-            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
-                legendre: &[&[(-3.0), 0.0, 3.0], &[2.0, (-1.0), 2.0]],
-                order: 3,
-            }),
-        };
+        const MOMENTA: ::symplectic::HalfTableau = <Lobatto3General as ::symplectic::StageTableau>::MOMENTA;
         const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::Some(::symplectic::SecondOrderTableau {
             nodes: &[0.0, 0.5, 1.0, 1.0],
             columns: &[

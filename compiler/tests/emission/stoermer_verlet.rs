@@ -286,7 +286,10 @@ const _: () = {
             times: &[0.5, 0.5, 0.5, 0.5],
             weights: &[0.5, 0.5, 0.5, 0.5],
             extrapolation: &[],
-            polynomial: Self::POSITIONS.polynomial,
+            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
+                legendre: &[&[(-1.0), 1.0]],
+                order: 2,
+            }),
         };
         const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
         #[inline(always)]

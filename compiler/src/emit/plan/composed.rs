@@ -4,6 +4,7 @@ use num_rational::BigRational;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use super::super::known::Known;
 use super::{Plan, class_name, literal, of_stages};
 use crate::algebra::{Field, Number, Real, Reals};
 use crate::coefficients::Coefficients;
@@ -16,6 +17,7 @@ pub(super) struct Composed<'a> {
     pub(super) class: Class,
     pub(super) methods: &'a [Tableau],
     pub(super) numbers: &'a [Coefficients<Number<'a>>],
+    pub(super) known: &'a [Known],
     pub(super) substeps: &'a [Substep],
 }
 
@@ -26,7 +28,7 @@ impl Composed<'_> {
         let names: Vec<Ident> = (1..=count).map(|k| format_ident!("{name}{k}")).collect();
         let plans = (0..count).map(|k| {
             let graph = StepGraph::new(self.class, &self.methods[k], &self.numbers[k]);
-            of_stages(&graph, &names[k], None)
+            of_stages(&graph, &names[k], &self.known[k], None)
         });
         let plans: Vec<Plan> = plans.collect();
         let names: Vec<&TokenStream> = plans.iter().map(|plan| &plan.name).collect();

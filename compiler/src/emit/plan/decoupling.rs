@@ -3,6 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::super::known::Known;
 use super::literal;
 use crate::algebra::Number;
 use crate::arithmetic::eigen::{Blocks, Rows, diagonalise, product};
@@ -14,8 +15,8 @@ use crate::schedule::{Class, StageValue, StepGraph};
 const BITS: u32 = 192;
 
 /// The `DECOUPLING` of a `StageTableau`; nothing where there is none.
-pub(super) fn code(graph: &StepGraph<'_>, positions: &[usize], momenta: &[usize]) -> TokenStream {
-    let Some(blocks) = blocks(graph, positions, momenta) else {
+pub(super) fn code(graph: &StepGraph<'_>, known: &Known) -> TokenStream {
+    let Some(blocks) = blocks(graph, known) else {
         return TokenStream::new();
     };
     let rounded = |x: &Fixed| literal::double(to_f64(&x.rational()));
@@ -43,7 +44,9 @@ pub(super) fn code(graph: &StepGraph<'_>, positions: &[usize], momenta: &[usize]
 
 /// The transformation of the stage matrix, which takes velocities to velocities: `Ã A` for a separable system, and
 /// `A = Ã` for a general one.
-fn blocks(graph: &StepGraph<'_>, positions: &[usize], momenta: &[usize]) -> Option<Blocks> {
+fn blocks(graph: &StepGraph<'_>, known: &Known) -> Option<Blocks> {
+    let positions: Vec<usize> = graph.forces.iter().filter_map(|e| e.position).collect();
+    let momenta: Vec<usize> = graph.velocities.iter().filter_map(|e| e.momentum).collect();
     // So that the eigenvalues are about 1: those of A are about 1/(2s).
     let scale = Fixed::integer(2 * momenta.len() as i64);
     let rows = |values: &[StageValue<'_>], indices: &[usize]| -> Rows {
@@ -54,16 +57,24 @@ fn blocks(graph: &StepGraph<'_>, positions: &[usize], momenta: &[usize]) -> Opti
         let row = |&index: &usize| values[index].coefficients.iter().map(entry).collect();
         indices.iter().map(row).collect()
     };
-    let a = rows(&graph.positions, positions);
-    let a_tilde = rows(&graph.momenta, momenta);
-    let (matrix, scale) = if graph.class == Class::Separable {
-        (product(&a_tilde, &a), scale.multiply(&scale))
-    } else {
+    let a = rows(&graph.positions, &positions);
+    let a_tilde = rows(&graph.momenta, &momenta);
+    let equal = a.len() == a_tilde.len() && {
         let mut pairs = a.iter().flatten().zip(a_tilde.iter().flatten());
-        let equal = pairs.all(|(a, a_tilde)| a.subtract(a_tilde).vanishes());
-        (equal.then_some(a)?, scale)
+        pairs.all(|(a, a_tilde)| a.subtract(a_tilde).vanishes())
     };
-    let mut blocks = diagonalise(&matrix)?;
+    let (mut blocks, scale) = match (graph.class, equal) {
+        (Class::General, false) => return None,
+        (Class::General, true) => (known.blocks(a, diagonalise)?, scale),
+        (Class::Separable, true) => {
+            let blocks = known.blocks(a, diagonalise)?;
+            (blocks.squared(), scale.multiply(&scale))
+        }
+        (Class::Separable, false) => {
+            let matrix = product(&a_tilde, &a);
+            (diagonalise(&matrix)?, scale.multiply(&scale))
+        }
+    };
     for (re, im) in &mut blocks.values {
         (*re, *im) = (re.divide(&scale), im.divide(&scale));
     }
@@ -84,13 +95,10 @@ mod tests {
                 .derive()
                 .expect("derived");
             let numbers = tableau.numbers();
+            let known = Known::new(&tableau);
             for (class, expected) in [(Class::General, general), (Class::Separable, separable)] {
                 let graph = StepGraph::new(class, &tableau, &numbers);
-                let positions: Vec<usize> =
-                    graph.forces.iter().filter_map(|e| e.position).collect();
-                let momenta: Vec<usize> =
-                    graph.velocities.iter().filter_map(|e| e.momentum).collect();
-                let blocks = blocks(&graph, &positions, &momenta);
+                let blocks = blocks(&graph, &known);
                 assert_eq!(blocks.is_some(), expected, "{name} {class:?}");
                 let Some(blocks) = blocks else { continue };
                 // Of an even number of stages, all eigenvalues of a Gauss method are complex.

@@ -3,6 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::super::known::Known;
 use super::{index, literal, relative, slot, start, terms_of};
 use crate::algebra::Number;
 use crate::schedule::{Evaluation, Node, StepGraph};
@@ -20,8 +21,8 @@ pub(super) enum Form {
 
 impl Form {
     /// Increments where it can be.
-    pub(super) fn new(graph: &StepGraph<'_>) -> Self {
-        Relative::new(graph).map_or(Form::Weighted, Form::Increments)
+    pub(super) fn new(graph: &StepGraph<'_>, known: &Known) -> Self {
+        Relative::new(graph, known).map_or(Form::Weighted, Form::Increments)
     }
 
     /// The factors and terms of a stage value as two arguments: `weights, [terms]`.

@@ -4,157 +4,239 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::super::extension::{Extension, StagePolynomials};
+use super::super::known::Known;
 use super::form::Form;
 use super::second_order::SecondOrder;
 use super::{decoupling, extrapolation, index, literal};
 use crate::schedule::{Evaluation, Node, StepGraph};
 
-/// The implementation of `StageTableau` for the plan of a step, a type of this name, in the memory of which the `carried`
-/// evaluations are as they are.
-pub(super) fn code(
-    graph: &StepGraph<'_>,
-    form: &Form,
-    name: &Ident,
-    carried: Vec<Node>,
-    polynomials: Option<&StagePolynomials<'_, '_>>,
-) -> TokenStream {
-    let most = graph.forces.len().max(graph.velocities.len());
-    let (lanes, width) = if most <= 4 {
-        ("F64x4", 4)
-    } else {
-        ("F64x8", 8)
-    };
-    let groups = most.div_ceil(width);
-    let positions: Vec<usize> = graph.forces.iter().filter_map(|e| e.position).collect();
-    let momenta: Vec<usize> = graph.velocities.iter().filter_map(|e| e.momentum).collect();
-    let position = |i: usize, j: usize| match form {
-        Form::Increments(relative) => relative.positions[positions[i]][j].double,
-        Form::Weighted => graph.positions[positions[i]].coefficients[j].to_f64(),
-    };
-    let momentum = |i: usize, j: usize| match form {
-        Form::Increments(relative) => relative.momenta[momenta[i]][j].double,
-        Form::Weighted => graph.momenta[momenta[i]].coefficients[j].to_f64(),
-    };
-    let lane_count = groups * width;
-    // The last stage is repeated to fill the lanes.
-    let fill = |count: usize, value: &dyn Fn(usize) -> f64| {
-        let values: Vec<f64> = (0..lane_count).map(|i| value(i.min(count - 1))).collect();
-        literal::array(&values)
-    };
-    let half = |evaluations: &[Evaluation<'_>],
-                others: usize,
-                entry: &dyn Fn(usize, usize) -> f64,
-                polynomial: TokenStream| {
-        let count = evaluations.len();
-        let padded = |value: &dyn Fn(usize) -> f64| fill(count, value);
-        let columns = (0..others).map(|j| padded(&|i| entry(i, j)));
-        let times = padded(&|i| evaluations[i].time.to_f64());
-        let weights = padded(&|i| evaluations[i].weight.to_f64());
-        let matrix = match form {
-            Form::Increments(_) => extrapolation::matrix(&evaluations.iter().collect::<Vec<_>>()),
-            Form::Weighted => None,
+/// How many stages go side by side.
+struct Lanes {
+    name: &'static str,
+    groups: usize,
+    width: usize,
+}
+
+impl Lanes {
+    /// For the larger number of evaluations of a kind.
+    fn new(graph: &StepGraph<'_>) -> Self {
+        let most = graph.forces.len().max(graph.velocities.len());
+        let (name, width) = if most <= 4 {
+            ("F64x4", 4)
+        } else {
+            ("F64x8", 8)
         };
-        let extrapolation = matrix.map(|rows| {
-            let columns = (0..count).map(|j| padded(&|i| rows[i][j]));
-            columns.collect::<Vec<_>>()
-        });
-        let extrapolation = extrapolation.unwrap_or_default();
-        let count = literal::count(count);
+        let groups = most.div_ceil(width);
+        Lanes {
+            name,
+            groups,
+            width,
+        }
+    }
+
+    /// A value for each lane; that of the last stage is repeated to fill them.
+    fn fill(&self, count: usize, value: impl Fn(usize) -> f64) -> Vec<f64> {
+        let lanes = 0..self.groups * self.width;
+        lanes.map(|i| value(i.min(count - 1))).collect()
+    }
+}
+
+/// The stages of one kind from the evaluations of another, with lanes for the stages.
+#[derive(Debug, PartialEq)]
+pub(in super::super) struct HalfTableau {
+    count: usize,
+    /// The column of each evaluation.
+    columns: Vec<Vec<f64>>,
+    times: Vec<f64>,
+    weights: Vec<f64>,
+    /// The columns of the matrix that takes the own evaluations to the next step.
+    extrapolation: Vec<Vec<f64>>,
+    polynomial: Option<Extension>,
+}
+
+impl HalfTableau {
+    fn code(&self) -> TokenStream {
+        let arrays = |columns: &[Vec<f64>]| {
+            let columns = columns.iter().map(|column| literal::array(column));
+            quote!(&[#(&#columns),*])
+        };
+        let count = literal::count(self.count);
+        let columns = arrays(&self.columns);
+        let extrapolation = arrays(&self.extrapolation);
+        let [times, weights] = [&self.times, &self.weights].map(|values| literal::array(values));
+        let polynomial = match &self.polynomial {
+            Some(Extension { rows, order }) => {
+                let legendre = arrays(rows);
+                let order = Literal::usize_unsuffixed(*order);
+                quote!(::core::option::Option::Some(::symplectic::StagePolynomial { legendre: #legendre, order: #order }))
+            }
+            None => quote!(::core::option::Option::None),
+        };
         quote! {
             ::symplectic::HalfTableau {
                 count: #count,
-                columns: &[#(&#columns),*],
+                columns: #columns,
                 times: &#times,
                 weights: &#weights,
-                extrapolation: &[#(&#extrapolation),*],
+                extrapolation: #extrapolation,
                 polynomial: #polynomial,
             }
         }
-    };
-    let second_order = match SecondOrder::new(graph) {
-        Some(SecondOrder { nodes, matrix }) => {
-            let count = nodes.len();
-            let columns = (0..count).map(|k| fill(count, &|i| matrix[i][k]));
-            let rest = fill(count, &|i| 1.0 - nodes[i]);
-            let nodes = fill(count, &|i| nodes[i]);
-            quote! {
-                ::core::option::Option::Some(::symplectic::SecondOrderTableau {
-                    nodes: &#nodes,
-                    columns: &[#(&#columns),*],
-                    rest: &#rest,
-                })
+    }
+}
+
+/// What the matrices are computed from.
+pub(super) struct Matrices<'m, 'g, 'n, 'a> {
+    pub(super) graph: &'m StepGraph<'g>,
+    pub(super) form: &'m Form,
+    pub(super) known: &'m Known,
+    pub(super) polynomials: Option<&'m StagePolynomials<'n, 'a>>,
+}
+
+impl Matrices<'_, '_, '_, '_> {
+    /// The implementation of `StageTableau` for the plan of a step, a type of this name, in the memory of which the
+    /// `carried` evaluations are as they are.
+    pub(super) fn code(&self, name: &Ident, carried: &[Node]) -> TokenStream {
+        let lanes = Lanes::new(self.graph);
+        let [positions, momenta] = self.halves(&lanes);
+        let place = |half: &str| {
+            let half = literal::identifier(half);
+            quote!(<#name as ::symplectic::StageTableau>::#half)
+        };
+        let positions = self
+            .known
+            .written(place("POSITIONS"), positions, HalfTableau::code);
+        let momenta = self
+            .known
+            .written(place("MOMENTA"), momenta, HalfTableau::code);
+        let second_order = self.second_order(&lanes);
+        let decoupling = decoupling::code(self.graph, self.known);
+        let carried = |kind: Node| {
+            let same = std::mem::discriminant(&kind);
+            let own = carried
+                .iter()
+                .filter(|&node| std::mem::discriminant(node) == same);
+            let indices = own.map(|&node| literal::count(index(node)));
+            quote!(&[#(#indices),*])
+        };
+        let [carried_forces, carried_velocities] = [Node::Force(0), Node::Velocity(0)].map(carried);
+        let groups = Literal::usize_unsuffixed(lanes.groups);
+        let lanes = literal::identifier(lanes.name);
+        let increments = self.increments();
+        quote! {
+            impl ::symplectic::StageTableau for #name {
+                type Lanes = ::symplectic::#lanes;
+                type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; #groups];
+
+                const INCREMENTS: bool = #increments;
+                const POSITIONS: ::symplectic::HalfTableau = #positions;
+                const MOMENTA: ::symplectic::HalfTableau = #momenta;
+                const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = #second_order;
+                #decoupling
+
+                #[inline(always)]
+                fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+                    make: impl ::core::ops::FnMut(usize) -> T,
+                ) -> [T; #groups] {
+                    ::core::array::from_fn(make)
+                }
+
+                #[inline(always)]
+                fn stored<V: ::symplectic::Vector>(stages: &Self::Stages<V>) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+                    [
+                        ::symplectic::StoredEvaluations { values: &stages.velocity, carried: #carried_velocities },
+                        ::symplectic::StoredEvaluations { values: &stages.force, carried: #carried_forces },
+                    ]
+                }
             }
         }
-        None => quote!(::core::option::Option::None),
-    };
-    let (of_forces, of_velocities) = (Node::Force(0), Node::Velocity(0));
-    let extension = |kind| polynomials?.extension(graph, kind, matches!(form, Form::Increments(_)));
-    let [force_extension, velocity_extension] = [extension(of_forces), extension(of_velocities)];
-    let polynomial = |extension: &Option<Extension>| match extension {
-        Some(Extension { rows, order }) => {
-            let rows = rows.iter().map(|row| literal::array(row));
-            let order = Literal::usize_unsuffixed(*order);
-            quote!(::core::option::Option::Some(::symplectic::StagePolynomial { legendre: &[#(&#rows),*], order: #order }))
+    }
+
+    fn increments(&self) -> bool {
+        matches!(self.form, Form::Increments(_))
+    }
+
+    /// The positions at which forces are evaluated, and the momenta at which velocities are.
+    fn halves(&self, lanes: &Lanes) -> [HalfTableau; 2] {
+        let graph = self.graph;
+        let position = |i: usize, j: usize| {
+            let value = graph.forces[i].position.unwrap_or_default();
+            match self.form {
+                Form::Increments(relative) => relative.positions[value][j].double,
+                Form::Weighted => graph.positions[value].coefficients[j].to_f64(),
+            }
+        };
+        let momentum = |i: usize, j: usize| {
+            let value = graph.velocities[i].momentum.unwrap_or_default();
+            match self.form {
+                Form::Increments(relative) => relative.momenta[value][j].double,
+                Form::Weighted => graph.momenta[value].coefficients[j].to_f64(),
+            }
+        };
+        let (forces, velocities) = (&graph.forces, &graph.velocities);
+        let columns = |count: usize, others: usize, entry: &dyn Fn(usize, usize) -> f64| {
+            let column = |j| lanes.fill(count, |i| entry(i, j));
+            (0..others).map(column).collect()
+        };
+        [
+            self.half(
+                lanes,
+                (forces, Node::Force(0)),
+                columns(forces.len(), velocities.len(), &position),
+            ),
+            self.half(
+                lanes,
+                (velocities, Node::Velocity(0)),
+                columns(velocities.len(), forces.len(), &momentum),
+            ),
+        ]
+    }
+
+    /// The half with these evaluations at its stages, the kind of which is that of a node.
+    fn half(
+        &self,
+        lanes: &Lanes,
+        (evaluations, kind): (&[Evaluation<'_>], Node),
+        columns: Vec<Vec<f64>>,
+    ) -> HalfTableau {
+        let count = evaluations.len();
+        let matrix = self.increments().then(|| {
+            let evaluations: Vec<_> = evaluations.iter().collect();
+            extrapolation::matrix(self.graph, kind, &evaluations, self.known)
+        });
+        let extrapolation = matrix.flatten().map(|rows| {
+            let column = |j: usize| lanes.fill(count, |i| rows[i][j]);
+            (0..count).map(column).collect()
+        });
+        let extension = |polynomials: &StagePolynomials<'_, '_>| {
+            polynomials.extension(self.graph, kind, self.increments())
+        };
+        HalfTableau {
+            count,
+            columns,
+            times: lanes.fill(count, |i| evaluations[i].time.to_f64()),
+            weights: lanes.fill(count, |i| evaluations[i].weight.to_f64()),
+            extrapolation: extrapolation.unwrap_or_default(),
+            polynomial: self.polynomials.and_then(extension),
         }
-        None => quote!(::core::option::Option::None),
-    };
-    let force_polynomial = polynomial(&force_extension);
-    // Where both halves are the same, the second is the first.
-    let velocity_polynomial = if velocity_extension == force_extension {
-        quote!(Self::POSITIONS.polynomial)
-    } else {
-        polynomial(&velocity_extension)
-    };
-    let position_half = half(
-        &graph.forces,
-        graph.velocities.len(),
-        &position,
-        force_polynomial,
-    );
-    let momentum_half = half(
-        &graph.velocities,
-        graph.forces.len(),
-        &momentum,
-        velocity_polynomial,
-    );
-    let carried = |kind: Node| {
-        let same = std::mem::discriminant(&kind);
-        let own = carried
-            .iter()
-            .filter(|&&node| std::mem::discriminant(&node) == same);
-        let indices = own.map(|&node| literal::count(index(node)));
-        quote!(&[#(#indices),*])
-    };
-    let (carried_forces, carried_velocities) = (carried(of_forces), carried(of_velocities));
-    let lanes = literal::identifier(lanes);
-    let groups = Literal::usize_unsuffixed(groups);
-    let decoupling = decoupling::code(graph, &positions, &momenta);
-    let increments = matches!(form, Form::Increments(_));
-    quote! {
-        impl ::symplectic::StageTableau for #name {
-            type Lanes = ::symplectic::#lanes;
-            type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; #groups];
+    }
 
-            const INCREMENTS: bool = #increments;
-            const POSITIONS: ::symplectic::HalfTableau = #position_half;
-            const MOMENTA: ::symplectic::HalfTableau = #momentum_half;
-            const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = #second_order;
-            #decoupling
-
-            #[inline(always)]
-            fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
-                make: impl ::core::ops::FnMut(usize) -> T,
-            ) -> [T; #groups] {
-                ::core::array::from_fn(make)
-            }
-
-            #[inline(always)]
-            fn stored<V: ::symplectic::Vector>(stages: &Self::Stages<V>) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
-                [
-                    ::symplectic::StoredEvaluations { values: &stages.velocity, carried: #carried_velocities },
-                    ::symplectic::StoredEvaluations { values: &stages.force, carried: #carried_forces },
-                ]
-            }
+    /// The coefficients of a step of a second-order system, where there are some: of symplectic methods.
+    fn second_order(&self, lanes: &Lanes) -> TokenStream {
+        let coefficients = self.increments().then(|| SecondOrder::new(self.graph));
+        let Some(SecondOrder { nodes, matrix }) = coefficients.flatten() else {
+            return quote!(::core::option::Option::None);
+        };
+        let count = nodes.len();
+        let fill = |value: &dyn Fn(usize) -> f64| literal::array(&lanes.fill(count, value));
+        let columns = (0..count).map(|k| fill(&|i| matrix[i][k]));
+        let (times, rest) = (fill(&|i| nodes[i]), fill(&|i| 1.0 - nodes[i]));
+        quote! {
+            ::core::option::Option::Some(::symplectic::SecondOrderTableau {
+                nodes: &#times,
+                columns: &[#(&#columns),*],
+                rest: &#rest,
+            })
         }
     }
 }

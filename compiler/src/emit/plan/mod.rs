@@ -11,6 +11,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::extension::StagePolynomials;
+use super::known::Known;
 use super::{extrapolation, literal, literal::identifier, relative, second_order};
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
@@ -21,6 +22,7 @@ use crate::tableau::Tableau;
 use chain::Chain;
 use composed::Composed;
 use form::Form;
+pub(super) use matrices::HalfTableau;
 use stored::Stored;
 
 /// What the functions of a plan consist of.
@@ -58,15 +60,18 @@ pub(super) fn plans(
     let (methods, substeps) = substeps(&tableau.provenance().definition)?;
     let parts: Vec<_> = methods.iter().map(Tableau::numbers).collect();
     let polynomials = StagePolynomials::new(numbers);
+    let known = Known::new(tableau);
+    let parts_known: Vec<_> = methods.iter().map(Known::new).collect();
     Ok(names.map(|(class, name)| {
         let graph = StepGraph::new(class, tableau, numbers);
         if substeps.len() < 2 || Phases::new(&graph).coupled.is_empty() {
-            return of_stages(&graph, name, Some(&polynomials));
+            return of_stages(&graph, name, &known, Some(&polynomials));
         }
         let composed = Composed {
             class,
             methods: &methods,
             numbers: &parts,
+            known: &parts_known,
             substeps: &substeps,
         };
         Plan {
@@ -88,12 +93,13 @@ fn class_name(class: Class) -> Ident {
 fn of_stages(
     graph: &StepGraph<'_>,
     name: &Ident,
+    known: &Known,
     polynomials: Option<&StagePolynomials<'_, '_>>,
 ) -> Plan {
     if let Some(chain) = Chain::new(graph) {
         return chain.plan(name);
     }
-    let stored = Stored::new(graph, Form::new(graph));
+    let stored = Stored::new(graph, Form::new(graph, known), known);
     let (bodies, matrices) = (stored.bodies(), stored.matrices(name, polynomials));
     let Bodies {
         stages,

@@ -4,25 +4,29 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::super::extension::StagePolynomials;
+use super::super::known::Known;
 use super::form::Form;
-use super::{Bodies, base, evaluation_name, extrapolation, index, literal, matrices, slot, start};
+use super::matrices::Matrices;
+use super::{Bodies, base, evaluation_name, extrapolation, index, literal, slot, start};
 use crate::schedule::{Class, Node, Phases, StageValue, StepGraph};
 
 /// A step that stores its stages.
 pub(super) struct Stored<'g, 'a> {
     graph: &'g StepGraph<'a>,
     form: Form,
+    known: &'g Known,
     phases: Phases<'g, 'a>,
     /// Evaluations at the start of the step that are the same as one at the end of the step before.
     carried: Vec<(Node, Node)>,
 }
 
 impl<'g, 'a> Stored<'g, 'a> {
-    pub(super) fn new(graph: &'g StepGraph<'a>, form: Form) -> Self {
+    pub(super) fn new(graph: &'g StepGraph<'a>, form: Form, known: &'g Known) -> Self {
         let phases = Phases::new(graph);
         Stored {
             graph,
             form,
+            known,
             carried: phases.carried(),
             phases,
         }
@@ -69,8 +73,14 @@ impl<'g, 'a> Stored<'g, 'a> {
     ) -> Option<TokenStream> {
         let coupled = !self.phases.coupled.is_empty();
         coupled.then(|| {
-            let carried = self.carried.iter().map(|&(_, last)| last).collect();
-            matrices::code(self.graph, &self.form, name, carried, polynomials)
+            let carried: Vec<Node> = self.carried.iter().map(|&(_, last)| last).collect();
+            let matrices = Matrices {
+                graph: self.graph,
+                form: &self.form,
+                known: self.known,
+                polynomials,
+            };
+            matrices.code(name, &carried)
         })
     }
 
@@ -147,7 +157,7 @@ impl<'g, 'a> Stored<'g, 'a> {
             .iter()
             .map(|&node| self.graph.evaluation(node))
             .collect();
-        let matrix = extrapolation::matrix(&evaluations)?;
+        let matrix = extrapolation::matrix(self.graph, kind, &evaluations, self.known)?;
         let rows = matrix.iter().map(|row| literal::array(row));
         let indices = nodes.iter().map(|&node| literal::count(index(node)));
         let array = evaluation_name(kind);
