@@ -128,18 +128,18 @@ pub enum Error {
         step_size: f64,
     },
 
-    /// The velocity of a system that is to be taken as one of second order is not its momentum.
+    /// The velocity of a system that is to be taken as one of second order is not linear in the momentum.
     #[error(
-        "component {component} of the velocity is {velocity} where that of the momentum is {momentum}: the system is \
-         not q'' = f(q); take it by `in_lanes`, or scale its coordinates"
+        "component {component} of a velocity is {velocity} where one that is linear in the momentum is {linear}: the \
+         system is not q'' = f(q) up to masses; take it by `in_lanes`"
     )]
     NotSecondOrder {
         /// The component, from 0.
         component: usize,
         /// The velocity there.
         velocity: f64,
-        /// The momentum there.
-        momentum: f64,
+        /// What it would be if it were linear.
+        linear: f64,
     },
 
     /// The system gives no energy, which the generating function is made of.

@@ -142,7 +142,7 @@ where
 }
 
 /// Adds to `out` the part that vanishes at both ends of the step, of the evaluations of one half.
-fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
+pub(crate) fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
     half: &HalfTableau,
     at: Inside,
     terms: &P::Groups<Laned<V, P>>,

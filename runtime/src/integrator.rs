@@ -3,25 +3,23 @@
 use core::convert::Infallible;
 use core::fmt;
 use core::marker::PhantomData;
-use core::mem;
 use core::ops::ControlFlow;
 
 use crate::dense::LastStep;
-use crate::diagnosis::{Attempt, FirstFault};
 use crate::interpolation::Line;
 use crate::stage::is_finite;
 use crate::time::{Clock, uniform};
 use crate::{
-    Class, Compensated, Error, Failure, FixedPoint, Hamiltonian, HamiltonianInLanes, InLanes,
-    Inside, Interpolation, Kept, Method, Outcome, Plain, Plan, Quantity, Retry, Scalar,
-    SecondOrderInLanes, Solver, Span, StageStorage, State, States, Statistics, Step, Summation,
-    Vector, Work, copy,
+    Class, Compensated, Error, FixedPoint, Hamiltonian, HamiltonianInLanes, InLanes, Inside,
+    Interpolation, Kept, Method, Plain, Plan, Quantity, Retry, Scalar, SecondOrderInLanes, Solver,
+    StageStorage, State, States, Statistics, Summation, Vector,
 };
 #[cfg(feature = "alloc")]
-use crate::{GeneratingFunction, generating_function::generating};
+use crate::{GeneratingFunction, Step, generating_function::generating};
 
-/// Steps that are taken in place before what comes out is looked at.
-const BLOCK: u64 = 256;
+mod advance;
+mod blocks;
+mod parts;
 
 /// The plan of the method `M` for the class of the system `S`.
 pub(crate) type PlanOf<M, S, V> = <<S as Hamiltonian<V>>::Class as Class>::Plan<M>;
@@ -164,12 +162,12 @@ impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
         self.with_solver(InLanes)
     }
 
-    /// [`in_lanes`](Self::in_lanes) for a second-order system `q'' = f(q)`, one whose velocity is the momentum: by
-    /// [`SecondOrderInLanes`], which iterates the positions only.
+    /// [`in_lanes`](Self::in_lanes) for a second-order system `q'' = M⁻¹ f(q)`, one whose velocity `M⁻¹ p` is linear in the
+    /// momentum: by [`SecondOrderInLanes`], which iterates the positions only.
     ///
     /// # Errors
     ///
-    /// [`Error::NotSecondOrder`], where the velocity at the state, or next to it, is another vector than the momentum.
+    /// [`Error::NotSecondOrder`], where the velocity is not linear in the momentum, or depends on time.
     pub fn in_second_order_lanes(
         self,
     ) -> Result<Integrator<M, S, V, R, SecondOrderInLanes>, Error> {
@@ -553,252 +551,6 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         self.system.energy(V::Scalar::from_f64(*time), q, p)
     }
 
-    /// Steps of one size by a clock; the last one to the time `end`, if it is given.
-    #[inline]
-    fn advance_by(
-        &mut self,
-        count: u64,
-        size: f64,
-        clock: &mut Clock,
-        end: Option<f64>,
-    ) -> Result<(), Error> {
-        let mut left = count;
-        while left > 0 {
-            // The last step is taken by itself: the state before it stays at hand.
-            let block = (left - 1).min(BLOCK);
-            let ready = self.kept.evaluation && block > 0;
-            if ready && self.advance_in_place(block, size, clock) {
-                left -= block;
-                continue;
-            }
-            // One step to have an evaluation to go on from, or those of the block one by one.
-            for _ in 0..if ready { block } else { 1 } {
-                left -= 1;
-                let time = end.filter(|_| left == 0).unwrap_or_else(|| clock.next());
-                self.advance(size, time)?;
-                clock.tick();
-            }
-        }
-        Ok(())
-    }
-
-    /// Takes some steps in place; `false` where that cannot be, or where something is not finite: then nothing has changed.
-    #[inline]
-    fn advance_in_place(&mut self, steps: u64, size: f64, clock: &mut Clock) -> bool {
-        let Some(evaluations) = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE else {
-            return false;
-        };
-        let (first, last) = (clock.next(), clock.later(steps));
-        if first == self.state.time || clock.later(steps - 1) == last && steps > 1 {
-            return false;
-        }
-        copy(&mut self.next.0, &self.state.q);
-        copy(&mut self.next.1, &self.state.p);
-        if R::COMPENSATED {
-            copy(&mut self.next_low.0, &self.low.0);
-            copy(&mut self.next_low.1, &self.low.1);
-        }
-        for number in 0..steps {
-            // Nothing of this remains where the system does not look at the time.
-            let time = clock.later(number);
-            let State { q, p, .. } = &mut self.state;
-            let (q_low, p_low) = (&mut self.low.0, &mut self.low.1);
-            <PlanOf<M, S, V> as Plan>::take_in_place::<R, V, S, N>(
-                Span { time, size },
-                &self.system,
-                &mut self.memory,
-                Outcome { q, q_low, p, p_low },
-            );
-        }
-        let State { q, p, .. } = &self.state;
-        let dimension = self.next.0.dimension();
-        if self.memory.mismatch(dimension).is_some() || !is_finite(q) || !is_finite(p) {
-            mem::swap(&mut self.state.q, &mut self.next.0);
-            mem::swap(&mut self.state.p, &mut self.next.1);
-            mem::swap(&mut self.low, &mut self.next_low);
-            self.memory = StageStorage::like(&self.state.q);
-            self.kept = Kept::default();
-            return false;
-        }
-        clock.skip(steps);
-        self.state.time = last;
-        self.last_size = size;
-        self.statistics.count_explicit(steps, evaluations);
-        true
-    }
-
-    /// One step of size `size`, to the time `time`. The clock is the caller's.
-    #[inline]
-    pub(crate) fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
-        match self.prepare(size, time) {
-            Ok(work) => {
-                self.accept(size, time, work);
-                Ok(())
-            }
-            Err(error) => self.take_again(size, time, error).map(|_| ()),
-        }
-    }
-
-    /// [`advance`](Self::advance) that shows the step to `see` as long as it does not break: each of its parts, if it has
-    /// to be taken in parts.
-    #[inline]
-    pub(crate) fn advance_in_sight<B>(
-        &mut self,
-        size: f64,
-        time: f64,
-        see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
-    ) -> Result<ControlFlow<B>, Error> {
-        match self.prepare(size, time) {
-            Ok(work) => {
-                self.accept(size, time, work);
-                see(self)
-            }
-            Err(error) => self.take_again_in_sight(size, time, error, see),
-        }
-    }
-
-    /// [`take_again`](Self::take_again), and once more for `see` when it is known in how many parts.
-    #[cold]
-    fn take_again_in_sight<B>(
-        &mut self,
-        size: f64,
-        time: f64,
-        error: Error,
-        see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
-    ) -> Result<ControlFlow<B>, Error> {
-        let (state, low) = (self.state.clone(), self.low.clone());
-        let parts = self.take_again(size, time, error)?;
-        let statistics = self.statistics;
-        (self.state, self.low, self.kept) = (state, low, Kept::default());
-        let seen = self.take_in_parts(size, time, parts, see);
-        self.statistics = statistics;
-        seen
-    }
-
-    /// Takes a step that failed with `error` once more in parts, if it is to be; returns how many.
-    #[cold]
-    fn take_again(&mut self, size: f64, time: f64, error: Error) -> Result<u32, Error> {
-        let of_the_size = matches!(
-            error,
-            Error::NoConvergence { .. } | Error::NonFinite { .. } | Error::SingularMatrix { .. }
-        );
-        if !of_the_size || self.retry == Retry::Never {
-            return Err(error);
-        }
-        let (state, low) = (self.state.clone(), self.low.clone());
-        let statistics = self.statistics;
-        for (failed, parts) in (1..).zip(self.retry.parts()) {
-            let mut unseen = |_: &Self| Ok(ControlFlow::<Infallible>::Continue(()));
-            if self.take_in_parts(size, time, parts, &mut unseen).is_ok() {
-                self.statistics.rejected += failed;
-                return Ok(parts);
-            }
-            self.state = state.clone();
-            self.low = low.clone();
-            self.statistics = statistics;
-        }
-        Err(error)
-    }
-
-    /// Takes a step as several equal ones, which `see` sees until it breaks; where one fails, the state is that before it.
-    fn take_in_parts<B>(
-        &mut self,
-        size: f64,
-        end: f64,
-        parts: u32,
-        see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
-    ) -> Result<ControlFlow<B>, Error> {
-        let mut seen = ControlFlow::Continue(());
-        let part = size / f64::from(parts);
-        let mut clock = Clock::new(self.state.time, part);
-        for number in 1..=parts {
-            let time = if number == parts { end } else { clock.next() };
-            let work = self.prepare(part, time)?;
-            self.accept(part, time, work);
-            clock.tick();
-            if seen.is_continue() {
-                seen = see(self)?;
-            }
-        }
-        Ok(seen)
-    }
-
-    /// Computes a step of size `size`, to the time `time`, into `next`; returns what it took.
-    #[inline]
-    fn prepare(&mut self, size: f64, time: f64) -> Result<Work, Error> {
-        if time == self.state.time {
-            return Err(Error::TimeResolution {
-                time,
-                step_size: size,
-            });
-        }
-        self.attempt(size)
-            .map_err(|failure| self.fail(size, failure))
-    }
-
-    /// Makes the step that [`prepare`](Self::prepare) has computed the present state.
-    #[inline]
-    fn accept(&mut self, size: f64, time: f64, work: Work) {
-        mem::swap(&mut self.state.q, &mut self.next.0);
-        mem::swap(&mut self.state.p, &mut self.next.1);
-        if R::COMPENSATED {
-            mem::swap(&mut self.low, &mut self.next_low);
-        }
-        self.last_time = mem::replace(&mut self.state.time, time);
-        self.statistics.count(work);
-        self.last_size = size;
-        self.kept = Kept {
-            evaluation: true,
-            stages: true,
-        };
-    }
-
-    /// Computes a step into `next` and checks it; returns what it took.
-    #[inline]
-    fn attempt(&mut self, size: f64) -> Result<Work, Option<Failure>> {
-        let kept = Kept {
-            stages: self.kept.stages && size == self.last_size,
-            ..self.kept
-        };
-        let work = <PlanOf<M, S, V> as Plan>::take::<R, V, S, N>(
-            &step(&self.state, &self.low, size),
-            &self.system,
-            &mut self.memory,
-            kept,
-            self.max_iterations,
-            outcome(&mut self.next, &mut self.next_low),
-        )?;
-        let (q1, p1) = &self.next;
-        let dimension = self.state.q.dimension();
-        let sound = self.memory.mismatch(dimension).is_none() && is_finite(q1) && is_finite(p1);
-        if sound { Ok(work) } else { Err(None) }
-    }
-
-    /// Says why a step failed, and forgets everything that it left behind.
-    #[cold]
-    fn fail(&mut self, size: f64, failure: Option<Failure>) -> Error {
-        let attempt = Attempt {
-            time: self.state.time,
-            step_size: size,
-            step: self.statistics.steps + 1,
-            dimension: self.state.q.dimension(),
-        };
-        let mut fault = FirstFault::new(attempt.dimension);
-        if failure.is_none() {
-            <PlanOf<M, S, V> as Plan>::observe::<R, V, S, N, FirstFault>(
-                &step(&self.state, &self.low, size),
-                &self.system,
-                &mut self.memory,
-                outcome(&mut self.next, &mut self.next_low),
-                &mut fault,
-            );
-        }
-        let error = attempt.error(failure, &fault, &self.memory, &self.next.0);
-        self.memory = StageStorage::like(&self.state.q);
-        self.kept = Kept::default();
-        error
-    }
-
     /// The last step, if its stages are still there.
     pub(crate) fn last_step(&self) -> Option<LastStep<'_, V>> {
         self.kept.stages.then_some(LastStep {
@@ -854,30 +606,6 @@ pub(crate) struct NextStep {
     /// Its number, from 1, among all `steps`.
     pub(crate) number: u64,
     pub(crate) steps: u64,
-}
-
-/// A step of size `size` from a state and what it leaves out.
-#[inline(always)]
-const fn step<'a, V>(state: &'a State<V>, low: &'a (V, V), size: f64) -> Step<'a, V> {
-    Step {
-        time: state.time,
-        size,
-        q: &state.q,
-        q_low: &low.0,
-        p: &state.p,
-        p_low: &low.1,
-    }
-}
-
-/// Places for the result of a step.
-#[inline(always)]
-const fn outcome<'a, V>(next: &'a mut (V, V), low: &'a mut (V, V)) -> Outcome<'a, V> {
-    Outcome {
-        q: &mut next.0,
-        q_low: &mut low.0,
-        p: &mut next.1,
-        p_low: &mut low.1,
-    }
 }
 
 pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {

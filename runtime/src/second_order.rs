@@ -3,24 +3,29 @@
 use core::marker::PhantomData;
 
 use crate::fixed_point::{Sweeps, settle};
-use crate::in_lanes::{ByLanes, LaneStages, Sums, entry, extrapolate, fill, lanes, total, values};
+use crate::in_lanes::{
+    ByLanes, LaneStages, Sums, entry, extend, extrapolate, fill, lanes, total, values,
+};
 use crate::kernel::add;
 use crate::{
     Change, Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes,
-    Inside, Kept, Outcome, PartChange, Quantity, Scalar, SecondOrderTableau, Solver, StageTableau,
-    Step, Summation, Vector, Work,
+    Inside, Kept, Lanes, Outcome, PartChange, Quantity, Scalar, SecondOrderTableau, Solver,
+    StageTableau, Step, Summation, Vector, Work,
 };
 
-/// [`InLanes`] for second-order systems `q'' = f(q)`, whose velocity is the momentum: only the positions are iterated, with
-/// the coefficients of a [`SecondOrderTableau`]. Made by
+/// [`InLanes`] for second-order systems `q'' = M⁻¹ f(q)`, whose velocity `M⁻¹ p` is linear in the momentum: only the
+/// positions are iterated, with the coefficients of a [`SecondOrderTableau`]. Made by
 /// [`Integrator::in_second_order_lanes`](crate::Integrator::in_second_order_lanes).
 ///
 /// Methods that have no such coefficients, and systems that are not separable, are taken as by [`InLanes`].
 #[derive(Clone, Copy, Debug)]
 pub struct SecondOrderInLanes(());
 
+/// How far a velocity may be from one that is linear, of the largest component: far more than rounding.
+const TOLERANCE: f64 = 1e-12;
+
 impl SecondOrderInLanes {
-    /// The solver, if the velocity of `system` is the momentum at two points: `p`, and one with other components.
+    /// The solver, if the velocity of `system` is linear in the momentum, `p` and another one, and does not depend on time.
     ///
     /// # Errors
     ///
@@ -30,20 +35,35 @@ impl SecondOrderInLanes {
         V: Vector<Scalar = f64>,
         S: Hamiltonian<V>,
     {
-        let mut point = p.clone();
-        let mut velocity = p.zeros_like();
-        for shift in [0.0, 0.75] {
+        let velocity = |time: f64, momentum: &dyn Fn(usize) -> f64| {
+            let (mut point, mut velocity) = (p.zeros_like(), p.zeros_like());
             for (k, component) in point.as_mut_slice().iter_mut().enumerate() {
-                *component += shift * (k + 1) as f64;
+                *component = momentum(k);
             }
             system.velocity(time, q, &point, &mut velocity);
-            let pairs = velocity.as_slice().iter().zip(point.as_slice());
-            for (component, (&velocity, &momentum)) in pairs.enumerate() {
-                if velocity != momentum {
+            velocity
+        };
+        let first = |k: usize| p.as_slice()[k];
+        let second = |k: usize| 0.75 * (k + 1) as f64;
+        let (v, w) = (velocity(time, &first), velocity(time, &second));
+        let cases = [
+            (velocity(time, &|k| first(k) + second(k)), 1.0, 1.0),
+            (velocity(time, &|k| -2.0 * second(k)), 0.0, -2.0),
+            (velocity(time + 1.0, &second), 0.0, 1.0),
+        ];
+        for (velocity, of_first, of_second) in cases {
+            let linear = |k: usize| of_first * v.as_slice()[k] + of_second * w.as_slice()[k];
+            let sizes = v.as_slice().iter().chain(w.as_slice()).map(|x| x.abs());
+            let bound = TOLERANCE * sizes.fold(0.0, f64::max);
+            for (component, &velocity) in velocity.as_slice().iter().enumerate() {
+                let linear = linear(component);
+                // What is not a number is not within the bound.
+                let near = (velocity - linear).abs() <= bound;
+                if !near {
                     return Err(Error::NotSecondOrder {
                         component,
                         velocity,
-                        momentum,
+                        linear,
                     });
                 }
             }
@@ -93,9 +113,6 @@ where
             tableau,
         };
         let work = settle::<P::Class, f64>(&mut sweeps, kept, max_iterations)?;
-        // The momenta of the stages, for who asks about the inside of the step.
-        sweeps.lanes.momenta();
-        sweeps.lanes.velocities();
         let Outcome { q, q_low, p, p_low } = outcome;
         total::<R, P, V>(
             (p, p_low),
@@ -104,14 +121,23 @@ where
             &P::POSITIONS,
             step.size,
         );
+        // The velocity of what the momentum leaves out, in the place of the result.
         let h = step.size;
+        if R::COMPENSATED {
+            system.velocity(step.time, step.q, step.p_low, q);
+        }
         for k in 0..step.q.dimension().min(step.p.dimension()) {
             let (base, low) = (step.q.as_slice()[k], step.q_low.as_slice()[k]);
-            let (momentum, momentum_low) = (step.p.as_slice()[k], step.p_low.as_slice()[k]);
-            let low = low + h * momentum_low;
+            let low = match R::COMPENSATED {
+                true => low + h * q.as_slice()[k],
+                false => low,
+            };
+            let velocity = entry::<P, V>(&stages.p, 0, k);
             let term = |number: usize| match number.checked_sub(1) {
-                None => h * momentum,
-                Some(stage) => h * (tableau.rest[stage] * entry::<P, V>(&stages.force, stage, k)),
+                None => h * velocity,
+                Some(stage) => {
+                    h * (tableau.rest[stage] * entry::<P, V>(&stages.velocity, stage, k))
+                }
             };
             let (high, rest) = add::<R, f64>(base, low, P::POSITIONS.count + 1, term);
             q.as_mut_slice()[k] = high;
@@ -123,11 +149,28 @@ where
     }
 
     fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside, q: &mut V, p: &mut V) {
-        <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
+        if P::SECOND_ORDER.is_none() || !P::Class::SEPARABLE {
+            return <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
+        }
+        extend::<P, V>(&P::POSITIONS, at, &stages.force, p);
+        let Some(polynomial) = P::MOMENTA.polynomial else {
+            return;
+        };
+        // The velocities at the stages: M⁻¹(p0 + Σ_j μ̃_ij w_j).
+        for stage in 0..P::MOMENTA.count {
+            let factor = at.size * P::MOMENTA.weights[stage] * at.factor(polynomial, stage);
+            for (k, out) in q.as_mut_slice().iter_mut().enumerate() {
+                let part =
+                    |j: usize| P::MOMENTA.columns[j][stage] * entry::<P, V>(&stages.velocity, j, k);
+                let sum: f64 = (0..P::POSITIONS.count).map(part).sum();
+                *out += factor * (entry::<P, V>(&stages.p, 0, k) + sum);
+            }
+        }
     }
 }
 
-/// The positions of the stages alone.
+/// The positions of the stages alone. In the place of the momenta is the velocity at the start, in all lanes, and in that
+/// of the velocities are those of the increments of the momentum.
 struct Positions<'a, P: StageTableau, R, V: Vector, S> {
     lanes: ByLanes<'a, P, R, V, S>,
     tableau: SecondOrderTableau,
@@ -150,13 +193,40 @@ where
             factor: None,
         };
         let h = P::Lanes::from_f64(step.size);
-        let momentum = step.p.as_slice();
+        let start = stages.p.as_ref();
         let increment = |(group, k): (usize, usize), sum: P::Lanes| {
             let node: P::Lanes = lanes(tableau.nodes, group);
-            h * (node * P::Lanes::from_f64(momentum[k]) + sum)
+            h * (node * start[group].as_slice()[k] + sum)
         };
         let base = (step.q, step.q_low);
-        values::<P, R, V>(&sums, &mut stages.q, base, &stages.force, increment)
+        values::<P, R, V>(&sums, &mut stages.q, base, &stages.velocity, increment)
+    }
+
+    /// The velocities of the increments of the momentum.
+    #[inline(always)]
+    fn velocities(&mut self) {
+        let LaneStages {
+            q, velocity, force, ..
+        } = &mut *self.lanes.stages;
+        let groups = q.as_ref().iter().zip(force.as_ref()).zip(velocity.as_mut());
+        for ((q, force), velocity) in groups {
+            let time = P::Lanes::from_f64(self.lanes.step.time);
+            P::Lanes::velocity::<V, S>(self.lanes.system, time, q, force, velocity);
+        }
+    }
+
+    /// The velocity at the start, for all stages.
+    #[inline(always)]
+    fn start(&mut self) {
+        let step = self.lanes.step;
+        let LaneStages { q, p, velocity, .. } = &mut *self.lanes.stages;
+        fill::<P, V>(p, step.p);
+        let groups = q.as_ref().iter().zip(p.as_mut()).zip(velocity.as_mut());
+        for ((q, p), velocity) in groups {
+            let time = P::Lanes::from_f64(step.time);
+            P::Lanes::velocity::<V, S>(self.lanes.system, time, q, p, velocity);
+            p.as_mut_slice().copy_from_slice(velocity.as_slice());
+        }
     }
 }
 
@@ -172,9 +242,9 @@ where
     #[inline(always)]
     fn evaluations(&self) -> EvaluationCounts {
         EvaluationCounts {
-            begin: 0,
+            begin: P::POSITIONS.count as u32 + 1,
             start: 0,
-            sweep: P::POSITIONS.count as u32,
+            sweep: 2 * P::POSITIONS.count as u32,
             finish: 0,
             carried: 0,
         }
@@ -188,8 +258,9 @@ where
             for group in self.lanes.stages.force.as_mut() {
                 group.as_mut_slice().fill(P::Lanes::from_f64(0.0));
             }
-            fill::<P, V>(&mut self.lanes.stages.p, self.lanes.step.p);
         }
+        self.start();
+        self.velocities();
         self.positions();
     }
 
@@ -204,6 +275,7 @@ where
     #[inline(always)]
     fn sweep(&mut self) -> Change {
         self.lanes.forces();
+        self.velocities();
         let q = self.positions();
         // Both halves are this one.
         Change { q, p: q }

@@ -82,13 +82,13 @@ pub struct HalfTableau {
     pub polynomial: Option<StagePolynomial>,
 }
 
-/// The coefficients for second-order systems `q'' = f(q)`, from which the momentum stages are eliminated (Nyström):
+/// The coefficients for second-order systems `q'' = M⁻¹ f(q)`, from which the momentum stages are eliminated (Nyström):
 ///
 /// ```text
-/// Q_i = q0 + h c_i p0 + h Σ_k ν_ik w_k      q1 = q0 + h p0 + h Σ_k (1 − c_k) w_k
+/// Q_i = q0 + h c_i v(p0) + h Σ_k ν_ik v(w_k)      q1 = q0 + h v(p0) + h Σ_k (1 − c_k) v(w_k)
 /// ```
 ///
-/// with the increments `w_k = h b̃_k force_k`. They are rounded so that `ν_ik − ν_ki = c_i − c_k` exactly: the rounded
+/// with the velocity `v(p) = M⁻¹ p` and the increments `w_k = h b̃_k force_k` of the momentum. They are rounded so that `ν_ik − ν_ki = c_i − c_k` exactly: the rounded
 /// method is symplectic too (Suris, 1989).
 #[derive(Clone, Copy, Debug)]
 pub struct SecondOrderTableau {

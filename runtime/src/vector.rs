@@ -36,6 +36,9 @@ pub trait Vector: Clone + Debug + PartialEq + 'static {
     ///
     /// [`Error::Length`] where a vector of this type has another dimension.
     fn from_slice(components: &[Self::Scalar]) -> Result<Self, Error>;
+    /// A vector without components, or the zero vector where their number is fixed: what is left where a vector is moved
+    /// out. No memory is allocated.
+    fn blank() -> Self;
     /// The zero vector of the same dimension.
     fn zeros_like(&self) -> Self;
     /// The zero vector of the same dimension over another scalar.
@@ -73,6 +76,11 @@ impl<T: Scalar, const N: usize> Vector for SVector<T, N> {
     }
 
     #[inline]
+    fn blank() -> Self {
+        SVector::from_element(T::zero())
+    }
+
+    #[inline]
     fn zeros_like(&self) -> Self {
         self.zeros_with()
     }
@@ -106,6 +114,11 @@ impl<T: Scalar> Vector for nalgebra::DVector<T> {
     #[inline]
     fn from_slice(components: &[T]) -> Result<Self, Error> {
         Ok(nalgebra::DVector::from_column_slice(components))
+    }
+
+    #[inline]
+    fn blank() -> Self {
+        nalgebra::DVector::from_element(0, T::zero())
     }
 
     #[inline]

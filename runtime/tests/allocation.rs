@@ -29,7 +29,8 @@ struct Counted<T>(Vec<T>);
 
 impl<T: Scalar> Counted<T> {
     fn new(components: Vec<T>) -> Self {
-        COUNT.set(COUNT.get() + 1);
+        // One without components holds no memory.
+        COUNT.set(COUNT.get() + u64::from(!components.is_empty()));
         Self(components)
     }
 }
@@ -58,6 +59,10 @@ impl<T: Scalar> Vector for Counted<T> {
 
     fn from_slice(components: &[T]) -> Result<Self, Error> {
         Ok(Self::new(components.to_vec()))
+    }
+
+    fn blank() -> Self {
+        Self(Vec::new())
     }
 
     fn zeros_like(&self) -> Self {

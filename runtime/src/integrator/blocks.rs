@@ -1,0 +1,110 @@
+//! Many steps of one size, in place where that can be.
+
+use core::mem;
+
+use super::{Integrator, PlanOf};
+use crate::stage::is_finite;
+use crate::time::Clock;
+use crate::{
+    Error, Hamiltonian, Kept, Method, Outcome, Plan, Solver, Span, StageStorage, Summation, Vector,
+    copy,
+};
+
+/// Steps of vectors of this dimension that are taken in place before what comes out is looked at: what that costs does not
+/// show beside them, and where something is not finite, few of them are in vain.
+fn block(dimension: usize) -> u64 {
+    (1 << 16) / (dimension as u64).clamp(16, 1 << 10)
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+    Integrator<M, S, V, R, N>
+{
+    /// Steps of one size by a clock; the last one to the time `end`, if it is given.
+    #[inline]
+    pub(super) fn advance_by(
+        &mut self,
+        count: u64,
+        size: f64,
+        clock: &mut Clock,
+        end: Option<f64>,
+    ) -> Result<(), Error> {
+        let mut left = count;
+        while left > 0 {
+            // The last step is taken by itself: the state before it stays at hand.
+            let block = (left - 1).min(block(self.state.q.dimension()));
+            let ready = self.kept.evaluation && block > 0;
+            if ready && self.advance_in_place(block, size, clock) {
+                left -= block;
+                continue;
+            }
+            // One step to have an evaluation to go on from, or those of the block one by one.
+            for _ in 0..if ready { block } else { 1 } {
+                left -= 1;
+                let time = end.filter(|_| left == 0).unwrap_or_else(|| clock.next());
+                self.advance(size, time)?;
+                clock.tick();
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes some steps in place; `false` where that cannot be, or where something is not finite: then nothing has changed.
+    #[inline]
+    fn advance_in_place(&mut self, steps: u64, size: f64, clock: &mut Clock) -> bool {
+        let Some(evaluations) = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE else {
+            return false;
+        };
+        let (first, last) = (clock.next(), clock.later(steps));
+        if first == self.state.time || clock.later(steps - 1) == last && steps > 1 {
+            return false;
+        }
+        // The places are moved out of the memory of the integrator, so that short vectors are in registers from step to
+        // step. The state stays as it is, and nothing of what is left behind is used if the system panics.
+        let before = mem::take(&mut self.kept);
+        let mut q = mem::replace(&mut self.next.0, V::blank());
+        let mut p = mem::replace(&mut self.next.1, V::blank());
+        let mut low = mem::replace(&mut self.next_low, (V::blank(), V::blank()));
+        let mut memory = mem::replace(&mut self.memory, StageStorage::like(&V::blank()));
+        copy(&mut q, &self.state.q);
+        copy(&mut p, &self.state.p);
+        if R::COMPENSATED {
+            copy(&mut low.0, &self.low.0);
+            copy(&mut low.1, &self.low.1);
+        }
+        for number in 0..steps {
+            // Nothing of this remains where the system does not look at the time.
+            let time = clock.later(number);
+            <PlanOf<M, S, V> as Plan>::take_in_place::<R, V, S, N>(
+                Span { time, size },
+                &self.system,
+                &mut memory,
+                Outcome {
+                    q: &mut q,
+                    q_low: &mut low.0,
+                    p: &mut p,
+                    p_low: &mut low.1,
+                },
+            );
+        }
+        let dimension = self.state.q.dimension();
+        let sound = memory.mismatch(dimension).is_none() && is_finite(&q) && is_finite(&p);
+        if !sound {
+            (self.next, self.next_low) = ((q, p), low);
+            self.memory = StageStorage::like(&self.state.q);
+            return false;
+        }
+        self.next.0 = mem::replace(&mut self.state.q, q);
+        self.next.1 = mem::replace(&mut self.state.p, p);
+        self.next_low = mem::replace(&mut self.low, low);
+        self.memory = memory;
+        self.kept = Kept {
+            stages: false,
+            ..before
+        };
+        clock.skip(steps);
+        self.state.time = last;
+        self.last_size = size;
+        self.statistics.count_explicit(steps, evaluations);
+        true
+    }
+}
