@@ -167,7 +167,7 @@ impl Number<'_> {
         self.round(bits, round, Decimal::value)
     }
 
-    /// Rounds by refining the enclosure, with this many binary places at first, until both ends round to
+    /// Rounds by refining the enclosure, where there is more than one, with this many binary places at first, until both ends round to
     /// the same.
     ///
     /// That ends unless the number is zero or the middle between two neighbours of the target format,
@@ -205,7 +205,12 @@ impl Number<'_> {
                 }
                 excluded = Some(middle);
             }
-            interval = self.enclose(interval.bits() * 2);
+            let finer = self.enclose(interval.bits() * 2);
+            // The one enclosure there is: whoever made it says how many bits of it mean something.
+            if matches!(self, Number::Enclosed(_)) && finer.width() >= interval.width() {
+                return round(&finer.middle());
+            }
+            interval = finer;
         }
     }
 }
@@ -222,6 +227,14 @@ mod tests {
     /// Nodes 1/2 ∓ √3/6.
     fn algebra() -> NodeAlgebra {
         NodeAlgebra::new(&Polynomial::from_integers(&[1, -6, 6])).expect("nodes")
+    }
+
+    #[test]
+    fn one_wide_enclosure_is_rounded_to_its_middle() {
+        let third = Number::Enclosed(Ball::quotient(&ratio(1, 3), 20));
+        assert_eq!(third.decimal(3).to_string(), "0.333");
+        assert_eq!(third.decimal(40).to_string().len(), 42);
+        assert!((third.to_f64() - 1.0 / 3.0).abs() < 1e-5);
     }
 
     #[test]
