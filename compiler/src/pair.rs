@@ -6,7 +6,7 @@ use std::sync::Arc;
 use num_rational::BigRational;
 use num_traits::One;
 
-use crate::algebra::{Number, StageAlgebra, Zero};
+use crate::algebra::{Ball, Balls, Dense, Field, Number, Scalar, StageAlgebra, Zero};
 use crate::coefficients::Coefficients;
 
 /// The exact coefficients `a, b` for positions and `ã, b̃` for momenta of
@@ -43,6 +43,100 @@ pub(crate) enum Staircase {
     KicksFirst,
     /// `Q_i` has the drift that is made at `P_i`.
     DriftsFirst,
+}
+
+impl Staircase {
+    /// Whether a stage position has the drift of its own stage in it.
+    pub fn has_own_drift(self) -> bool {
+        self == Staircase::DriftsFirst
+    }
+
+    /// Whether a stage momentum has the kick of its own stage in it.
+    pub fn has_own_kick(self) -> bool {
+        self == Staircase::KicksFirst
+    }
+}
+
+/// The flows of a splitting in the order in which they are made: kicks and drifts in turn, none of no time at either end.
+#[derive(Debug, Clone)]
+pub(crate) struct Flows<T> {
+    /// Whether the first one is a kick.
+    kick_first: bool,
+    /// The fractions of the step.
+    fractions: Vec<T>,
+}
+
+impl<T: PartialEq> Flows<T> {
+    fn new(mut kick_first: bool, mut fractions: Vec<T>, zero: &T) -> Self {
+        while fractions.last() == Some(zero) {
+            fractions.pop();
+        }
+        let start = fractions.iter().take_while(|x| *x == zero).count();
+        fractions.drain(..start);
+        kick_first ^= start % 2 == 1;
+        Flows {
+            kick_first,
+            fractions,
+        }
+    }
+
+    /// Whether they are the same from both ends.
+    pub fn is_palindrome(&self) -> bool {
+        // Both ends are of one kind.
+        self.fractions.len() % 2 == 1 && self.fractions.iter().eq(self.fractions.iter().rev())
+    }
+}
+
+impl<T> Flows<T> {
+    /// The fractions of the step, each with whether it is that of a kick.
+    pub fn iter(&self) -> impl Iterator<Item = (bool, &T)> {
+        let kicks = [self.kick_first, !self.kick_first].into_iter().cycle();
+        kicks.zip(&self.fractions)
+    }
+
+    /// Other numbers in the places of the fractions.
+    pub fn map<U>(&self, each: impl FnMut(&T) -> U) -> Flows<U> {
+        Flows {
+            kick_first: self.kick_first,
+            fractions: self.fractions.iter().map(each).collect(),
+        }
+    }
+
+    /// The first half of an odd number of flows, with half of the one in the middle at its end.
+    pub fn first_half(mut self, halved: impl FnOnce(&T) -> T) -> Self {
+        self.fractions.truncate(self.fractions.len() / 2 + 1);
+        if let Some(middle) = self.fractions.last_mut() {
+            *middle = halved(middle);
+        }
+        self
+    }
+}
+
+impl<F: Field> Pair<Dense<F>> {
+    /// The pair of a splitting with the drifts `b` and the kicks `b̃`.
+    pub(crate) fn of_splitting(
+        field: F,
+        staircase: Staircase,
+        b: Vec<F::Element>,
+        b_tilde: Vec<F::Element>,
+    ) -> Self {
+        let zero = field.rational(&BigRational::default());
+        let rows = |weights: &[F::Element], own: bool| -> Vec<Vec<F::Element>> {
+            let entry = |i: usize, j: usize| match j < i + usize::from(own) {
+                true => weights[j].clone(),
+                false => zero.clone(),
+            };
+            let row = |i: usize| (0..weights.len()).map(|j| entry(i, j)).collect();
+            (0..weights.len()).map(row).collect()
+        };
+        Pair {
+            a: rows(&b, staircase.has_own_drift()),
+            a_tilde: rows(&b_tilde, staircase.has_own_kick()),
+            algebra: Arc::new(Dense::new(field, b.len())),
+            b,
+            b_tilde,
+        }
+    }
 }
 
 impl<A: StageAlgebra> Clone for Pair<A> {
@@ -169,6 +263,42 @@ impl<A: StageAlgebra> Pair<A> {
         } else {
             None
         }
+    }
+
+    /// The pair with enclosures of the coefficients, of this many bits.
+    pub(crate) fn enclosed(&self, bits: u32) -> Pair<Dense<Balls>> {
+        let algebra = &*self.algebra;
+        let vector = |f: &A::Vector| -> Vec<Ball> {
+            let values = algebra.values(Cow::Borrowed(f));
+            values.iter().map(|x| Ball::of(x, bits)).collect()
+        };
+        let (b, b_tilde) = (vector(&self.b), vector(&self.b_tilde));
+        if let Some(staircase) = self.staircase() {
+            return Pair::of_splitting(Balls::new(bits), staircase, b, b_tilde);
+        }
+        let matrix = |m: &A::Matrix| -> Vec<Vec<Ball>> {
+            let row = |row: &Vec<Number<'_>>| row.iter().map(|x| Ball::of(x, bits)).collect();
+            algebra.entries(m).iter().map(row).collect()
+        };
+        Pair {
+            algebra: Arc::new(Dense::new(Balls::new(bits), algebra.stages())),
+            a: matrix(&self.a),
+            a_tilde: matrix(&self.a_tilde),
+            b,
+            b_tilde,
+        }
+    }
+
+    /// The flows of a splitting, by its [`Pair::staircase`].
+    pub(crate) fn flows(&self) -> Option<Flows<Scalar<A>>> {
+        let (kick_first, first, second) = match self.staircase()? {
+            Staircase::KicksFirst => (true, &self.b_tilde, &self.b),
+            Staircase::DriftsFirst => (false, &self.b, &self.b_tilde),
+        };
+        let [first, second] = [first, second].map(|f| self.algebra.functional(f));
+        let fractions = first.into_iter().zip(second).flat_map(<[_; 2]>::from);
+        let zero = self.algebra.constants().rational(&BigRational::default());
+        Some(Flows::new(kick_first, fractions.collect(), &zero))
     }
 
     fn row_sums(&self, matrix: &A::Matrix) -> A::Vector {

@@ -11,6 +11,7 @@ use crate::error::{Error, ErrorKind};
 use crate::expression::{ExpressionKind, Input, parse_list, shown};
 use crate::order::{HamiltonianClass, OrderOptions, listed};
 use crate::properties::{Evidence, Properties, SeparableProperties};
+use crate::stability::StableSteps;
 use crate::tableau::Tableau;
 
 /// A requirement, as it stands in `require: […]`.
@@ -249,27 +250,36 @@ impl Tableau {
             Requirement::PerturbedOrder { exactly, orders } => {
                 return self.require_perturbed(requirement, *exactly, orders, accepted);
             }
-            Requirement::PStable => {
-                let stability = self.stability();
-                let message = format!(
-                    "the method is not `p_stable`: it is stable for hω in {}",
-                    stability.intervals_text()
-                );
-                (stability.p_stable, stability.evidence, message)
-            }
-            Requirement::StableTo(bound) => {
-                let stability = self.stability();
-                let message = format!(
-                    "the method is not stable up to hω = {bound}: it is stable for hω in {}",
-                    stability.intervals_text()
-                );
-                (stability.stable_to(bound), stability.evidence, message)
+            Requirement::PStable | Requirement::StableTo(_) => {
+                let bound = match requirement {
+                    Requirement::StableTo(bound) => Some(bound),
+                    _ => None,
+                };
+                let (steps, holds, evidence) = self.stable_to(bound);
+                let not = match bound {
+                    Some(bound) => format!("stable up to hω = {bound}"),
+                    None => "`p_stable`".to_owned(),
+                };
+                let message = format!("the method is not {not}: it is stable for hω in {steps}");
+                (holds, evidence, message)
             }
         };
         if !holds {
             return Err(refuted(message));
         }
         self.enough(requirement, evidence, accepted)
+    }
+
+    /// The stable steps as text, whether all up to a bound are among them, or all there are, and how that is known.
+    fn stable_to(&self, bound: Option<&BigRational>) -> (String, bool, Evidence) {
+        let steps = self.stable_steps();
+        if let StableSteps::First { interval, evidence } = &steps {
+            let holds = bound.is_some_and(|bound| interval.contains(bound));
+            return (steps.to_string(), holds, *evidence);
+        }
+        let stability = self.stability();
+        let holds = bound.map_or(stability.p_stable, |bound| stability.stable_to(bound));
+        (stability.intervals_text(), holds, stability.evidence)
     }
 
     fn require_order(

@@ -1,7 +1,6 @@
 //! Kicks and drifts one after another as a partitioned Runge–Kutta method.
 
 use std::collections::HashMap;
-use std::sync::Arc;
 
 use num_rational::BigRational;
 
@@ -9,7 +8,7 @@ use super::splitting::Flow;
 use super::tiers::outside;
 use crate::algebra::{Constants, Dense, Field, Real, Reals, Zero};
 use crate::error::ErrorKind;
-use crate::pair::Pair;
+use crate::pair::{Pair, Staircase};
 use crate::symbolic::Constant;
 use crate::tableau::Exact;
 
@@ -163,25 +162,11 @@ impl Sequence {
         let half = |offset: usize| -> Vec<F::Element> {
             values.iter().skip(offset).step_by(2).cloned().collect()
         };
-        let (b_tilde, b) = (half(0), half(1));
-        let rows = |weights: &[F::Element], includes_own: usize| -> Vec<Vec<F::Element>> {
-            let entry = |i: usize, j: usize| match j < i + includes_own {
-                true => weights[j].clone(),
-                false => zero.clone(),
-            };
-            let row = |i: usize| (0..weights.len()).map(|j| entry(i, j)).collect();
-            (0..weights.len()).map(row).collect()
-        };
-        let pair = Pair {
-            algebra: Arc::new(Dense::new(field.clone(), b.len())),
-            a: rows(&b, 0),
-            a_tilde: rows(&b_tilde, 1),
-            b,
-            b_tilde,
-        };
+        let (first, second) = (half(0), half(1));
+        let field = field.clone();
         Some(match layout {
-            Flow::Kick => pair,
-            Flow::Drift => pair.exchanged(),
+            Flow::Kick => Pair::of_splitting(field, Staircase::KicksFirst, second, first),
+            Flow::Drift => Pair::of_splitting(field, Staircase::DriftsFirst, first, second),
         })
     }
 

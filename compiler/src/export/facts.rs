@@ -3,7 +3,9 @@
 use super::json::evidence;
 use crate::order::{ClassOrder, HamiltonianClass, PerturbedOrder, PowerOrder, SymplecticityOrder};
 use crate::properties::{Evidence, Property};
-use crate::stability::{EndPoint, RungeKuttaStability, Stability};
+use crate::stability::{
+    EndPoint, MOST_STAGES, RungeKuttaStability, Stability, StableSteps, evidence_text,
+};
 use crate::tableau::Tableau;
 
 /// A value in a file.
@@ -84,17 +86,25 @@ pub(super) fn sections(
         let entries = vec![("evidence", Text(found.to_owned())), ("bits", bits)];
         order.push((name, Table(entries)));
     }
-    let stability = if tableau.stages() > STABILITY_STAGES {
-        vec![("omitted", Text(omitted()))]
-    } else {
-        stability(&tableau.stability(), digits)
+    let stability = match tableau.stable_steps() {
+        StableSteps::All(found) => stability(&found, digits),
+        StableSteps::First {
+            interval,
+            evidence: known,
+        } => {
+            let (name, _) = evidence(known);
+            let ends = [&interval.low, &interval.high];
+            let ends = ends.map(|end| Text(end.decimal(digits)));
+            vec![
+                ("omitted", Text(omitted("all but the first interval"))),
+                ("first", List(ends.into())),
+                ("evidence", Text(name.to_owned())),
+            ]
+        }
+        StableSteps::NotComputed => vec![("omitted", Text(omitted("all")))],
     };
     [("order", order), ("stability", stability)]
 }
-
-/// Stability of methods with more stages is left out of files: up to here the real roots of polynomials of twice that
-/// degree take a second or two, and with 82 stages several. [`Tableau::stability`] has no such bound.
-pub const STABILITY_STAGES: usize = 36;
 
 /// What a method is for separable Hamiltonians and is not known to be for all: its names in files and for people.
 pub(super) fn separable_only(tableau: &Tableau) -> Vec<(&'static str, &'static str, Property)> {
@@ -122,8 +132,9 @@ pub(super) fn separable_only(tableau: &Tableau) -> Vec<(&'static str, &'static s
         .collect()
 }
 
-fn omitted() -> String {
-    format!("more than {STABILITY_STAGES} stages")
+/// What is left out of stability, and why.
+fn omitted(what: &str) -> String {
+    format!("{what}: more than {MOST_STAGES} stages")
 }
 
 fn class_order(found: &ClassOrder) -> Fact {
@@ -287,11 +298,17 @@ pub(super) fn lines(tableau: &Tableau) -> Vec<String> {
     }
     lines.push(String::new());
     lines.push("stability on the oscillator, ν = hω".to_owned());
-    if tableau.stages() > STABILITY_STAGES {
-        lines.push(format!("  left out: {}", omitted()));
-    } else {
-        let stability = tableau.stability().to_string();
-        lines.extend(stability.lines().map(|line| format!("  {line}")));
+    match tableau.stable_steps() {
+        StableSteps::All(found) => {
+            lines.extend(found.to_string().lines().map(|line| format!("  {line}")));
+        }
+        StableSteps::First { interval, evidence } => {
+            let evidence = evidence_text(evidence);
+            let omitted = omitted("all but the first interval");
+            lines.push(format!("  stable for ν in {interval}, {evidence}"));
+            lines.push(format!("  left out: {omitted}"));
+        }
+        StableSteps::NotComputed => lines.push(format!("  left out: {}", omitted("all"))),
     }
     lines
 }

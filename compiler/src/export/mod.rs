@@ -20,7 +20,6 @@ pub mod text;
 pub mod toml;
 
 pub(crate) use entries::{compare, first_line};
-pub use facts::STABILITY_STAGES;
 
 /// The significant digits of decimals in JSON and TOML, unless another number is asked for.
 pub const DEFAULT_DIGITS: usize = 40;

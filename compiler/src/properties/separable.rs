@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use super::symplectic::decide_matrices;
 use super::{Evidence, Examined, Property, Symmetry};
 use crate::algebra::{Dense, Field, NodeAlgebra, Zero};
-use crate::pair::{Pair, Staircase};
+use crate::pair::Pair;
 use crate::schedule::{Class, Groups};
 
 /// Properties of a method for `H = T(p) + U(q)`, which has them for every `H` or for these only.
@@ -35,7 +35,7 @@ impl SeparableProperties {
 
     /// Decides both. `symmetric` is what is known of symmetry for every Hamiltonian.
     ///
-    /// A splitting is symplectic whatever its coefficients are: with the matrices of a [`Staircase`] one of
+    /// A splitting is symplectic whatever its coefficients are: with the matrices of a [staircase](Pair::staircase) one of
     /// `b_i ã_ij` and `b̃_j a_ji` is `b_i b̃_j`, and the other is zero.
     pub(crate) fn of_pair<A: SeparableSymmetry>(pair: &Pair<A>, symmetric: Property) -> Self {
         let symplectic = match pair.staircase() {
@@ -73,7 +73,8 @@ impl<F: Field + Clone> SeparableSymmetry for Dense<F> {
     /// A method with a stage for each distinct position and one for each distinct momentum is equal to this one for
     /// separable Hamiltonians, and an order of its stages is an order of each kind.
     fn separably_symmetric(pair: &Pair<Self>, _for_all: Property) -> Property {
-        if is_palindrome(pair) {
+        // Flows are their own adjoints.
+        if pair.flows().is_some_and(|flows| flows.is_palindrome()) {
             return Property::holding(Evidence::Proved, None);
         }
         let apart = apart(pair);
@@ -84,27 +85,6 @@ impl<F: Field + Clone> SeparableSymmetry for Dense<F> {
         }
         symmetric
     }
-}
-
-/// Whether the pair is that of a splitting which reads the same from both ends: flows are their own adjoints.
-fn is_palindrome<F: Field>(pair: &Pair<Dense<F>>) -> bool {
-    let (first, second) = match pair.staircase() {
-        Some(Staircase::KicksFirst) => (&pair.b_tilde, &pair.b),
-        Some(Staircase::DriftsFirst) => (&pair.b, &pair.b_tilde),
-        None => return false,
-    };
-    let zero = pair.algebra.field().rational(&BigRational::default());
-    let flows = first.iter().zip(second).flat_map(|(one, next)| [one, next]);
-    let flows: Vec<&F::Element> = flows.collect();
-    // A flow of no time at one of the ends is none.
-    let start = flows.iter().take_while(|x| ***x == zero).count();
-    let end = flows
-        .iter()
-        .rposition(|x| **x != zero)
-        .map_or(start, |i| i + 1);
-    let flows = &flows[start..end];
-    // Both ends are of one kind.
-    flows.len() % 2 == 1 && flows.iter().eq(flows.iter().rev())
 }
 
 /// The distinct position stages of a pair that are used, and then the momentum stages, as stages of their own.

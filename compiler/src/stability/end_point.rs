@@ -24,8 +24,10 @@ pub(super) struct PositiveRoot<P> {
 }
 
 /// A positive real number that is enclosed as narrowly as needed and compared with rationals.
-trait PositiveReal: Debug {
+pub(super) trait PositiveReal: Debug {
+    /// An enclosure with this many binary places, whose width tends to zero as they grow.
     fn enclose(&self, bits: u32) -> Interval;
+    /// Whether it is this number.
     fn equals(&self, value: &BigRational) -> bool;
 }
 
@@ -86,6 +88,14 @@ impl EndPoint {
         EndPoint(Value::SquareRoot {
             text: root.polynomial.square_root_text(&root.root),
             square: Arc::new(root.clone()),
+        })
+    }
+
+    /// The square root of a number that has no short form.
+    pub(super) fn square_root(square: impl PositiveReal + 'static) -> Self {
+        EndPoint(Value::SquareRoot {
+            square: Arc::new(square),
+            text: None,
         })
     }
 

@@ -5,11 +5,10 @@ use std::sync::{Arc, OnceLock};
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::One;
 
 use super::Coefficient;
 use super::budget::Budget;
-use super::isolation::monotonic;
+use super::isolation::{bisect, monotonic};
 use super::polynomial::{RealPolynomial, SHORT};
 use crate::algebra::{Ball, Field, Image, Scalar, StageAlgebra};
 use crate::arithmetic::interval::Interval;
@@ -391,28 +390,7 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
             let value = root.rational().cloned().unwrap_or_default();
             return Interval::enclosing(&value, bits);
         };
-        let Interval {
-            mut low,
-            mut high,
-            bits: mut places,
-        } = interval.clone();
-        let below = self.sign_at(&interval.low());
-        while places < bits || &high - &low > BigInt::one() << (places - bits) {
-            (low, high, places) = (low << 1, high << 1, places + 1);
-            let middle: BigInt = (&low + &high) >> 1;
-            let point = BigRational::new(middle.clone(), BigInt::one() << places);
-            match self.sign_at(&point) {
-                Ordering::Equal => return Interval::enclosing(&point, bits),
-                sign if sign == below => low = middle,
-                _ => high = middle,
-            }
-        }
-        let excess = places - bits;
-        Interval {
-            low: low >> excess,
-            high: -((-high) >> excess),
-            bits,
-        }
+        bisect(interval, bits, |point| self.sign_at(point))
     }
 
     fn square_root_text(&self, root: &Root) -> Option<String> {

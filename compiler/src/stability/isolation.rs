@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 
 use num_bigint::BigInt;
+use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use crate::algebra::Ball;
@@ -19,11 +20,23 @@ pub(super) fn monotonic(coefficients: &[Ball], precision: u32) -> Option<Vec<Int
         0.. => (BigInt::one() << bound, 0),
         _ => (BigInt::one(), u32::try_from(-bound).ok()?),
     };
+    let low = BigInt::zero();
+    monotonic_within(coefficients, &Interval { low, high, bits }, precision)
+}
+
+/// As [`monotonic`], for the roots in one interval without its lower end.
+pub(super) fn monotonic_within(
+    coefficients: &[Ball],
+    interval: &Interval,
+    precision: u32,
+) -> Option<Vec<Interval>> {
+    let Interval { low, high, bits } = interval.clone();
+    let bound = high.bits() as i64 - i64::from(bits);
     let deepest = i64::from(precision) - bound.min(0) + bound.abs();
     let mut found = Vec::new();
-    let whole = local(coefficients, &BigInt::zero(), &high, bits, precision);
+    let whole = local(coefficients, &low, &high, bits, precision);
     // The leftmost on top.
-    let mut pending = vec![(BigInt::zero(), high, bits, whole)];
+    let mut pending = vec![(low, high, bits, whole)];
     while let Some((low, high, bits, shifted)) = pending.pop() {
         let bits_here = bits;
         let sum = |first: usize, weighted: bool| {
@@ -68,6 +81,36 @@ pub(super) fn monotonic(coefficients: &[Ball], precision: u32) -> Option<Vec<Int
         pending.push((low, middle, bits + 1, half(false)));
     }
     Some(found)
+}
+
+/// Narrows an interval at the ends of which a function has different signs, around a root, to this many binary places.
+pub(super) fn bisect(
+    interval: &Interval,
+    bits: u32,
+    sign_at: impl Fn(&BigRational) -> Ordering,
+) -> Interval {
+    let Interval {
+        mut low,
+        mut high,
+        bits: mut places,
+    } = interval.clone();
+    let below = sign_at(&interval.low());
+    while places < bits || &high - &low > BigInt::one() << (places - bits) {
+        (low, high, places) = (low << 1, high << 1, places + 1);
+        let middle: BigInt = (&low + &high) >> 1;
+        let point = BigRational::new(middle.clone(), BigInt::one() << places);
+        match sign_at(&point) {
+            Ordering::Equal => return Interval::enclosing(&point, bits),
+            sign if sign == below => low = middle,
+            _ => high = middle,
+        }
+    }
+    let excess = places - bits;
+    Interval {
+        low: low >> excess,
+        high: -((-high) >> excess),
+        bits,
+    }
 }
 
 /// The coefficients of `f((z ± 1)/2)` from those of `f(y)`: halves of the interval `|y| ≤ 1`, by additions alone. Each
@@ -116,7 +159,7 @@ fn local(
 }
 
 /// An exponent `n` with all roots below `2ⁿ` in size (Fujiwara).
-fn root_bound(coefficients: &[Ball]) -> Option<i64> {
+pub(super) fn root_bound(coefficients: &[Ball]) -> Option<i64> {
     let (leading, rest) = coefficients.split_last()?;
     leading.sign().filter(|sign| sign.is_ne())?;
     let top = leading.magnitude() - 2;

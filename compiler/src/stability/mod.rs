@@ -12,12 +12,14 @@ mod dispersion;
 mod end_point;
 mod field_polynomial;
 mod fraction;
+mod halves;
 mod intervals;
 mod isolation;
 mod oscillator;
 mod polynomial;
 mod resolvent;
 mod runge_kutta;
+mod stable_steps;
 #[cfg(test)]
 mod tests;
 
@@ -33,7 +35,7 @@ use self::field_polynomial::FieldPolynomial;
 use self::fraction::Fraction;
 use self::oscillator::{Parts, Step};
 use self::polynomial::RealPolynomial;
-use crate::algebra::{Ball, Balls, Dense, Field, Number, Scalar, StageAlgebra, ZERO_BITS};
+use crate::algebra::{Field, Number, Scalar, StageAlgebra, ZERO_BITS};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::pair::Pair;
 use crate::properties::Evidence;
@@ -44,6 +46,7 @@ pub(crate) use fraction::superscript;
 pub use fraction::{Coefficient, RationalFunction, Variable};
 pub use intervals::StabilityInterval;
 pub use runge_kutta::RungeKuttaStability;
+pub use stable_steps::{MOST_STAGES, StableSteps};
 
 /// Linear stability of a method.
 #[derive(Debug, Clone)]
@@ -124,29 +127,14 @@ impl Stability {
 
     /// From enclosures of the coefficients with so many bits that what is taken for zero is very small.
     fn enclosed<A: StageAlgebra>(pair: &Pair<A>, equal: bool) -> Self {
-        let algebra = &pair.algebra;
         let mut bits = FEWEST_BITS;
         loop {
-            let vector = |f: &A::Vector| -> Vec<Ball> {
-                let values = algebra.values(std::borrow::Cow::Borrowed(f));
-                values.iter().map(|x| Ball::of(x, bits)).collect()
-            };
-            let matrix = |m: &A::Matrix| -> Vec<Vec<Ball>> {
-                let row = |row: &Vec<Number<'_>>| row.iter().map(|x| Ball::of(x, bits)).collect();
-                algebra.entries(m).iter().map(row).collect()
-            };
-            let balls = Arc::new(Dense::new(Balls::new(bits), algebra.stages()));
-            let pair = Pair {
-                algebra: Arc::clone(&balls),
-                a: matrix(&pair.a),
-                a_tilde: matrix(&pair.a_tilde),
-                b: vector(&pair.b),
-                b_tilde: vector(&pair.b_tilde),
-            };
+            let pair = pair.enclosed(bits);
+            let balls = &pair.algebra;
             let parts = oscillator::parts(&pair);
             let function = equal.then(|| runge_kutta::parts(&pair));
             let budget = Arc::new(Budget::unlimited());
-            let stability = Stability::over(&balls, &budget, &parts, function.as_ref());
+            let stability = Stability::over(balls, &budget, &parts, function.as_ref());
             let verified = balls.field().zero_bits();
             if verified >= ZERO_BITS || bits >= MOST_BITS {
                 let bits = verified.min(ZERO_BITS);
@@ -182,6 +170,14 @@ impl Stability {
             runge_kutta: function.map(|[d, n]| runge_kutta::decide(&d, &n)),
             evidence,
         }
+    }
+
+    /// The interval that begins at zero, of a splitting that reads the same from both ends, however long; what else is known
+    /// of it is left to [`Stability::of_pair`].
+    pub(crate) fn first_interval<A: StageAlgebra + 'static>(
+        pair: &Pair<A>,
+    ) -> Option<StabilityInterval> {
+        halves::first_interval(pair)
     }
 
     /// Whether a step size `ν = hω > 0` is in the set.
@@ -253,9 +249,10 @@ fn rational_polynomial<F: Field>(field: &F, list: &[F::Element]) -> Option<Polyn
     Some(Polynomial::from_rationals(&values?))
 }
 
-fn evidence_text(evidence: Evidence) -> String {
+pub(crate) fn evidence_text(evidence: Evidence) -> String {
     match evidence {
         Evidence::Verified { bits } => format!("verified to 2^-{bits}"),
+        Evidence::Certified => "certified".to_owned(),
         _ => "proved".to_owned(),
     }
 }

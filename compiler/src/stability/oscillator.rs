@@ -7,7 +7,7 @@ use super::fraction::Fraction;
 use super::polynomial::RealPolynomial;
 use super::resolvent::{Resolvent, apply, apply_left, dot};
 use crate::algebra::{Field, Scalar, StageAlgebra};
-use crate::pair::{Pair, Staircase};
+use crate::pair::{Flows, Pair};
 
 /// What the matrix of one step is made of: polynomials in `x`, the constant first.
 ///
@@ -71,8 +71,8 @@ pub(super) fn cost<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
 
 /// The parts over the field of constants.
 pub(super) fn parts<A: StageAlgebra>(pair: &Pair<A>) -> Parts<Vec<Scalar<A>>> {
-    match pair.staircase() {
-        Some(staircase) => parts_of_splitting(pair, staircase),
+    match pair.flows() {
+        Some(flows) => parts_of_splitting(&*pair.algebra, &flows),
         None => parts_of_stages(pair),
     }
 }
@@ -99,54 +99,71 @@ fn parts_of_stages<A: StageAlgebra>(pair: &Pair<A>) -> Parts<Vec<Scalar<A>>> {
     }
 }
 
-/// The parts for a splitting, from the product of its flows: with `D = 1` a drift `d` and a kick `k` are
-///
-/// ```text
-/// ⎛ 1  νd ⎞      ⎛  1   0 ⎞
-/// ⎝ 0   1 ⎠      ⎝ −νk  1 ⎠
-/// ```
+/// The parts for a splitting, with `D = 1`.
 fn parts_of_splitting<A: StageAlgebra>(
-    pair: &Pair<A>,
-    staircase: Staircase,
+    algebra: &A,
+    flows: &Flows<Scalar<A>>,
 ) -> Parts<Vec<Scalar<A>>> {
-    let algebra = &*pair.algebra;
     let field = algebra.constants();
-    let [drifts, kicks] = [&pair.b, &pair.b_tilde].map(|f| algebra.functional(f));
-    let (zero, one) = (BigRational::zero(), BigRational::one());
-    let [zero, one] = [zero, one].map(|value| field.rational(&value));
-    // M11, M12/ν, M21/ν and M22, so that ν² = x is left where two of them meet.
-    let [mut m11, mut m12] = [vec![one.clone()], Vec::new()];
-    let [mut m21, mut m22] = [Vec::new(), vec![one.clone()]];
-    let add = |sum: &mut Vec<Scalar<A>>, factor: &Scalar<A>, list: &[Scalar<A>], shift: usize| {
+    let [zero, one] = [BigRational::zero(), BigRational::one()].map(|x| field.rational(&x));
+    let [mut m11, m12, mut m21, mut m22] = matrix_of_flows(field, flows);
+    let negative = |list: Vec<Scalar<A>>| -> Vec<Scalar<A>> {
+        list.iter().map(|x| field.subtract(&zero, x)).collect()
+    };
+    let kicks = flows.iter().filter(|(is_kick, _)| *is_kick);
+    Parts {
+        b_one: m12,
+        b_c: negative(m11.split_off(1)),
+        ab_one: negative(m22.split_off(1)),
+        b_sum: vec![kicks.fold(zero.clone(), |sum, (_, kick)| field.add(&sum, kick))],
+        ab_c: m21.split_off(m21.len().min(1)),
+        determinant: vec![one],
+    }
+}
+
+/// The matrix of flows one after another: [`product_of_flows`] as polynomials in `x`.
+pub(super) fn matrix_of_flows<F: Field>(
+    field: &F,
+    flows: &Flows<F::Element>,
+) -> [Vec<F::Element>; 4] {
+    let [zero, one] = [BigRational::zero(), BigRational::one()].map(|x| field.rational(&x));
+    let add = |sum: &mut Vec<F::Element>, factor: &F::Element, list: &Vec<F::Element>, shift| {
         sum.resize(sum.len().max(list.len() + shift), zero.clone());
         for (sum, x) in sum[shift..].iter_mut().zip(list) {
             *sum = field.add(sum, &field.multiply(factor, x));
         }
     };
-    for (drift, kick) in drifts.iter().zip(&kicks) {
-        let kick_first = staircase == Staircase::KicksFirst;
-        for is_kick in [kick_first, !kick_first] {
-            if is_kick {
-                let back = field.subtract(&zero, kick);
-                add(&mut m21, &back, &m11, 0);
-                add(&mut m22, &back, &m12, 1);
-            } else {
-                add(&mut m11, drift, &m21, 1);
-                add(&mut m12, drift, &m22, 0);
-            }
+    let negative = |kick: &F::Element| field.subtract(&zero, kick);
+    product_of_flows(flows, [Vec::new(), vec![one]], negative, add)
+}
+
+/// The product of the matrices of drifts `d` and kicks `k`,
+///
+/// ```text
+/// ⎛ 1  νd ⎞      ⎛  1   0 ⎞
+/// ⎝ 0   1 ⎠      ⎝ −νk  1 ⎠
+/// ```
+///
+/// as `M11`, `M12/ν`, `M21/ν` and `M22`, so that `ν² = x` is left where two of them meet: to a sum `add` adds the product
+/// of a factor, another entry and this power of `x`.
+pub(super) fn product_of_flows<E: Clone, T: Clone>(
+    flows: &Flows<E>,
+    [zero, one]: [T; 2],
+    negative: impl Fn(&E) -> E,
+    add: impl Fn(&mut T, &E, &T, usize),
+) -> [T; 4] {
+    let [mut m11, mut m12, mut m21, mut m22] = [one.clone(), zero.clone(), zero, one];
+    for (is_kick, fraction) in flows.iter() {
+        if is_kick {
+            let back = negative(fraction);
+            add(&mut m21, &back, &m11, 0);
+            add(&mut m22, &back, &m12, 1);
+        } else {
+            add(&mut m11, fraction, &m21, 1);
+            add(&mut m12, fraction, &m22, 0);
         }
     }
-    let negative = |list: Vec<Scalar<A>>| -> Vec<Scalar<A>> {
-        list.iter().map(|x| field.subtract(&zero, x)).collect()
-    };
-    Parts {
-        determinant: vec![one.clone()],
-        b_one: m12,
-        b_c: negative(m11.split_off(1)),
-        ab_one: negative(m22.split_off(1)),
-        b_sum: vec![dot(field, &kicks, &vec![one; kicks.len()])],
-        ab_c: m21.split_off(m21.len().min(1)),
-    }
+    [m11, m12, m21, m22]
 }
 
 /// The two lists for two vectors.
@@ -280,9 +297,9 @@ mod tests {
     #[test]
     fn the_product_of_flows_is_what_the_resolvent_says() {
         for pair in [splitting(), splitting().exchanged()] {
-            let staircase = pair.staircase().expect("a splitting");
+            let flows = pair.flows().expect("a splitting");
             let polynomial = |list: &Vec<BigRational>| Some(Polynomial::from_rationals(list));
-            let of_flows = parts_of_splitting(&pair, staircase).map(polynomial);
+            let of_flows = parts_of_splitting(&*pair.algebra, &flows).map(polynomial);
             let of_flows = of_flows.expect("rational");
             let of_stages = parts_of_stages(&pair).map(polynomial).expect("rational");
             assert_eq!(of_flows.determinant, of_stages.determinant);
@@ -294,6 +311,6 @@ mod tests {
         }
         let mut changed = splitting();
         changed.a[2][0] = ratio(1, 3);
-        assert_eq!(changed.staircase(), None);
+        assert!(changed.flows().is_none());
     }
 }

@@ -5,8 +5,8 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
-use symplectic_compiler::export::STABILITY_STAGES;
 use symplectic_compiler::order::HamiltonianClass;
+use symplectic_compiler::stability::StableSteps;
 use symplectic_compiler::{Error, Limits, Tableau, check, export};
 
 use crate::output;
@@ -117,11 +117,9 @@ fn facts(tableau: &Tableau) -> String {
         Some(found) => format!(", perturbed {}", found.numbers()),
         None => String::new(),
     };
-    let stable = if tableau.stages() > STABILITY_STAGES {
-        String::new()
-    } else {
-        let intervals = tableau.stability().intervals_text();
-        format!(", stable for hω in {intervals}")
+    let stable = match tableau.stable_steps() {
+        StableSteps::NotComputed => String::new(),
+        steps => format!(", stable for hω in {steps}"),
     };
     format!(
         "{called} with {stages}, order {}{perturbed}{stable}",

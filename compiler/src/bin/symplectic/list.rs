@@ -3,8 +3,8 @@
 use std::process::ExitCode;
 
 use clap::Args;
-use symplectic_compiler::export::STABILITY_STAGES;
 use symplectic_compiler::order::{HamiltonianClass, OrderReport};
+use symplectic_compiler::stability::StableSteps;
 use symplectic_compiler::{Error, Evidence, FAMILIES, Tableau, catalogue};
 
 use crate::choice::{self, Choice};
@@ -89,11 +89,7 @@ fn facts() -> Result<String, Error> {
         .chain((!properties.symplectic.holds).then_some("separable H only"))
         .chain(less_than_proved(&report))
         .collect();
-        let stable = if tableau.stages() > STABILITY_STAGES {
-            "not computed".to_owned()
-        } else {
-            first_interval(&tableau)
-        };
+        let stable = first_interval(&tableau);
         text.push_str(&format!(
             "| {} | {} | {} | {} | {stable} |\n",
             entry.name,
@@ -119,7 +115,10 @@ fn less_than_proved(report: &OrderReport) -> Option<&'static str> {
 
 /// The first interval of stable steps.
 fn first_interval(tableau: &Tableau) -> String {
-    let intervals = tableau.stability().intervals;
+    let intervals = match tableau.stable_steps() {
+        StableSteps::All(stability) => stability.intervals,
+        less => return less.to_string(),
+    };
     let first = intervals
         .first()
         .map_or("∅".to_owned(), ToString::to_string);

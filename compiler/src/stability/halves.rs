@@ -1,0 +1,258 @@
+//! The first stable steps of a splitting that reads the same from both ends, from one half of it.
+//!
+//! Let `N = (a b; c d)` be the matrix of the first half, the flow in the middle halved, and `R = diag(1, −1)`. Each flow has
+//! `R F⁻¹ R = F`, so that the other half, the same flows in reverse, is `R N⁻¹ R = (d b; c a)`, and the step is
+//!
+//! ```text
+//! M = R N⁻¹ R N = ⎛ ad + bc   2bd    ⎞      (tr M/2)² − 1 = 4abcd .
+//!                 ⎝ 2ac      ad + bc ⎠
+//! ```
+//!
+//! Near zero `a, d > 0`, `b > 0` and `c < 0`. So all steps are stable up to the first root of one of `a`, `b/ν`, `c/ν` and `d`,
+//! which are polynomials in `x = ν²` of half the degree of the trace. As `ad − bc = 1`, a root that is no root of another of
+//! them leaves one of the entries `2bd` and `2ac`: that step is not stable, and those after it are not.
+//!
+//! The trace comes close to ±2 wherever a step is close to a multiple of half a period. Its roots there are pairs that lie as
+//! close together as the phase is accurate; those of the four polynomials are apart.
+
+use std::cmp::Ordering;
+use std::sync::{Arc, OnceLock};
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+
+use super::end_point::{EndPoint, PositiveReal};
+use super::intervals::StabilityInterval;
+use super::isolation::{bisect, monotonic_within, root_bound};
+use super::oscillator::{matrix_of_flows, product_of_flows};
+use crate::algebra::{Ball, Balls, Field, Scalar, StageAlgebra};
+use crate::arithmetic::enclosure_cache::EnclosureCache;
+use crate::arithmetic::interval::Interval;
+use crate::arithmetic::rational::ratio;
+use crate::pair::{Flows, Pair};
+
+/// Bits of enclosures. A sign that the last ones do not tell is taken for zero.
+const PRECISIONS: [u32; 7] = [
+    1 << 10,
+    1 << 11,
+    1 << 12,
+    1 << 13,
+    1 << 14,
+    1 << 15,
+    1 << 16,
+];
+
+/// So many of [`PRECISIONS`] are tried to tell the roots apart.
+const TRIED: usize = 3;
+
+/// The interval of stable steps that begins at zero, if the pair is that of a splitting which reads the same from both ends
+/// and enclosures decide where it ends.
+///
+/// They do not where two of the polynomials have their first root in common, which leaves the step `±1` there, or where
+/// it is a double one.
+pub(super) fn first_interval<A: StageAlgebra + 'static>(
+    pair: &Pair<A>,
+) -> Option<StabilityInterval> {
+    let half = Half::of(pair)?;
+    let (entry, interval) = (0..TRIED).find_map(|precision| half.first_root(precision))?;
+    Some(StabilityInterval {
+        low: EndPoint::ZERO,
+        high: EndPoint::square_root(FirstRoot {
+            half,
+            entry,
+            interval,
+            finest: EnclosureCache::default(),
+        }),
+        low_closed: false,
+        high_closed: false,
+    })
+}
+
+/// The first half of a splitting.
+#[derive(Debug)]
+struct Half<A: StageAlgebra> {
+    algebra: Arc<A>,
+    flows: Flows<Scalar<A>>,
+    /// For each of [`PRECISIONS`], once they were needed.
+    enclosures: [OnceLock<Flows<Ball>>; PRECISIONS.len()],
+}
+
+impl<A: StageAlgebra> Half<A> {
+    fn of(pair: &Pair<A>) -> Option<Self> {
+        let flows = pair.flows().filter(Flows::is_palindrome)?;
+        let field = pair.algebra.constants();
+        let half = field.rational(&ratio(1, 2));
+        Some(Half {
+            flows: flows.first_half(|middle| field.multiply(&half, middle)),
+            algebra: Arc::clone(&pair.algebra),
+            enclosures: Default::default(),
+        })
+    }
+
+    fn enclosed(&self, precision: usize) -> &Flows<Ball> {
+        let field = self.algebra.constants();
+        let enclose = |x: &Scalar<A>| field.enclose(x, PRECISIONS[precision]);
+        self.enclosures[precision].get_or_init(|| self.flows.map(enclose))
+    }
+
+    /// The sign of an entry of `N` at `x`.
+    fn sign_at(&self, entry: usize, x: &BigRational) -> Ordering {
+        let sign = |precision: usize| {
+            let bits = PRECISIONS[precision];
+            let x = Ball::quotient(x, bits);
+            let add = |sum: &mut Ball, factor: &Ball, value: &Ball, power| {
+                let product = factor.multiply(value, bits);
+                let product = match power {
+                    0 => product,
+                    _ => product.multiply(&x, bits),
+                };
+                *sum = sum.add(&product, bits);
+            };
+            let units = [Ball::whole(0), Ball::whole(1)];
+            let entries = product_of_flows(self.enclosed(precision), units, Ball::negate, add);
+            entries[entry].sign()
+        };
+        let mut signs = (0..PRECISIONS.len()).filter_map(sign);
+        signs.next().unwrap_or(Ordering::Equal)
+    }
+
+    /// The first positive root of the entries of `N`: which of them has it, and an interval in which it is alone, and no
+    /// other entry has a root before it. `None` if that is not decided with enclosures of these bits.
+    fn first_root(&self, precision: usize) -> Option<(usize, Interval)> {
+        let bits = PRECISIONS[precision];
+        let entries = matrix_of_flows(&Balls::new(bits), self.enclosed(precision));
+        let [a, b, c, d] = [0, 1, 2, 3].map(|entry| self.sign_at(entry, &ratio(0, 1)));
+        let stable_at_first = [a, b, c.reverse(), d].into_iter().all(Ordering::is_gt);
+        let bounds = entries.iter().map(|list| root_bound(list));
+        let last = bounds.collect::<Option<Vec<_>>>()?.into_iter().max()?;
+        if !stable_at_first {
+            return None;
+        }
+        // Up to x = 1, 2, 4, …, so that little is looked at beyond the first root.
+        let (mut low, mut high) = (BigInt::from(0), BigInt::from(1));
+        while high.bits() as i64 <= last.max(0) + 1 {
+            let window = Interval { low, high, bits: 0 };
+            let mut roots = Vec::new();
+            for (entry, list) in entries.iter().enumerate() {
+                for interval in monotonic_within(list, &window, bits)? {
+                    let ends = [interval.low(), interval.high()].map(|x| self.sign_at(entry, &x));
+                    match ends {
+                        [Ordering::Equal, _] | [_, Ordering::Equal] => return None,
+                        [low, high] if low == high => {}
+                        _ => {
+                            roots.push((entry, interval));
+                            break;
+                        }
+                    }
+                }
+            }
+            if !roots.is_empty() {
+                return self.least(roots);
+            }
+            (low, high) = (window.high.clone(), window.high << 1);
+        }
+        None
+    }
+
+    /// The least of roots, if a few places tell it from the others.
+    fn least(&self, mut roots: Vec<(usize, Interval)>) -> Option<(usize, Interval)> {
+        for places in [32, 128, 512] {
+            for (entry, interval) in &mut roots {
+                *interval = bisect(interval, places, |x| self.sign_at(*entry, x));
+            }
+            roots.sort_by_key(|(_, interval)| interval.low());
+            let high = roots.first()?.1.high();
+            if roots.iter().skip(1).all(|(_, other)| high < other.low()) {
+                return Some(roots.swap_remove(0));
+            }
+        }
+        None
+    }
+}
+
+/// The first root of an entry.
+#[derive(Debug)]
+struct FirstRoot<A: StageAlgebra> {
+    half: Half<A>,
+    entry: usize,
+    interval: Interval,
+    finest: EnclosureCache,
+}
+
+impl<A: StageAlgebra> PositiveReal for FirstRoot<A> {
+    fn enclose(&self, bits: u32) -> Interval {
+        let sign_at = |x: &BigRational| self.half.sign_at(self.entry, x);
+        let compute = |bits| bisect(&self.interval, bits, sign_at);
+        self.finest.enclose(bits, compute)
+    }
+
+    fn equals(&self, value: &BigRational) -> bool {
+        self.interval.contains(value) && self.half.sign_at(self.entry, value).is_eq()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::arithmetic::rational::ratio;
+    use crate::stability::Stability;
+    use crate::{Definition, Limits, Tableau, catalogue};
+
+    fn known(name: &str) -> Tableau {
+        let entry = catalogue::find(name).expect(name);
+        entry.derive().expect(name)
+    }
+
+    fn defined(text: &str) -> Tableau {
+        let definition = Definition::parse(text).expect(text);
+        definition.derive(&Limits::default()).expect(text)
+    }
+
+    #[test]
+    fn the_first_interval_is_that_of_the_whole_trace() {
+        for name in [
+            "forest-ruth-1990",
+            "suzuki-1990",
+            "triple-jump-8",
+            "blanes-moan-2002-s6",
+        ] {
+            let tableau = known(name);
+            let Stability { intervals, .. } = tableau.stability();
+            let first = tableau.first_stable_interval().expect(name);
+            assert_eq!(
+                first.high.decimal(30),
+                intervals[0].high.decimal(30),
+                "{name}"
+            );
+            let end = ratio(1, 1) / ratio(1 << 40, 1);
+            let near = intervals[0].high.enclose(80).expect("finite").middle();
+            assert!(
+                first.contains(&(&near - &end)) && !first.contains(&(near + end)),
+                "{name}"
+            );
+        }
+    }
+
+    /// From the traces of the products of 81, 125 and 625 matrices in arithmetic of 80 digits, which are ±2 there.
+    #[test]
+    fn long_compositions() {
+        for (name, end) in [
+            ("triple-jump-10", "1.2538295503375377928"),
+            ("suzuki-8", "3.1415275035205379284"),
+            ("suzuki-10", "3.1415926311546522896"),
+        ] {
+            let first = known(name).first_stable_interval().expect(name);
+            assert_eq!(first.high.decimal(20), end, "{name}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_decided_is_left_open() {
+        // Not the same from both ends.
+        assert!(known("ruth-1983").first_stable_interval().is_none());
+        // No splitting.
+        assert!(known("gauss-2").first_stable_interval().is_none());
+        // The step is ±1 at roots in common, and stable beyond.
+        let thrice = "base: velocity-verlet, weights: [1/3, 1/3, 1/3]";
+        assert!(defined(thrice).first_stable_interval().is_none());
+    }
+}

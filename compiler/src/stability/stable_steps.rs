@@ -1,0 +1,62 @@
+//! What is found of the stable steps of a method, in bounded time.
+
+use super::{Stability, StabilityInterval};
+use crate::properties::Evidence;
+use crate::tableau::Tableau;
+
+/// Up to so many stages all stable steps are looked for: the real roots of polynomials of twice that degree take a second
+/// or two, with 82 stages several. [`Tableau::stability`] has no such bound.
+pub const MOST_STAGES: usize = 36;
+
+/// What is found of the stable steps of a method, in bounded time.
+#[derive(Debug, Clone)]
+pub enum StableSteps {
+    /// All of them, of a method of at most [`MOST_STAGES`] stages.
+    All(Box<Stability>),
+    /// The [first interval](Tableau::first_stable_interval) of a longer method.
+    First {
+        /// The interval, whose upper end is not stable, nor are the steps next to it.
+        interval: StabilityInterval,
+        /// How it is known.
+        evidence: Evidence,
+    },
+    /// Nothing of a longer method that is not the same from both ends.
+    NotComputed,
+}
+
+impl Tableau {
+    /// What is found of the stable steps in bounded time.
+    ///
+    /// ```
+    /// use symplectic_compiler::{catalogue, stability::StableSteps};
+    ///
+    /// let steps = |name| catalogue::find(name).expect("a known method").derive().map(|t| t.stable_steps());
+    /// assert!(matches!(steps("gauss-3")?, StableSteps::All(_)));
+    /// assert!(matches!(steps("suzuki-8")?, StableSteps::First { .. }));
+    /// assert_eq!(steps("suzuki-8")?.to_string(), "(0, 3.14152750352…) at first");
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    pub fn stable_steps(&self) -> StableSteps {
+        if self.stages() <= MOST_STAGES {
+            return StableSteps::All(Box::new(self.stability()));
+        }
+        let Some(interval) = self.first_stable_interval() else {
+            return StableSteps::NotComputed;
+        };
+        // Enclosures are of the method that is given, or proved to exist.
+        let given = self.given.as_ref();
+        let evidence = given.map_or(Evidence::Proved, |given| given.evidence);
+        StableSteps::First { interval, evidence }
+    }
+}
+
+impl std::fmt::Display for StableSteps {
+    /// `(0, 2*sqrt(2)) ∪ (2*sqrt(3), 2*sqrt(6))`, `(0, 3.14159263115…) at first` or `not computed`.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            StableSteps::All(stability) => f.write_str(&stability.intervals_text()),
+            StableSteps::First { interval, .. } => write!(f, "{interval} at first"),
+            StableSteps::NotComputed => f.write_str("not computed"),
+        }
+    }
+}
