@@ -68,6 +68,10 @@ pub trait Field: Debug + PartialEq {
     fn is_costly(&self) -> bool {
         false
     }
+    /// Whether arithmetic keeps its operands, in an expression that is evaluated later.
+    fn keeps_operands(&self) -> bool {
+        false
+    }
     /// About how many machine words an element has, where arithmetic is costly.
     fn length(&self, _x: &Self::Element) -> u64 {
         0
@@ -252,6 +256,16 @@ impl<F: Field> StageAlgebra for Dense<F> {
         })
     }
 
+    fn partial_sums(&self, f: &Vector<F>, own: bool) -> Option<Vector<F>> {
+        let mut sum = self.field.rational(&BigRational::default());
+        let step = |x: &F::Element| {
+            let next = self.field.add(&sum, x);
+            let before = std::mem::replace(&mut sum, next);
+            if own { sum.clone() } else { before }
+        };
+        Some(f.iter().map(step).collect())
+    }
+
     fn equal_rows(&self, m: &Matrix<F>, columns: &[Vec<usize>]) -> Vec<Vec<usize>> {
         let key = |stage: usize| {
             let row = &m[stage];
@@ -303,5 +317,9 @@ mod tests {
         let vector: Vec<BigRational> = [7, 1, 1, 2, 9, 10].iter().map(whole).collect();
         let sums: Vec<BigRational> = [7, 12, 12, 17, 0, 52].iter().map(whole).collect();
         assert_eq!(algebra.apply(&matrix, &vector), sums);
+        let partial = |own| algebra.partial_sums(&vector, own).expect("dense");
+        let whole = |list: [i64; 6]| -> Vec<BigRational> { list.iter().map(whole).collect() };
+        assert_eq!(partial(true), whole([7, 8, 9, 11, 20, 30]));
+        assert_eq!(partial(false), whole([0, 7, 8, 9, 11, 20]));
     }
 }

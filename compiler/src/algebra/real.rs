@@ -216,6 +216,10 @@ impl Field for Reals {
         Some(ZERO_BITS)
     }
 
+    fn keeps_operands(&self) -> bool {
+        true
+    }
+
     fn zero(&self, x: &Real) -> Zero {
         x.difference(&BigRational::default(), ZERO_BITS)
     }

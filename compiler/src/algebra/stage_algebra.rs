@@ -87,6 +87,12 @@ pub trait StageAlgebra: Debug + PartialEq + Sized {
         false
     }
 
+    /// `Σ_{j<i} f_j`, with `f_i` itself where it is `own`: what a matrix for which [`Self::is_staircase`] holds makes of the
+    /// products with its weights. `None` for an algebra that does not look for such matrices.
+    fn partial_sums(&self, _f: &Self::Vector, _own: bool) -> Option<Self::Vector> {
+        None
+    }
+
     /// Groups the stages whose rows are equal when the columns of each group are added.
     fn equal_rows(&self, m: &Self::Matrix, columns: &[Vec<usize>]) -> Vec<Vec<usize>>;
     /// Whether [`Self::equal_rows`] looks at this stage, or leaves it alone unseen.

@@ -59,7 +59,7 @@ use self::modified::modified_equation;
 use self::simplifying::simplifying_assumptions;
 use self::symplecticity::{Symplecticity, symplecticity_order};
 use self::weights::{MAX_ORDER, Weights};
-use crate::algebra::{Field, Number, StageAlgebra, Zero};
+use crate::algebra::{Balls, Dense, Field, Number, StageAlgebra, Zero};
 use crate::pair::Pair;
 use crate::properties::{Evidence, shown};
 use crate::tableau::{Tableau, over_algebra};
@@ -166,9 +166,14 @@ fn order<A: StageAlgebra>(
     let verified = pair.algebra.constants().verified_bits().is_some();
     let given = given.filter(|_| verified && !options.all_conditions);
     let known = Known::of(pair, options);
+    // What is left is to refute the next order, for which enclosures with a few bits do.
+    let enclosed = given.map(|_| pair.enclosed(BITS));
     let class = |class| {
         let known = given.map_or_else(|| known.clone(), |given| known.with(given, class));
-        class_order(pair, class, &known)
+        let refuted = enclosed
+            .as_ref()
+            .and_then(|pair| refuted(pair, class, &known));
+        refuted.unwrap_or_else(|| class_order(pair, class, &known))
     };
     OrderReport {
         general: class(HamiltonianClass::General),
@@ -227,6 +232,24 @@ impl Known {
         }
         known
     }
+}
+
+/// Bits of the enclosures by which an order is refuted beyond one that is known.
+const BITS: u32 = 256;
+
+/// The order that is known, if conditions of the next one are refuted and their error constant found.
+fn refuted(
+    pair: &Pair<Dense<Balls>>,
+    class: HamiltonianClass,
+    known: &Known,
+) -> Option<ClassOrder> {
+    let next = Known {
+        limit: known.order + 1,
+        ..known.clone()
+    };
+    let affordable = next.order > 0 && next.limit <= known.limit;
+    let found = affordable.then(|| class_order(pair, class, &next))?;
+    (found.order == known.order && found.error_constant.is_some()).then_some(found)
 }
 
 /// The order of a pair for one class.

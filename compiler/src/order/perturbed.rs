@@ -281,7 +281,7 @@ fn power_order<F: Field>(
     // In degree m there is no word with m letters B but B itself.
     let holds = given_order.max(if power == 1 { 0 } else { power });
     for degree in holds + 1..=limit {
-        if product.cost() > most_products(verified) {
+        if product.cost() > most_products(product.field()) {
             return known(degree - 1, None);
         }
         if let Some(violated) = violated(product, power, degree) {

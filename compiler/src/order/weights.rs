@@ -14,7 +14,7 @@ use num_traits::One;
 use super::enumeration::{TreeRule, Trees};
 use super::tree::{BicolouredTree, Colour};
 use crate::algebra::{Field, Number, StageAlgebra};
-use crate::pair::Pair;
+use crate::pair::{Pair, Staircase};
 
 /// The highest order of trees that are enumerated: densities, at most `order!`, are kept in 64 bits.
 pub(super) const MAX_ORDER: usize = 20;
@@ -25,11 +25,11 @@ const MOST_PRODUCTS: usize = 10_000_000;
 /// The same where numbers are expressions, about 500 bytes each, which are kept with their enclosures: 2 GB.
 const MOST_EXPRESSIONS: usize = 4_000_000;
 
-/// The most products that are made of numbers with the binary places to which their equations are verified.
-pub(super) fn most_products(verified_bits: Option<u32>) -> usize {
-    match verified_bits {
-        None => MOST_PRODUCTS,
-        Some(_) => MOST_EXPRESSIONS,
+/// The most products that are made of numbers of a field.
+pub(super) fn most_products<F: Field>(field: &F) -> usize {
+    match field.keeps_operands() {
+        false => MOST_PRODUCTS,
+        true => MOST_EXPRESSIONS,
     }
 }
 
@@ -55,6 +55,7 @@ struct Kept<V> {
 /// The elementary weights of a method.
 pub(super) struct Weights<'a, A: StageAlgebra> {
     pair: &'a Pair<A>,
+    staircase: Option<Staircase>,
     trees: Trees,
     kept: Vec<Kept<A::Vector>>,
     /// The products of a coefficient and a stage for a tree.
@@ -66,12 +67,12 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
         let stages = pair.algebra.stages();
         // A splitting takes one a stage for each of the vectors that are kept.
         let for_all = stages * stages;
-        let products = pair
-            .staircase()
-            .map_or(for_all, |_| for_all.min(3 * stages));
+        let staircase = pair.staircase();
+        let products = staircase.map_or(for_all, |_| for_all.min(3 * stages));
         Weights {
             products,
             pair,
+            staircase,
             trees: Trees::up_to(rule, 0),
             kept: Vec::new(),
         }
@@ -117,7 +118,7 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
     pub(super) fn affordable(&mut self, order: usize) -> bool {
         let algebra = &*self.pair.algebra;
         self.grow(order - 1);
-        let most = most_products(algebra.constants().verified_bits());
+        let most = most_products(algebra.constants());
         self.trees.len() * self.products <= most
     }
 
@@ -202,11 +203,20 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
 
     fn applied(&self, index: u32) -> &A::Vector {
         self.kept[index as usize].applied.get_or_init(|| {
-            let matrix = match self.trees.colour(index) {
+            let (algebra, colour) = (&*self.pair.algebra, self.trees.colour(index));
+            // The entries are the weights again.
+            let sums = self.staircase.and_then(|staircase| {
+                let own = match colour {
+                    Colour::Q => staircase.has_own_drift(),
+                    Colour::P => staircase.has_own_kick(),
+                };
+                algebra.partial_sums(self.weighted(index), own)
+            });
+            let matrix = match colour {
                 Colour::Q => &self.pair.a,
                 Colour::P => &self.pair.a_tilde,
             };
-            self.pair.algebra.apply(matrix, self.stages(index))
+            sums.unwrap_or_else(|| algebra.apply(matrix, self.stages(index)))
         })
     }
 }
