@@ -88,8 +88,8 @@ impl Claim {
     pub fn order_in_power(&self, power: usize) -> usize {
         match self {
             Claim::Separable(order) => *order,
-            // Order 2 is the same for quadratic T.
-            Claim::Nystrom(order) => (*order).min(2),
+            // The first term that vanishes for quadratic T is [B, [B, [B, A]]], of degree 4.
+            Claim::Nystrom(order) => (*order).min(3),
             Claim::Perturbed(orders) => {
                 let order = orders.get(power.saturating_sub(1)).or(orders.last());
                 order.copied().unwrap_or(0)

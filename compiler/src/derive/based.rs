@@ -446,6 +446,7 @@ fn raised(base: &Tableau, orders: &OrderReport, wanted: usize) -> Option<GivenOr
         claim: Claim::Separable(wanted),
         general: if for_all { wanted } else { 1 },
         evidence,
+        symmetric: false,
     })
 }
 

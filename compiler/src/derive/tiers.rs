@@ -14,10 +14,11 @@ use crate::arithmetic::polynomial::Polynomial;
 use crate::basis::{Basis, Coefficient, combination};
 use crate::error::ErrorKind;
 use crate::operations::concatenate;
+use crate::order::GivenOrder;
 use crate::pair::Pair;
 use crate::quadrature::{Nodes, node_text};
 use crate::symbolic::{Constant, Function};
-use crate::tableau::{Exact, Tableau};
+use crate::tableau::{Exact, Tableau, over_algebra};
 
 impl Problem {
     /// Derives the tableau.
@@ -26,7 +27,12 @@ impl Problem {
     /// Everything but what is wrong with the texts.
     pub fn derive(&self) -> Result<Tableau, ErrorKind> {
         let mut tableau = Tableau::new(self.definition(), self.exact()?);
-        tableau.given = self.given();
+        tableau.given = self.given().map(|given| GivenOrder {
+            symmetric: over_algebra!(tableau, pair => {
+                pair.flows().is_some_and(|flows| flows.is_palindrome())
+            }),
+            ..given
+        });
         Ok(tableau)
     }
 

@@ -11,6 +11,9 @@ use crate::properties::Evidence;
 /// the leading term `C h^{p+1}` of the local error is `Σ γ_i^{p+1} C h^{p+1} = 0` (GNI II.4, Theorem 4.1), so that the
 /// order is `p + 1` at least, and that of a symmetric method is even (GNI II.3, Theorem 3.2): `p + 2`. This is so for
 /// every Hamiltonian for which the base has its order and is symmetric.
+///
+/// A certificate for quadratic `T` is one of order 3 for separable Hamiltonians too, and so of order 4 if the method is
+/// symmetric: of the terms of the modified equation up to degree 4 only `[B, [B, [B, A]]]` vanishes for quadratic `T`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct GivenOrder {
     /// What is known for separable Hamiltonians.
@@ -19,6 +22,9 @@ pub(crate) struct GivenOrder {
     pub general: usize,
     /// How it is known.
     pub evidence: Evidence,
+    /// Whether the method is a splitting that reads the same from both ends, so that its orders for separable
+    /// Hamiltonians are even.
+    pub symmetric: bool,
 }
 
 impl GivenOrder {
@@ -28,6 +34,7 @@ impl GivenOrder {
             claim,
             general: 1,
             evidence: Evidence::Certified,
+            symmetric: false,
         }
     }
 
@@ -35,12 +42,17 @@ impl GivenOrder {
     pub fn for_class(&self, class: HamiltonianClass) -> usize {
         match class {
             HamiltonianClass::General => self.general,
-            _ => self.claim.order_for(class),
+            _ => self.even(self.claim.order_for(class)),
         }
     }
 
     /// The order in a power of `ε` for perturbed systems, at least.
     pub fn in_power(&self, power: usize) -> usize {
-        self.claim.order_in_power(power)
+        self.even(self.claim.order_in_power(power))
+    }
+
+    /// The next even order for a symmetric method.
+    fn even(&self, order: usize) -> usize {
+        order + usize::from(self.symmetric && order % 2 == 1)
     }
 }
