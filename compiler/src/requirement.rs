@@ -102,6 +102,14 @@ impl Requirement {
                 };
                 return input.error(&(0..text.len()), kind);
             }
+            if text.trim().parse::<u64>().is_ok() {
+                let kind = ErrorKind::Type {
+                    found: shown(text.trim()),
+                    expected: "a requirement; several orders stand in brackets, as in `order(perturbed) >= (8, 4)`,"
+                        .to_owned(),
+                };
+                return input.error(&(0..text.len()), kind);
+            }
             let known = Properties::NAMES.join(", ");
             let kind = ErrorKind::Unknown {
                 what: "property",

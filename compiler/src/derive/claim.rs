@@ -7,7 +7,7 @@ use super::problem::misfit_at;
 use crate::certify::{CertifyError, Claim, Printed};
 use crate::definition::{Definition, Key, trimmed};
 use crate::error::{Error, ErrorKind};
-use crate::expression::{Input, shown};
+use crate::expression::{Input, parse_list, shown};
 
 /// Reads `separable(6)`, `nystrom(6)` or `perturbed(8, 6, 4)`.
 pub fn read(definition: &Definition) -> Result<Claim, Error> {
@@ -59,7 +59,13 @@ pub fn read_printed(key: Key, text: &str) -> Result<Vec<Printed>, Error> {
         let number: String = text[range.clone()].split_whitespace().collect();
         let name = key.name();
         Printed::parse(&number).map_err(|error| {
-            let message = error.to_string();
+            let part = &text[range.clone()];
+            let exact = parse_list(Input { name, text: part }).is_ok();
+            let hint = match exact {
+                true => "; a `claim` is about printed digits: leave it out where numbers are exact",
+                false => "",
+            };
+            let message = format!("{error}{hint}");
             Input { name, text }.error(&range, ErrorKind::Definition { message })
         })
     };
