@@ -9,7 +9,10 @@
 use std::io::Read;
 use std::path::Path;
 
+use crate::coefficients::Coefficients;
 use crate::error::{Error, ErrorKind};
+use crate::pair::Staircase;
+use crate::tableau::{Tableau, over_algebra};
 
 mod entries;
 mod facts;
@@ -27,6 +30,24 @@ pub const DEFAULT_DIGITS: usize = 40;
 pub const TEXT_DIGITS: usize = 16;
 /// The most significant digits of a decimal that can be asked for.
 pub const MAX_DIGITS: usize = 10_000;
+
+/// The matrices of splittings with more stages are left out of files and of code: they have nothing but the weights, again
+/// and again.
+const LARGEST_MATRICES: usize = 36;
+
+/// How the weights make the matrices of a splitting that are left out; `None` where they are not.
+pub(crate) fn left_out(tableau: &Tableau) -> Option<Staircase> {
+    let long = tableau.stages() > LARGEST_MATRICES;
+    long.then(|| over_algebra!(tableau, pair => pair.staircase()))?
+}
+
+/// The coefficients without the matrices that are left out.
+fn written<T>(tableau: &Tableau, mut coefficients: Coefficients<T>) -> Coefficients<T> {
+    if left_out(tableau).is_some() {
+        (coefficients.a, coefficients.a_tilde) = (Vec::new(), Vec::new());
+    }
+    coefficients
+}
 
 /// The largest table file that is read, in bytes; one of 36 stages has about 1 MB.
 const MAX_FILE: u64 = 64 << 20;

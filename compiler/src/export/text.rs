@@ -2,7 +2,9 @@
 
 use super::facts::separable_only;
 use super::layout::{left, right, width, widths};
+use super::{left_out, written};
 use crate::coefficients::Coefficients;
+use crate::pair::Staircase;
 use crate::properties::Evidence;
 use crate::tableau::Tableau;
 
@@ -45,6 +47,10 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
     text.push('\n');
 
     let (cells, rounded) = cells(tableau, digits);
+    if let Some(staircase) = left_out(tableau) {
+        push_lines(&mut text, &flows(&cells, staircase));
+        return finished(text, tableau, rounded.then_some(digits));
+    }
     let positions = table(["c", "a", "b"], &cells.c, &cells.a, &cells.b);
     if tableau.equal_halves() == (true, true) {
         push_lines(&mut text, &positions);
@@ -70,7 +76,12 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
             push_lines(&mut text, &momenta);
         }
     }
-    if rounded {
+    finished(text, tableau, rounded.then_some(digits))
+}
+
+/// The text with what is said below the coefficients, and to how many digits they are rounded, if they are.
+fn finished(mut text: String, tableau: &Tableau, digits: Option<usize>) -> String {
+    if let Some(digits) = digits {
         text.push_str(&format!(
             "\nEntries with a decimal point are correctly rounded to {digits} significant digits; all others are exact.\n"
         ));
@@ -107,17 +118,40 @@ fn push_lines(text: &mut String, lines: &[String]) {
 
 /// Every coefficient as it is shown, and whether any of them is rounded.
 fn cells(tableau: &Tableau, digits: usize) -> (Coefficients<String>, bool) {
-    let short = tableau.exact_forms().map(|form| {
+    let short = written(tableau, tableau.exact_forms()).map(|form| {
         let exact = form.as_ref();
         exact.filter(|exact| width(exact) <= LONGEST_EXACT).cloned()
     });
     let rounded = short.iter().any(Option::is_none);
-    let cells = short.zip(tableau.numbers()).map(|(exact, number)| {
-        exact
-            .clone()
-            .unwrap_or_else(|| number.decimal(digits).to_string())
-    });
+    let cells = short
+        .zip(written(tableau, tableau.numbers()))
+        .map(|(exact, number)| {
+            exact
+                .clone()
+                .unwrap_or_else(|| number.decimal(digits).to_string())
+        });
     (cells, rounded)
+}
+
+/// The flows of a splitting, those of a stage in a line, in place of the matrices that the weights say.
+fn flows(cells: &Coefficients<String>, staircase: Staircase) -> Vec<String> {
+    let (kick, drift) = (("kick b̃", &cells.b_tilde), ("drift b", &cells.b));
+    let both = match staircase {
+        Staircase::KicksFirst => [kick, drift],
+        Staircase::DriftsFirst => [drift, kick],
+    };
+    let mut rows = vec![vec!["i".to_owned()]];
+    rows[0].extend(both.map(|(name, _)| name.to_owned()));
+    let [(_, first), (_, second)] = both;
+    let stages = first.iter().zip(second).enumerate();
+    rows.extend(stages.map(|(i, (x, y))| vec![(i + 1).to_string(), x.clone(), y.clone()]));
+    let columns = widths(&rows);
+    let line = |row: &Vec<String>| {
+        let cells = row.iter().zip(&columns);
+        let cells: Vec<String> = cells.map(|(c, w)| right(c, *w)).collect();
+        cells.join("  ")
+    };
+    rows.iter().map(line).collect()
 }
 
 /// The lines of a tableau: nodes beside the matrix, the weights below it.

@@ -87,8 +87,9 @@ struct Document<'a> {
     c_tilde: Vec<Number<'a>>,
     b: Vec<Number<'a>>,
     b_tilde: Vec<Number<'a>>,
-    a: Vec<Vec<Number<'a>>>,
-    a_tilde: Vec<Vec<Number<'a>>>,
+    /// Null for a long splitting.
+    a: Option<Vec<Vec<Number<'a>>>>,
+    a_tilde: Option<Vec<Vec<Number<'a>>>>,
     properties: PropertyList<'a>,
     order: Leaf<'a>,
     stability: Leaf<'a>,
@@ -279,15 +280,18 @@ impl<'a> Document<'a> {
     }
 
     /// The vectors and matrices with their names.
-    fn tables(&self) -> [(&'static str, Table<'_, 'a>); 6] {
-        [
+    fn tables(&self) -> Vec<(&'static str, Table<'_, 'a>)> {
+        let mut tables = vec![
             ("c", Table::Vector(&self.c)),
             ("c̃", Table::Vector(&self.c_tilde)),
             ("b", Table::Vector(&self.b)),
             ("b̃", Table::Vector(&self.b_tilde)),
-            ("a", Table::Matrix(&self.a)),
-            ("ã", Table::Matrix(&self.a_tilde)),
-        ]
+        ];
+        let matrices = [("a", &self.a), ("ã", &self.a_tilde)].into_iter();
+        tables.extend(
+            matrices.filter_map(|(name, rows)| Some((name, Table::Matrix(rows.as_ref()?)))),
+        );
+        tables
     }
 
     /// All entries but the name and the source, which cannot be derived.

@@ -2,7 +2,7 @@
 
 use crate::arithmetic::rounding::{shortest, shortest_single};
 use crate::definition::Key;
-use crate::export::facts;
+use crate::export::{facts, written};
 use crate::properties::{Evidence, Property};
 use crate::tableau::Tableau;
 
@@ -21,11 +21,11 @@ type Forms = (Option<String>, (String, f64, f32));
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
 pub fn write(tableau: &Tableau, digits: usize) -> String {
-    let rounded = tableau.numbers().map(|number| {
+    let rounded = written(tableau, tableau.numbers()).map(|number| {
         let decimal = number.decimal(digits).to_string();
         (decimal, number.to_f64(), number.to_f32())
     });
-    let forms = tableau.exact_forms().zip(rounded);
+    let forms = written(tableau, tableau.exact_forms()).zip(rounded);
     let provenance = tableau.provenance();
     let properties = tableau.properties();
     let properties: Vec<String> = properties
@@ -101,7 +101,11 @@ fn vector(numbers: &[Forms], indent: &str) -> String {
     }
 }
 
+/// A matrix; null where it is left out, because the weights say it.
 fn matrix(rows: &[Vec<Forms>]) -> String {
+    if rows.is_empty() {
+        return "null".to_owned();
+    }
     list(rows.iter().map(|row| vector(row, "    ")), "  ")
 }
 

@@ -5,9 +5,10 @@ use crate::arithmetic::polynomial::Polynomial;
 use crate::export::facts::{self, Fact};
 use crate::export::json::evidence;
 use crate::export::layout::{right, widths};
+use crate::export::{left_out, written};
 use crate::pair::{Pair, Staircase};
 use crate::properties::Property;
-use crate::tableau::{Exact, Tableau, over_algebra};
+use crate::tableau::{Exact, Tableau};
 
 /// Rows that are wider than this have one entry a line.
 const WIDEST: usize = 110;
@@ -15,9 +16,6 @@ const WIDEST: usize = 110;
 /// Exact forms that are longer together than this are left out: the definition, of which they are derived, is as exact
 /// and shorter.
 const LONGEST_EXPRESSIONS: usize = 50_000;
-
-/// The matrices of splittings with more stages are left out: they have nothing but the weights, again and again.
-const LARGEST_MATRICES: usize = 36;
 
 const HEAD: &str = "\
 # A symplectic partitioned Runge–Kutta method, written by `symplectic`.
@@ -129,7 +127,7 @@ fn write_functions_of_nodes(text: &mut String, pair: &Pair<NodeAlgebra>) {
 }
 
 fn write_expressions(text: &mut String, tableau: &Tableau) {
-    let forms = tableau.exact_forms().map(|form| {
+    let forms = written(tableau, tableau.exact_forms()).map(|form| {
         let form = form.as_deref().unwrap_or_default();
         quoted(form)
     });
@@ -145,23 +143,8 @@ fn write_expressions(text: &mut String, tableau: &Tableau) {
     }
 }
 
-/// What the matrices are that are left out.
-fn left_out(tableau: &Tableau) -> Option<&'static str> {
-    if tableau.stages() <= LARGEST_MATRICES {
-        return None;
-    }
-    Some(match over_algebra!(tableau, pair => pair.staircase())? {
-        Staircase::KicksFirst => KICKS_FIRST,
-        Staircase::DriftsFirst => DRIFTS_FIRST,
-    })
-}
-
 fn write_decimals(text: &mut String, tableau: &Tableau, digits: usize) {
-    let left_out = left_out(tableau);
-    let mut numbers = tableau.numbers();
-    if left_out.is_some() {
-        (numbers.a, numbers.a_tilde) = (Vec::new(), Vec::new());
-    }
+    let numbers = written(tableau, tableau.numbers());
     let decimals = numbers.map(|number| quoted(number.decimal(digits)));
     text.push_str("\n[decimals]\n# Significant digits, correctly rounded.\n");
     text.push_str(&format!("digits = {digits}\n"));
@@ -169,8 +152,9 @@ fn write_decimals(text: &mut String, tableau: &Tableau, digits: usize) {
     write_vector(text, "c_tilde", &decimals.c_tilde);
     write_vector(text, "b", &decimals.b);
     write_vector(text, "b_tilde", &decimals.b_tilde);
-    match left_out {
-        Some(matrices) => text.push_str(matrices),
+    match left_out(tableau) {
+        Some(Staircase::KicksFirst) => text.push_str(KICKS_FIRST),
+        Some(Staircase::DriftsFirst) => text.push_str(DRIFTS_FIRST),
         None => {
             write_matrix(text, "a", &decimals.a, stage);
             write_matrix(text, "a_tilde", &decimals.a_tilde, stage);
