@@ -89,6 +89,7 @@ mod interpolation;
 mod invariant;
 mod kernel;
 mod lanes;
+mod long_splitting;
 mod method;
 #[cfg(feature = "alloc")]
 mod newton;
@@ -139,6 +140,7 @@ pub use kernel::{
     weights,
 };
 pub use lanes::{F64x4, F64x8, HamiltonianInLanes, Lanes};
+pub use long_splitting::{SeparableOnly, rows, staircase};
 pub use method::{Method, Plan, StagePlan};
 pub use nalgebra;
 #[cfg(feature = "alloc")]

@@ -21,6 +21,8 @@ use quote::{format_ident, quote};
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
 use crate::error::ErrorKind;
+use crate::export::left_out;
+use crate::pair::Staircase;
 use crate::schedule::Class;
 use crate::tableau::Tableau;
 
@@ -42,7 +44,17 @@ pub struct Header {
 /// fraction of a composition of compositions were too long.
 pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKind> {
     let numbers = tableau.numbers();
-    let doubles = numbers.map(Number::to_f64);
+    let matrices = left_out(tableau);
+    // The entries of matrices that are left out are weights.
+    let doubles = match matrices {
+        Some(_) => Coefficients {
+            a: Vec::new(),
+            a_tilde: Vec::new(),
+            ..numbers.clone()
+        }
+        .map(Number::to_f64),
+        None => numbers.map(Number::to_f64),
+    };
     if let Some(&value) = doubles.iter().find(|value| !value.is_finite()) {
         return Err(ErrorKind::Overflow {
             value: value.to_string(),
@@ -53,13 +65,13 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
         visibility,
         name,
     } = header;
-    let constants = constants(tableau, &doubles);
+    let constants = constants(tableau, &doubles, matrices);
     let documentation = documentation(tableau);
     let stages = literal::count(tableau.stages());
     let text = name.to_string();
     let provenance = tableau.provenance();
     let definition = provenance.definition.to_string();
-    let coefficients = coefficients(tableau, &numbers);
+    let coefficients = coefficients(tableau, &numbers, matrices);
     // The plans are named after the method, so that they are not the method.
     let [general_plan, separable_plan] =
         ["General", "Separable"].map(|class| format_ident!("{name}{class}"));
@@ -99,7 +111,11 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
 }
 
 /// The coefficients as constants, each the double nearest to the exact value.
-fn constants(tableau: &Tableau, values: &Coefficients<f64>) -> TokenStream {
+fn constants(
+    tableau: &Tableau,
+    values: &Coefficients<f64>,
+    left_out: Option<Staircase>,
+) -> TokenStream {
     let stages = literal::count(tableau.stages());
     // Where both halves are the same, the second is written as the first.
     let same = tableau.equal_halves();
@@ -121,7 +137,11 @@ fn constants(tableau: &Tableau, values: &Coefficients<f64>) -> TokenStream {
         let name = literal::identifier(name);
         if same { quote!(Self::#name) } else { values }
     };
-    let rows = |rows: &[Vec<f64>]| {
+    let rows = |rows: &[Vec<f64>], weights: &str, own: fn(Staircase) -> bool| {
+        if let Some(own) = left_out.map(own) {
+            let weights = literal::identifier(weights);
+            return quote!(::symplectic::staircase(Self::#weights, 0.0, #own));
+        }
         let rows = rows.iter().map(|row| literal::array(row));
         quote!([#(#rows),*])
     };
@@ -129,12 +149,16 @@ fn constants(tableau: &Tableau, values: &Coefficients<f64>) -> TokenStream {
         matrix(
             "A",
             " a_ij: the position stages from the velocities. Correctly rounded.",
-            rows(&values.a),
+            rows(&values.a, "B", Staircase::has_own_drift),
         ),
         matrix(
             "A_TILDE",
             " ã_ij: the momentum stages from the forces. Correctly rounded.",
-            or_same(same.0, "A", rows(&values.a_tilde)),
+            or_same(
+                same.0,
+                "A",
+                rows(&values.a_tilde, "B_TILDE", Staircase::has_own_kick),
+            ),
         ),
         vector(
             "B",
@@ -161,12 +185,31 @@ fn constants(tableau: &Tableau, values: &Coefficients<f64>) -> TokenStream {
 }
 
 /// The coefficients as the runtime takes them.
-fn coefficients(tableau: &Tableau, numbers: &Coefficients<Number<'_>>) -> TokenStream {
+fn coefficients(
+    tableau: &Tableau,
+    numbers: &Coefficients<Number<'_>>,
+    left_out: Option<Staircase>,
+) -> TokenStream {
+    let stages = literal::count(tableau.stages());
+    let length = left_out.map(|_| quote!(; #stages));
     let vector = |name: &Ident, numbers: &[Number<'_>]| {
         let values = literal::coefficients(numbers);
-        quote!(const #name: &[::symplectic::Coefficient] = &#values;)
+        quote!(const #name: &[::symplectic::Coefficient #length] = &#values;)
     };
-    let matrix = |name: &Ident, rows: &[Vec<Number<'_>>]| {
+    let matrix = |name: &Ident,
+                  rows: &[Vec<Number<'_>>],
+                  weights: &str,
+                  own: fn(Staircase) -> bool| {
+        if let Some(own) = left_out.map(own) {
+            let weights = literal::identifier(weights);
+            return quote! {
+                const #name: &[&[::symplectic::Coefficient]] = {
+                    const ENTRIES: &[[::symplectic::Coefficient; #stages]; #stages] =
+                        &::symplectic::staircase(*#weights, ::symplectic::Coefficient::exact(0.0), #own);
+                    &::symplectic::rows(ENTRIES)
+                };
+            };
+        }
         let rows = rows.iter().map(|row| literal::coefficients(row));
         quote!(const #name: &[&[::symplectic::Coefficient]] = &[#(&#rows),*];)
     };
@@ -174,7 +217,7 @@ fn coefficients(tableau: &Tableau, numbers: &Coefficients<Number<'_>>) -> TokenS
     let [mut a_tilde, mut b_tilde, mut c_tilde] =
         ["A_TILDE", "B_TILDE", "C_TILDE"].map(literal::identifier);
     let mut constants = vec![
-        matrix(&a, &numbers.a),
+        matrix(&a, &numbers.a, "B", Staircase::has_own_drift),
         vector(&b, &numbers.b),
         vector(&c, &numbers.c),
     ];
@@ -183,7 +226,13 @@ fn coefficients(tableau: &Tableau, numbers: &Coefficients<Number<'_>>) -> TokenS
     if same_a {
         (a_tilde, c_tilde) = (a.clone(), c.clone());
     } else {
-        constants.push(matrix(&a_tilde, &numbers.a_tilde));
+        let weights = if same_b { "B" } else { "B_TILDE" };
+        constants.push(matrix(
+            &a_tilde,
+            &numbers.a_tilde,
+            weights,
+            Staircase::has_own_kick,
+        ));
         constants.push(vector(&c_tilde, &numbers.c_tilde));
     }
     if same_b {

@@ -17,6 +17,7 @@ use crate::algebra::Number;
 use crate::coefficients::Coefficients;
 use crate::derive::substeps;
 use crate::error::ErrorKind;
+use crate::export::left_out;
 use crate::schedule::{Class, Node, Phases, StepGraph};
 use crate::tableau::Tableau;
 use chain::Chain;
@@ -62,7 +63,14 @@ pub(super) fn plans(
     let polynomials = StagePolynomials::new(numbers);
     let known = Known::new(tableau);
     let parts_known: Vec<_> = methods.iter().map(Known::new).collect();
+    let long = left_out(tableau).is_some();
     Ok(names.map(|(class, name)| {
+        if long && class == Class::General {
+            return Plan {
+                name: quote!(::symplectic::SeparableOnly),
+                code: TokenStream::new(),
+            };
+        }
         let graph = StepGraph::new(class, tableau, numbers);
         if substeps.len() < 2 || Phases::new(&graph).coupled.is_empty() {
             return of_stages(&graph, name, &known, Some(&polynomials));
