@@ -16,14 +16,20 @@ use crate::tableau::Tableau;
 pub(super) struct Known {
     /// Whether `a = ã` and `b = b̃`.
     equal_halves: bool,
-    complements: RefCell<BTreeMap<[Term; 2], Option<(Rounded, Rounded)>>>,
-    extrapolations: RefCell<BTreeMap<(Half, Vec<Vec<usize>>), Extrapolation>>,
+    complements: RefCell<BTreeMap<[Term; 2], Complements>>,
+    extrapolations: RefCell<BTreeMap<(Half, Groups), Extrapolation>>,
     decoupling: RefCell<Option<(Rows, Option<Blocks>)>>,
     written: RefCell<Vec<(TokenStream, HalfTableau)>>,
 }
 
 /// A row of stages of the tableau and the stages that are merged in a column.
 pub(super) type Term = (Vec<usize>, Vec<usize>);
+
+/// Stages of the tableau that are merged in each of some evaluations.
+pub(super) type Groups = Vec<Vec<usize>>;
+
+/// Two rounded coefficients that make 1, if they do.
+pub(super) type Complements = Option<(Rounded, Rounded)>;
 
 /// The matrix that takes the evaluations of a step to those of the next, if there is one.
 pub(super) type Extrapolation = Option<Rc<Vec<Vec<f64>>>>;
@@ -55,8 +61,8 @@ impl Known {
         &self,
         position: Term,
         momentum: Term,
-        compute: impl FnOnce(bool) -> Option<(Rounded, Rounded)>,
-    ) -> Option<(Rounded, Rounded)> {
+        compute: impl FnOnce(bool) -> Complements,
+    ) -> Complements {
         let same = self.equal_halves && position == momentum;
         let key = [position, momentum];
         if let Some(&known) = self.complements.borrow().get(&key) {
@@ -76,7 +82,7 @@ impl Known {
     pub(super) fn extrapolation(
         &self,
         half: Half,
-        stages: Vec<Vec<usize>>,
+        stages: Groups,
         compute: impl FnOnce() -> Option<Vec<Vec<f64>>>,
     ) -> Extrapolation {
         let half = if self.equal_halves {
