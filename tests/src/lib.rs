@@ -1,10 +1,12 @@
 //! What the integration tests, the examples and later the report share: [`scenes`] to integrate, [`methods`] to
-//! integrate them with, and how results are measured ([`measure`], [`counting`], [`order`]).
+//! integrate them with, how results are measured ([`measure`], [`counting`], [`order`]), and what they are measured
+//! against ([`references`]).
 
 pub mod counting;
 pub mod drift;
 pub mod measure;
 pub mod methods;
 pub mod order;
+pub mod references;
 pub mod scenes;
 pub mod table;

@@ -5,9 +5,16 @@
 //! *Needs:* a method for general Hamiltonians, sine and cosine. Not separable, not stiff; chaotic, so that neighbouring
 //! orbits part exponentially.
 //! *Source:* the equations are those of every textbook of mechanics; the angles at the start are our choice.
+//! *Reference:* recorded, [`recorded`].
 
 use symplectic::nalgebra::SVector;
 use symplectic::{General, Hamiltonian, Scalar, State};
+
+use super::Needs;
+use crate::references;
+
+/// What it needs.
+pub const NEEDS: Needs = Needs::GENERAL;
 
 /// The acceleration of gravity g.
 pub const GRAVITY: f64 = 9.8;
@@ -65,6 +72,11 @@ pub fn start<T: Scalar>() -> State<SVector<T, 2>> {
     )
 }
 
+/// The recorded reference at `time`, if there is one.
+pub fn recorded(time: f64) -> Option<State<SVector<f64, 2>>> {
+    references::find("double pendulum", "", time)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -74,6 +86,7 @@ mod tests {
     fn the_derivatives_are_those_of_the_energy() {
         let state = State::new(0.0, SVector::from([1.0, -0.4]), SVector::from([0.7, -1.3]));
         check::derivatives(&DoublePendulum, &state, 1e-5, 1e-8);
+        check::needs(NEEDS, &DoublePendulum, &state);
     }
 
     #[test]

@@ -5,9 +5,16 @@
 //! as many particles as the vector has components.
 //! *Source:* Fermi, Pasta, Ulam & Tsingou, Studies of nonlinear problems (1955), the β chain with β = 1; the momenta
 //! at the start are our choice.
+//! *Reference:* recorded for few particles, [`recorded`]; for many a finer run.
 
 use symplectic::nalgebra::DVector;
 use symplectic::{Scalar, SeparableHamiltonian, State, Vector};
+
+use super::Needs;
+use crate::references;
+
+/// What it needs.
+pub const NEEDS: Needs = Needs::NOTHING;
 
 /// The number of particles of the benches.
 pub const PARTICLES: usize = 1024;
@@ -76,6 +83,11 @@ pub fn start(particles: usize) -> State<DVector<f64>> {
     State::new(0.0, DVector::zeros(particles), p)
 }
 
+/// The recorded reference from [`start`] with so many particles at `time`, if there is one.
+pub fn recorded(particles: usize, time: f64) -> Option<State<DVector<f64>>> {
+    references::find("FPUT chain", &format!("N = {particles}"), time)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -87,6 +99,7 @@ mod tests {
             let mut state = start(particles);
             state.q = state.p.map(|p| (7.0 * p).sin());
             check::derivatives(&FputChain, &state, 1e-5, 1e-8);
+            check::needs(NEEDS, &FputChain, &state);
         }
     }
 

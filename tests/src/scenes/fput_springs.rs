@@ -6,10 +6,20 @@
 //!
 //! *Needs:* nothing. Separable, quadratic kinetic energy; stiff: an explicit method or a fixed-point iteration wants
 //! `hω` of order one.
-//! *Source:* GNI §I.5.1, with ω = 50; after Galgani, Giorgilli, Martinoli & Vanzini, 1992.
+//! *Source:* GNI §I.5.1, with ω = 50 (10³ and 10⁵ are our choice); after Galgani, Giorgilli, Martinoli & Vanzini, 1992.
+//! *Reference:* recorded for these frequencies, [`recorded`].
 
 use symplectic::nalgebra::SVector;
 use symplectic::{Scalar, SeparableHamiltonian, State};
+
+use super::Needs;
+use crate::references;
+
+/// What it needs.
+pub const NEEDS: Needs = Needs {
+    stiff: true,
+    ..Needs::NOTHING
+};
 
 /// Number of stiff springs.
 const SPRINGS: usize = 3;
@@ -89,6 +99,11 @@ pub fn start<T: Scalar>(omega: f64) -> State<SVector<T, COORDINATES>> {
     )
 }
 
+/// The recorded reference from [`start`] with this frequency at `time`, if there is one.
+pub fn recorded(omega: f64, time: f64) -> Option<State<SVector<f64, COORDINATES>>> {
+    references::find("FPUT springs", &format!("ω = {omega}"), time)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -101,7 +116,9 @@ mod tests {
             SVector::from([1.0, -0.3, 0.4, 0.1, -0.2, 0.15]),
             SVector::from([1.0, 0.2, -0.5, 0.3, 0.9, -1.0]),
         );
-        check::derivatives(&FputSprings { omega: OMEGA }, &state, 1e-4, 1e-6);
+        let system = FputSprings { omega: OMEGA };
+        check::derivatives(&system, &state, 1e-4, 1e-6);
+        check::needs(NEEDS, &system, &state);
     }
 
     #[test]

@@ -3,9 +3,16 @@
 //! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff; orbits are bounded up to the energy 1/6, and
 //! many are chaotic from 1/12 on.
 //! *Source:* Hénon & Heiles, 1964; Hairer, Lubich & Wanner, Geometric Numerical Integration (GNI), §I.3.
+//! *Reference:* recorded, [`recorded`].
 
 use symplectic::nalgebra::SVector;
 use symplectic::{Scalar, SeparableHamiltonian, State};
+
+use super::Needs;
+use crate::references;
+
+/// What it needs.
+pub const NEEDS: Needs = Needs::NOTHING;
 
 /// The system.
 #[derive(Clone, Copy, Debug)]
@@ -41,11 +48,27 @@ pub fn start<T: Scalar>() -> State<SVector<T, 2>> {
     )
 }
 
+/// From the origin with the momentum `(1/2, 1/2)/√3`, of energy 1/12 up to rounding.
+pub fn start_at_one_twelfth<T: Scalar>() -> State<SVector<T, 2>> {
+    let component = T::from_f64((1.0_f64 / 12.0).sqrt());
+    State::from_arrays(0.0, [T::zero(), T::zero()], [component, component])
+}
+
 /// From the place (q_2, p_2) of the section q_1 = 0, with this energy and q_1 growing; not a number where there is no such
 /// state.
 pub fn on_section(energy: f64, q2: f64, p2: f64) -> State<SVector<f64, 2>> {
     let rest = 2.0 * energy - p2 * p2 - q2 * q2 + 2.0 / 3.0 * q2 * q2 * q2;
     State::from_arrays(0.0, [0.0, q2], [rest.sqrt(), p2])
+}
+
+/// The recorded reference at `time` from [`start`], if there is one.
+pub fn recorded(time: f64) -> Option<State<SVector<f64, 2>>> {
+    references::find("Hénon–Heiles", "E = 1/8", time)
+}
+
+/// The recorded reference at `time` from [`start_at_one_twelfth`], if there is one.
+pub fn recorded_at_one_twelfth(time: f64) -> Option<State<SVector<f64, 2>>> {
+    references::find("Hénon–Heiles", "E = 1/12", time)
 }
 
 #[cfg(test)]
@@ -57,6 +80,7 @@ mod tests {
     fn the_derivatives_are_those_of_the_energy() {
         let state = State::new(0.0, SVector::from([0.3, -0.4]), SVector::from([0.2, 0.5]));
         check::derivatives(&HenonHeiles, &state, 1e-5, 1e-8);
+        check::needs(NEEDS, &HenonHeiles, &state);
     }
 
     #[test]

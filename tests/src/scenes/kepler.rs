@@ -10,6 +10,11 @@ use std::f64::consts::{PI, TAU};
 use symplectic::nalgebra::SVector;
 use symplectic::{Scalar, SeparableHamiltonian, State};
 
+use super::Needs;
+
+/// What it needs.
+pub const NEEDS: Needs = Needs::NOTHING;
+
 /// The system.
 #[derive(Clone, Copy, Debug)]
 pub struct Kepler;

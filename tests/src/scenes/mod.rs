@@ -1,20 +1,107 @@
 //! Problems, one a file: the Hamiltonian over any scalar, the initial data with its source, a reference, and what a
 //! method has to bring along to integrate it.
 
+pub mod argon_crystal;
+pub mod charged_particle;
+pub mod damped_particle;
 pub mod double_pendulum;
 pub mod fput_chain;
 pub mod fput_springs;
+pub mod harmonic_oscillator;
 pub mod henon_heiles;
+pub mod hyperbolic;
 pub mod kepler;
 pub mod nonseparable;
 pub mod outer_solar_system;
+pub mod pendulum;
+pub mod point_vortices;
+pub mod post_newtonian_kepler;
+pub mod pythagorean_three_body;
+pub mod sine_gordon;
+
+/// What a scene asks of a method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Needs {
+    /// `H = T(p) + U(q)`: any method will do, and many are explicit.
+    pub separable: bool,
+    /// `H = pᵀM⁻¹p/2 + U(q)` with a constant matrix M: methods with a Nyström order have it.
+    pub quadratic_kinetic_energy: bool,
+    /// Frequencies are far apart: explicit methods take the steps of the fastest one.
+    pub stiff: bool,
+    /// `∂²H/∂p²` is singular everywhere: there is no Lagrangian, and a method must not ask for one.
+    pub degenerate: bool,
+}
+
+impl Needs {
+    /// Nothing: separable, with a quadratic kinetic energy, neither stiff nor degenerate.
+    pub const NOTHING: Self = Self {
+        separable: true,
+        quadratic_kinetic_energy: true,
+        stiff: false,
+        degenerate: false,
+    };
+
+    /// A method for any Hamiltonian.
+    pub const GENERAL: Self = Self {
+        separable: false,
+        quadratic_kinetic_energy: false,
+        ..Self::NOTHING
+    };
+}
 
 /// What every scene has to hold.
 #[cfg(test)]
 mod check {
-    use symplectic::{Hamiltonian, Integrator, State, Vector};
+    use symplectic::nalgebra::DMatrix;
+    use symplectic::{Class, Hamiltonian, Integrator, State, Vector};
 
+    use super::Needs;
     use crate::methods::Gauss8;
+
+    /// What the system is said to need is so at `state`, as far as that shows there: everything but stiffness.
+    pub fn needs<V, S>(needs: Needs, system: &S, state: &State<V>)
+    where
+        V: Vector<Scalar = f64>,
+        S: Hamiltonian<V>,
+    {
+        assert_eq!(needs.separable, S::Class::SEPARABLE);
+        let n = state.q.dimension();
+        let shifted = |vector: &V, by: f64| {
+            let mut vector = vector.clone();
+            let components = vector.as_mut_slice().iter_mut().enumerate();
+            components.for_each(|(i, x)| *x += by * (1.0 + i as f64).sin());
+            vector
+        };
+        // ∂²H/∂p², by central differences.
+        let masses = |q: &V, p: &V| {
+            let velocity = |j: usize, step: f64| {
+                let (mut p, mut velocity) = (p.clone(), p.zeros_like());
+                p.as_mut_slice()[j] += step;
+                system.velocity(state.time, q, &p, &mut velocity);
+                velocity
+            };
+            DMatrix::from_fn(n, n, |i, j| {
+                let step = 1e-4 * (1.0 + p.as_slice()[j].abs());
+                let difference = velocity(j, step).as_slice()[i] - velocity(j, -step).as_slice()[i];
+                difference / (2.0 * step)
+            })
+        };
+        let here = masses(&state.q, &state.p);
+        let there = masses(&shifted(&state.q, 0.1), &shifted(&state.p, 0.1));
+        let constant = (&here - &there).norm() <= 1e-6 * here.norm();
+        assert_eq!(needs.quadratic_kinetic_energy, constant, "{here} {there}");
+        let singular = |matrix: &DMatrix<f64>| {
+            // Masses may differ by many powers of ten.
+            let mut scaled = matrix.clone();
+            for mut row in scaled.row_iter_mut() {
+                let largest = row.amax();
+                row /= if largest > 0.0 { largest } else { 1.0 };
+            }
+            let values = scaled.singular_values();
+            values.min() <= 1e-6 * values.max()
+        };
+        assert_eq!(needs.degenerate, singular(&here) && singular(&there));
+    }
 
     /// The velocity is ∂H/∂p and the force −∂H/∂q, by central differences of width `step`, to `tolerance` times
     /// the largest component.

@@ -2,9 +2,16 @@
 //!
 //! *Needs:* a method for general Hamiltonians. Not separable, not stiff; every orbit is periodic.
 //! *Source:* Tao, Explicit symplectic approximation of nonseparable Hamiltonians, Phys. Rev. E 94, 043303 (2016).
+//! *Reference:* recorded, [`recorded`].
 
 use symplectic::nalgebra::SVector;
 use symplectic::{General, Hamiltonian, Scalar, State};
+
+use super::Needs;
+use crate::references;
+
+/// What it needs.
+pub const NEEDS: Needs = Needs::GENERAL;
 
 /// The system.
 #[derive(Clone, Copy, Debug)]
@@ -44,6 +51,11 @@ pub fn start<T: Scalar>() -> State<SVector<T, 1>> {
     )
 }
 
+/// The recorded reference at `time`, if there is one.
+pub fn recorded(time: f64) -> Option<State<SVector<f64, 1>>> {
+    references::find("nonseparable", "", time)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -53,6 +65,7 @@ mod tests {
     fn the_derivatives_are_those_of_the_energy() {
         let state = State::new(0.0, SVector::from([1.3]), SVector::from([-0.7]));
         check::derivatives(&Nonseparable, &state, 1e-5, 1e-8);
+        check::needs(NEEDS, &Nonseparable, &state);
     }
 
     #[test]

@@ -4,15 +4,20 @@
 //! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff, no close encounters; many revolutions.
 //! *Source:* GNI §I.2.4, after Ahnerts Kalender für Sternfreunde 1994: 5 September 1994, 0 h. The Sun's mass includes
 //! those of the inner planets.
-//! *Reference:* a much finer run of high order, [`reference()`].
+//! *Reference:* recorded, [`recorded`]; at other times a much finer run of high order, [`reference()`].
 
 use std::array;
 
 use symplectic::nalgebra::SVector;
 use symplectic::{Error, Scalar, SeparableHamiltonian, State};
 
+use super::Needs;
 use crate::measure::integrate;
 use crate::methods::Gauss8;
+use crate::references;
+
+/// What it needs.
+pub const NEEDS: Needs = Needs::NOTHING;
 
 /// Number of bodies.
 pub const BODIES: usize = 6;
@@ -208,4 +213,20 @@ pub fn to_barycentre(state: &State<SVector<f64, COORDINATES>>) -> State<SVector<
 /// Those of [`Integrator::integrate_to`](symplectic::Integrator::integrate_to).
 pub fn reference(time: f64) -> Result<State<SVector<f64, COORDINATES>>, Error> {
     integrate(Gauss8, OuterSolarSystem, &start(), time, 200.0)
+}
+
+/// The recorded reference at `time`, if there is one.
+pub fn recorded(time: f64) -> Option<State<SVector<f64, COORDINATES>>> {
+    references::find("outer solar system", "", time)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::check;
+
+    #[test]
+    fn it_needs_nothing() {
+        check::needs(NEEDS, &OuterSolarSystem, &start());
+    }
 }

@@ -1,0 +1,77 @@
+//! A particle in the plane with the potential `V = |q|²(|q|² − 1)²`, `H = |p|²/2 + V(q)`, to be damped by the force
+//! `−10⁻³ q'`.
+//!
+//! The system here is the conservative part: the integrators take no forces yet. [`DAMPING`] is ready for them, and for
+//! the check of the energy, which falls at the rate `−DAMPING |q'|²`.
+//!
+//! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff; a well at the origin and one around the unit
+//! circle, with a ridge of the height 4/27 between them.
+//! *Source:* Marsden & West, Discrete mechanics and variational integrators (2001), Example 3.2.3 and Figure 2, where no
+//! initial values are given; the start is our choice.
+//! *Reference:* recorded for the conservative part, [`recorded`].
+
+use symplectic::nalgebra::SVector;
+use symplectic::{Scalar, SeparableHamiltonian, State};
+
+use super::Needs;
+use crate::references;
+
+/// What it needs.
+pub const NEEDS: Needs = Needs::NOTHING;
+
+/// The coefficient of the damping force.
+pub const DAMPING: f64 = 1e-3;
+
+/// The conservative part of the system.
+#[derive(Clone, Copy, Debug)]
+pub struct DampedParticle;
+
+impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for DampedParticle {
+    #[inline]
+    fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+        *velocity = *p;
+    }
+
+    #[inline]
+    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+        // With s = |q|² the potential is s(s − 1)², and its derivative by s is (s − 1)(3s − 1).
+        let square = q.dot(q);
+        let slope = (square - T::one()) * (T::from_f64(3.0) * square - T::one());
+        *force = -*q * (slope + slope);
+    }
+
+    fn energy(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
+        let square = q.dot(q);
+        let height = square - T::one();
+        Some(p.dot(p) * T::from_f64(0.5) + square * height * height)
+    }
+}
+
+/// From the slope outside of the circle, with the momentum (0, 1/2): above the ridge.
+pub fn start<T: Scalar>() -> State<SVector<T, 2>> {
+    let vector = |components: [f64; 2]| SVector::from(components.map(T::from_f64));
+    State::new(0.0, vector([1.25, 0.0]), vector([0.0, 0.5]))
+}
+
+/// The recorded reference of the conservative part at `time`, if there is one.
+pub fn recorded(time: f64) -> Option<State<SVector<f64, 2>>> {
+    references::find("damped particle", "no damping", time)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::check;
+
+    #[test]
+    fn the_derivatives_are_those_of_the_energy() {
+        let state = State::from_arrays(0.0, [0.7, -0.4], [0.2, 0.5]);
+        check::derivatives(&DampedParticle, &state, 1e-5, 1e-8);
+        check::needs(NEEDS, &DampedParticle, &state);
+    }
+
+    #[test]
+    fn the_energy_is_conserved() {
+        check::conservation(DampedParticle, start(), 1.0 / 32.0, 10.0, 1e-13);
+    }
+}

@@ -1,0 +1,125 @@
+//! The sine-Gordon lattice, a ring of pendulums coupled by springs,
+//! `H = Σ (p_i²/2 + (q_{i+1} − q_i)²/(2d²) + 1 − cos q_i)` with the spacing `d = 1/4`.
+//!
+//! *Needs:* nothing. Separable, quadratic kinetic energy; no frequency is above `√(1 + 4/d²)`, about 8. As many pendulums
+//! as the vector has components.
+//! *Source:* Duncan, Symplectic finite difference approximations of the nonlinear Klein–Gordon equation, SIAM J. Numer.
+//! Anal. 34 (1997); the start is a breather of the equation `q_tt = q_xx − sin q` as it goes through zero.
+//! *Reference:* recorded, [`recorded`].
+
+use symplectic::nalgebra::SVector;
+use symplectic::{Scalar, SeparableHamiltonian, State, Vector};
+
+use super::Needs;
+use crate::references;
+
+/// What it needs.
+pub const NEEDS: Needs = Needs::NOTHING;
+
+/// The number of pendulums of the recorded reference.
+pub const PENDULUMS: usize = 64;
+
+/// 1/d².
+const STIFFNESS: f64 = 16.0;
+
+/// `exp(wd)`: the breather falls by this factor from one pendulum to the next, with `w = 4 ln(5/4)`.
+const RATIO: f64 = 1.25;
+
+/// w.
+const DECAY: f64 = 0.892_574_205_256_839;
+
+/// The system, for vectors of any kind and dimension.
+#[derive(Clone, Copy, Debug)]
+pub struct SineGordon;
+
+impl<V: Vector> SeparableHamiltonian<V> for SineGordon {
+    #[inline]
+    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
+        symplectic::copy(velocity, p);
+    }
+
+    #[inline]
+    fn force(&self, _time: V::Scalar, q: &V, force: &mut V) {
+        let stiffness = V::Scalar::from_f64(STIFFNESS);
+        let (q, n) = (q.as_slice(), q.dimension());
+        for (i, force) in force.as_mut_slice().iter_mut().enumerate() {
+            let (left, right) = (q[(i + n - 1) % n], q[(i + 1) % n]);
+            *force = stiffness * ((left - q[i]) + (right - q[i])) - q[i].sin();
+        }
+    }
+
+    fn energy(&self, _time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
+        let (half, one) = (V::Scalar::from_f64(0.5), V::Scalar::from_f64(1.0));
+        let stiffness = V::Scalar::from_f64(STIFFNESS);
+        let (q, p, n) = (q.as_slice(), p.as_slice(), q.dimension());
+        let mut energy = V::Scalar::from_f64(0.0);
+        for i in 0..n {
+            let stretch = q[(i + 1) % n] - q[i];
+            energy += half * (p[i] * p[i] + stiffness * stretch * stretch) + (one - q[i].cos());
+        }
+        Some(energy)
+    }
+}
+
+/// The momenta `4w/cosh(wx)` of a breather in the middle, that is at pendulum `n/2`.
+///
+/// They are made of products and quotients only, so that they are the same doubles on every machine.
+pub fn momenta<T: Scalar>(pendulums: usize) -> impl Iterator<Item = T> {
+    (0..pendulums).map(move |i| {
+        let mut growth = 1.0;
+        for _ in 0..i.abs_diff(pendulums / 2) {
+            growth *= RATIO;
+        }
+        T::from_f64(8.0 * DECAY / (growth + 1.0 / growth))
+    })
+}
+
+/// All pendulums at the lowest point, moved by a breather.
+pub fn start<T: Scalar>() -> State<SVector<T, PENDULUMS>> {
+    let p = SVector::from_iterator(momenta(PENDULUMS));
+    State::new(0.0, SVector::zeros(), p)
+}
+
+/// The recorded reference at `time` from [`start`], if there is one.
+pub fn recorded(time: f64) -> Option<State<SVector<f64, PENDULUMS>>> {
+    references::find("sine-Gordon lattice", "N = 64", time)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::check;
+
+    #[test]
+    fn the_derivatives_are_those_of_the_energy() {
+        let mut state = start();
+        state.q = state.p.map(|p: f64| (2.0 * p).sin());
+        check::derivatives(&SineGordon, &state, 1e-5, 1e-6);
+        check::needs(NEEDS, &SineGordon, &state);
+    }
+
+    #[test]
+    fn the_energy_is_conserved() {
+        check::conservation(SineGordon, start(), 1.0 / 16.0, 2.0, 1e-13);
+    }
+
+    #[test]
+    fn the_breather_breathes() {
+        // The continuous one has the energy 16w, and its middle is at 4 atan(w/ω sin ωt) where ω² = 1 − w².
+        let start = start();
+        let energy = SeparableHamiltonian::energy(&SineGordon, 0.0, &start.q, &start.p);
+        let energy: f64 = energy.expect("an energy");
+        assert!(
+            (energy * 0.25 / (16.0 * DECAY) - 1.0).abs() < 1e-4,
+            "{energy}"
+        );
+        let omega = (1.0 - DECAY * DECAY).sqrt();
+        for time in [1.0, 3.0] {
+            let end = check::end(SineGordon, start.clone(), 1.0 / 16.0, time);
+            let expected = 4.0 * (DECAY / omega * (omega * time).sin()).atan();
+            // The lattice is off by d² times the fourth derivatives over 12.
+            let error = (end.q[PENDULUMS / 2] - expected).abs();
+            assert!(error < 0.05, "{error}");
+        }
+    }
+}
