@@ -4,9 +4,11 @@
 
 pub mod counting;
 pub mod drift;
+pub mod linear_stability;
 pub mod measure;
 pub mod methods;
 pub mod order;
+pub mod outcomes;
 pub mod references;
 pub mod scenes;
 pub mod table;

@@ -18,6 +18,7 @@ pub mod point_vortices;
 pub mod post_newtonian_kepler;
 pub mod pythagorean_three_body;
 pub mod sine_gordon;
+pub mod spring_pendulum;
 
 /// What a scene asks of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
