@@ -1,0 +1,65 @@
+//! What a scene does not need stays out of its program: a separable scene with an explicit method contains no solver.
+
+use std::collections::BTreeSet;
+use std::error::Error;
+
+use object::{Object, ObjectSymbol};
+use rustc_demangle::demangle;
+
+/// The modules of the library with what only implicit methods need.
+const SOLVERS: [&str; 6] = [
+    "symplectic::change::",
+    "symplectic::coupled::",
+    "symplectic::fixed_point::",
+    "symplectic::in_lanes::",
+    "symplectic::newton::",
+    "symplectic::second_order::",
+];
+
+/// The names of the functions in a program, without their hashes.
+fn functions(program: &str) -> Result<BTreeSet<String>, Box<dyn Error>> {
+    let data = std::fs::read(program)?;
+    let file = object::File::parse(&*data)?;
+    let names = file
+        .symbols()
+        .filter_map(|symbol| Some(format!("{:#}", demangle(symbol.name().ok()?))));
+    Ok(names.collect())
+}
+
+/// Whether the name is that of a function of the module, or of an implementation for one of its types.
+fn is_of(name: &str, module: &str) -> bool {
+    name.trim_start_matches('<').starts_with(module)
+}
+
+#[test]
+fn an_explicit_scene_has_no_solver_in_it() -> Result<(), Box<dyn Error>> {
+    let explicit = functions(env!("CARGO_BIN_EXE_explicit_scene"))?;
+    let implicit = functions(env!("CARGO_BIN_EXE_implicit_scene"))?;
+    let of = |names: &BTreeSet<String>, module: &str| -> Vec<String> {
+        names
+            .iter()
+            .filter(|name| is_of(name, module))
+            .cloned()
+            .collect()
+    };
+    for module in SOLVERS {
+        assert_eq!(of(&explicit, module), Vec::<String>::new(), "{module}");
+    }
+    // The same looks find the solver where it is, and the drifts and kicks where those are.
+    for module in ["symplectic::coupled::", "symplectic::fixed_point::"] {
+        assert!(!of(&implicit, module).is_empty(), "{module}");
+    }
+    let splitting = "symplectic::splitting::";
+    assert!(!of(&explicit, splitting).is_empty() && of(&implicit, splitting).is_empty());
+    // The one that is chosen brings no other.
+    assert_eq!(of(&implicit, "symplectic::newton::"), Vec::<String>::new());
+    // And all in all there is less.
+    let library = |names: &BTreeSet<String>| {
+        names
+            .iter()
+            .filter(|name| name.contains("symplectic::"))
+            .count()
+    };
+    assert!(library(&explicit) < library(&implicit));
+    Ok(())
+}
