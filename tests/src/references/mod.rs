@@ -31,8 +31,8 @@ pub struct Record {
     pub stages: usize,
     /// See `stages`.
     pub steps: [u64; 2],
-    /// The distance of the two ends: the larger one of the relative distances of q and of p in the 2-norm.
-    pub agreement: f64,
+    /// The distance of the two ends in two digits: the larger one of the relative distances of q and of p in the 2-norm.
+    pub agreement: String,
     /// The position at the end of the finer run.
     pub q: Vec<String>,
     /// The momentum there.

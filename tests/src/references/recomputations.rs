@@ -4,6 +4,7 @@ use symplectic::nalgebra::{DVector, SVector};
 use symplectic::{Hamiltonian, Scalar, State, Vector};
 
 use super::{Collocation, NoConvergence, Record, Wide};
+use crate::measure::largest;
 use crate::scenes::argon_crystal::{self, ArgonCrystal};
 use crate::scenes::charged_particle::{self, ChargedParticle};
 use crate::scenes::damped_particle::{self, DampedParticle};
@@ -83,7 +84,7 @@ pub const ALL: &[Recomputation] = &[
         scene: "Pythagorean three-body",
         parameters: "",
         time: 70.0,
-        step: 1.0,
+        step: 0.09,
         run: |method, time, step| {
             let start: State<SVector<Wide, 6>> = pythagorean_three_body::start();
             // Kepler's third law for the nearest pair, and no longer than the bodies are on their way.
@@ -105,22 +106,22 @@ pub const ALL: &[Recomputation] = &[
     Recomputation {
         scene: "FPUT springs",
         parameters: "ω = 1000",
-        time: 10.0,
+        time: 1.0,
         step: 1.0 / 256.0,
         run: |method, time, step| springs(method, 1e3, time, step),
     },
     Recomputation {
         scene: "FPUT springs",
         parameters: "ω = 100000",
-        time: 0.125,
+        time: 1.0 / 64.0,
         step: 1.0 / 32768.0,
         run: |method, time, step| springs(method, 1e5, time, step),
     },
     Recomputation {
         scene: "argon crystal",
         parameters: "",
-        time: 0.05,
-        step: 1.0 / 8192.0,
+        time: 0.02,
+        step: 1.0 / 12_288.0,
         run: |method, time, step| uniform(method, ArgonCrystal, argon_crystal::start(), time, step),
     },
     Recomputation {
@@ -140,7 +141,7 @@ pub const ALL: &[Recomputation] = &[
     Recomputation {
         scene: "sine-Gordon lattice",
         parameters: "N = 64",
-        time: 20.0,
+        time: 10.0,
         step: 0.25,
         run: |method, time, step| uniform(method, SineGordon, sine_gordon::start(), time, step),
     },
@@ -243,6 +244,15 @@ where
 }
 
 impl Recomputation {
+    /// Whether the record is one of this run.
+    pub fn is_of(&self, record: &Record) -> bool {
+        (
+            record.scene.as_str(),
+            record.parameters.as_str(),
+            record.time,
+        ) == (self.scene, self.parameters, self.time)
+    }
+
     /// Makes both runs.
     ///
     /// # Errors
@@ -260,10 +270,35 @@ impl Recomputation {
             time: self.time,
             stages: method.stages(),
             steps: [coarse_steps, fine_steps],
-            agreement: distance(0).max(distance(1)),
+            agreement: format!("{:.1e}", distance(0).max(distance(1))),
             q: digits(q),
             p: digits(p),
         })
+    }
+}
+
+impl Record {
+    /// How far a run in steps of this size ends from what is recorded, as [`agreement`](Self::agreement) has it; NaN where that
+    /// is no number or has another dimension.
+    ///
+    /// # Errors
+    ///
+    /// [`NoConvergence`].
+    pub fn distance(
+        &self,
+        run: &Recomputation,
+        method: &Collocation,
+        step: f64,
+    ) -> Result<f64, NoConvergence> {
+        let (_, end) = (run.run)(method, run.time, step)?;
+        let digits = [&self.q, &self.p].map(|half| -> Option<Vec<Wide>> {
+            half.iter().map(|digits| Wide::parse(digits)).collect()
+        });
+        let distances = end.iter().zip(&digits).map(|(end, digits)| match digits {
+            Some(digits) if digits.len() == end.len() => relative_distance(end, digits),
+            _ => f64::NAN,
+        });
+        Ok(distances.fold(0.0, largest))
     }
 }
 
