@@ -21,6 +21,7 @@
 //! | How coupled stages are found | [`Solver`]: [`FixedPoint`], [`InLanes`], [`Newton`], [`FixedPointThenNewton`] |
 //! | Between the steps | [`DenseOutput`], [`Interpolation`], [`Event`] |
 //! | What generates a step | [`generating_function`], of Type II |
+//! | Which method to take | the module `report` |
 //! | The method, as the macro emits it | [`Method`], [`StagePlan`], [`Composition`], [`Stages`], [`Coefficient`], [`combine`], [`relax`] |
 //!
 //! A [`Separable`] system with an [`Explicit`] plan is straight-line code with no solver in it; anything else
@@ -57,6 +58,7 @@
 //! * `std` (default): elementary functions from the standard library; implies `alloc`.
 //! * `alloc`: dynamic vectors, [`nalgebra::DVector`], [`Newton`], and [`generating_function`].
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and [`Newton`] takes derivatives by dual numbers; implies `std`.
+//! * `report`: the module `report`, error against run time of methods on a problem, as a page, plots and data; implies `std`.
 //! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, elementary functions from `libm`.
 
 #![no_std]
@@ -67,6 +69,10 @@ extern crate self as symplectic;
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
+
+#[cfg(feature = "report")]
+#[macro_use]
+extern crate std;
 
 mod change;
 mod class;
@@ -96,6 +102,8 @@ mod newton;
 mod output;
 mod partial;
 mod progress;
+#[cfg(feature = "report")]
+pub mod report;
 mod retry;
 mod root;
 mod scalar;

@@ -1,0 +1,46 @@
+//! A Hamiltonian of one's own, three methods, one call, a page: `cargo run --release --features report --example my_problem`
+
+#![allow(clippy::print_stdout, reason = "an example prints")]
+
+use symplectic::nalgebra::Vector2;
+use symplectic::report::{Problem, Reference, Study};
+use symplectic::{State, acceleration};
+
+symplectic::tableau! {
+    /// Störmer–Verlet, order 2, explicit.
+    Verlet { basis: polynomial(2), nodes: lobatto(2) }
+
+    /// Gauss with three stages, order 6.
+    Gauss3 { basis: polynomial(3), nodes: gauss(3) }
+
+    /// Gauss with eight stages, order 16: for the reference.
+    Gauss8 { basis: polynomial(8), nodes: gauss(8) }
+}
+
+symplectic::composition! {
+    /// Blanes & Moan, order 6 for quadratic kinetic energy, explicit.
+    BlanesMoan { base: blanes-moan-2002-srkn14a }
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    // A particle on a spring without a rest length that is weaker in one direction, in a quartic well.
+    let well = acceleration::<Vector2<f64>, _>(|_time, q, acceleration| {
+        *acceleration = -Vector2::new(q[0], 2.0 * q[1]) - q * q.norm_squared();
+    })
+    .with_energy(|_time, q, p| {
+        let square = q.norm_squared();
+        (p.norm_squared() + q[0] * q[0] + 2.0 * q[1] * q[1]) / 2.0 + square * square / 4.0
+    });
+    let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.5]);
+    let reference = Reference::computed(Gauss8, well.clone(), &start, 100.0, 0.1)?;
+
+    let problem = Problem::new("A well", well, start, reference, 1.0)
+        .described("H = (|p|² + q₁² + 2q₂²)/2 + |q|⁴/4")
+        .method(Verlet)
+        .method(BlanesMoan)
+        .method(Gauss3);
+    let study = Study::new("My problem").problem(problem);
+    let page = study.measure().write("target/my_problem")?;
+    println!("{}", page.display());
+    Ok(())
+}

@@ -1,0 +1,79 @@
+//! Error against run time: which method gives an accuracy for the least time, on a problem of yours.
+//!
+//! A [`Study`] runs methods on [problems](Problem) with smaller and smaller step sizes. What it measures is plain data,
+//! [`Measurements`], from which a page, plots, tables and files are [written](Measurements::write):
+//!
+//! * the global error at the end, against a [`Reference`];
+//! * the largest error of the energy and of other invariants along the run, in a run of its own, whose time is not taken;
+//! * the CPU time of the whole integration, the median of several, for which the methods take turns: a machine that becomes
+//!   slower or faster meanwhile does so for all of them;
+//! * evaluations of velocities and forces, iterations, and what went wrong: a run that failed is shown with its error, one
+//!   that would take too long is said to be skipped.
+//!
+//! ```
+//! use symplectic::nalgebra::Vector1;
+//! use symplectic::report::{Kind, Measurements, Problem, Reference, Settings, Study};
+//! use symplectic::{Error, State, acceleration};
+//!
+//! symplectic::tableau! {
+//!     Verlet { basis: polynomial(2), nodes: lobatto(2) }
+//!     Gauss4 { basis: polynomial(4), nodes: gauss(4) }
+//!     Gauss6 { basis: polynomial(6), nodes: gauss(6) }
+//! }
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let pendulum = acceleration::<Vector1<f64>, _>(|_time, q, acceleration| acceleration[0] = -q[0].sin())
+//!     .with_energy(|_time, q, p| p[0] * p[0] / 2.0 - q[0].cos());
+//! let start = State::from_arrays(0.0, [2.0], [0.0]);
+//! let reference = Reference::computed(Gauss6, pendulum.clone(), &start, 10.0, 0.05)?;
+//! let problem = Problem::new("pendulum", pendulum, start, reference, 1.0)
+//!     .method(Verlet)
+//!     .method(Gauss4);
+//! # let settings = Settings {
+//! #     targets: vec![1e-3, 1e-6],
+//! #     budget: std::time::Duration::from_millis(5),
+//! #     repetitions: symplectic::report::Repetitions { least: 1, most: 1, enough: std::time::Duration::ZERO },
+//! # };
+//! # let _defaults =
+//! Settings::default();
+//! let measurements = Study::new("A pendulum").problem(problem).run(&settings, |_progress| {});
+//!
+//! assert_eq!(measurements.methods[1].kind, Kind::Implicit);
+//! assert!(measurements.problems[0].curves[1].cost(1e-6).seconds().is_some());
+//! assert_eq!(Measurements::from_json(&measurements.json()?)?, measurements);
+//! let page = measurements.page();
+//! # assert!(page.contains("<svg"));
+//! # Ok(())
+//! # }
+//! ```
+
+mod best;
+mod contestant;
+mod csv;
+mod files;
+mod ladder;
+mod measurements;
+mod observer;
+mod page;
+mod plot;
+mod problem;
+mod study;
+mod table;
+mod text;
+mod timing;
+
+pub use best::Cost;
+pub use contestant::{Finish, Observe};
+pub use files::WriteError;
+pub use ladder::Ladder;
+pub use measurements::{
+    Curve, Fact, Kind, Measured, Measurements, MethodRecord, Outcome, Parameter, Point,
+    ProblemRecord, Trace,
+};
+pub use plot::{Plot, Scheme};
+pub use problem::{Problem, Reference};
+pub use study::{Advance, Settings, Study};
+pub use timing::Repetitions;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,337 @@
+//! The page: everything in one file, without anything from elsewhere.
+
+use std::prelude::v1::*;
+
+use super::plot::element::Element;
+use super::plot::{file_name, style};
+use super::table::{cost, error};
+use super::text;
+use super::{
+    Cost, Curve, Fact, Kind, Measured, Measurements, MethodRecord, Outcome, Parameter, Plot,
+    ProblemRecord, Scheme,
+};
+
+impl Measurements {
+    /// The page, in HTML: for each problem its plots, the times for the [targets](Self::targets), what failed and every run;
+    /// then what is known of the methods. It needs no other file and no network, and is light or dark as the reader prefers.
+    pub fn page(&self) -> String {
+        let head = Element::new("head")
+            .child(Element::new("meta").with("charset", "utf-8"))
+            .child(
+                Element::new("meta")
+                    .with("name", "viewport")
+                    .with("content", "width=device-width, initial-scale=1"),
+            )
+            .child(tag("title", &self.title))
+            .child(Element::new("style").markup(format!(
+                "\n{}{}",
+                include_str!("page.css"),
+                style(Scheme::Reader)
+            )));
+        let links = self.problems.iter().map(|problem| {
+            tag("a", &problem.name).with("href", format!("#{}", file_name(&problem.name)))
+        });
+        let body = Element::new("body")
+            .child(tag("h1", &self.title))
+            .children(self.circumstances.iter().map(fact_line))
+            .child(
+                Element::new("nav")
+                    .children(links)
+                    .child(tag("a", "The methods").with("href", "#the-methods")),
+            )
+            .child(tag("p", EXPLANATION).with("class", "quiet"))
+            .children(self.problems.iter().map(|problem| self.section(problem)))
+            .child(self.methods_section());
+        let html = Element::new("html")
+            .with("lang", "en")
+            .child(head)
+            .child(body);
+        format!("<!DOCTYPE html>\n{html}\n")
+    }
+
+    fn section(&self, problem: &ProblemRecord) -> Element {
+        let plots = [
+            self.time_plot(problem),
+            self.evaluations_plot(problem),
+            self.energy_plot(problem),
+        ];
+        let plots = plots.iter().flatten().map(Plot::inline);
+        let quiet = |words: String| tag("p", words).with("class", "quiet");
+        let mut section = Element::new("section")
+            .with("id", file_name(&problem.name))
+            .child(tag("h2", &problem.name))
+            .child(tag("p", &problem.description));
+        if !problem.needs.is_empty() {
+            section = section.child(quiet(format!("Needs: {}", problem.needs)));
+        }
+        section = section
+            .child(quiet(format!(
+                "{} positions, from time {} to {}. Reference: {}.",
+                problem.dimension, problem.start, problem.end, problem.reference
+            )))
+            .child(Element::new("div").with("class", "plots").children(plots))
+            .child(self.times(problem));
+        if let Some(failures) = failures(problem) {
+            section = section.child(failures);
+        }
+        section.child(runs(problem))
+    }
+
+    /// The time of every method for every target.
+    fn times(&self, problem: &ProblemRecord) -> Element {
+        let header = ["fastest method for an error of".into()].into_iter();
+        let header = header.chain(self.targets.iter().map(|target| error(*target)));
+        let mut curves: Vec<&Curve> = problem.curves.iter().collect();
+        // Those first that are the fastest at the finest target that they reach.
+        let key = |curve: &Curve| {
+            let costs = self
+                .targets
+                .iter()
+                .rev()
+                .map(|target| curve.cost(*target).seconds());
+            let (missed, seconds) = costs.enumerate().find(|(_, seconds)| seconds.is_some())?;
+            Some((missed, seconds?))
+        };
+        curves.sort_by(|a, b| {
+            let (a, b) = (
+                key(a).unwrap_or((usize::MAX, 0.0)),
+                key(b).unwrap_or((usize::MAX, 0.0)),
+            );
+            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        });
+        let rows = curves.into_iter().map(|curve| {
+            let cells = self.targets.iter().map(|target| {
+                let found = curve.cost(*target);
+                let cell = tag("td", cost(&found)).with("title", explain(curve, &found));
+                let fastest = problem.fastest(*target);
+                let is_fastest = fastest
+                    .first()
+                    .is_some_and(|(best, _)| best.method == curve.method);
+                if is_fastest {
+                    cell.with("class", "best")
+                } else {
+                    cell
+                }
+            });
+            Element::new("tr")
+                .child(tag("td", &curve.method))
+                .children(cells)
+        });
+        table(header, rows)
+    }
+
+    fn methods_section(&self) -> Element {
+        // A column for each fact that one of the methods has.
+        let mut names: Vec<&str> = Vec::new();
+        for fact in self.methods.iter().flat_map(|method| &method.facts) {
+            if !names.contains(&fact.name.as_str()) {
+                names.push(&fact.name);
+            }
+        }
+        let header = ["method", "kind", "stages"]
+            .into_iter()
+            .chain(names.iter().copied());
+        let header = header.chain(["definition"]).map(String::from);
+        let rows = self.methods.iter().map(|method| method_row(method, &names));
+        Element::new("section")
+            .with("id", "the-methods")
+            .child(tag("h2", "The methods"))
+            .child(table(header, rows))
+    }
+}
+
+const EXPLANATION: &str = "Errors are global ones at the end of the run: the larger one of |q − q*|/|q*| and |p − p*|/|p*|. \
+    Times are CPU times of the whole integration, the median of several that all methods took in turn. Times for an error are \
+    interpolated between two runs on a logarithmic scale; ≤ is the time of the first run that is good enough, and nothing is \
+    extrapolated. In the plots, the mouse on a run shows its numbers.";
+
+fn method_row(method: &MethodRecord, names: &[&str]) -> Element {
+    let kind = match method.kind {
+        Kind::Explicit => "explicit",
+        Kind::Implicit => "implicit",
+        Kind::Peer => "other",
+    };
+    let stages = method
+        .stages
+        .map_or_else(String::new, |stages| stages.to_string());
+    let facts = names.iter().map(|name| {
+        let fact = method.facts.iter().find(|fact| fact.name == *name);
+        tag("td", fact.map_or("", |fact| &fact.value)).with("class", "words")
+    });
+    let definition = tag("code", method.definition.as_deref().unwrap_or("–"));
+    Element::new("tr")
+        .child(tag("td", &method.name))
+        .child(tag("td", kind))
+        .child(tag("td", stages))
+        .children(facts)
+        .child(Element::new("td").with("class", "words").child(definition))
+}
+
+/// Why a time is what it is.
+fn explain(curve: &Curve, found: &Cost) -> String {
+    match found {
+        Cost::Between { .. } => "interpolated between two runs".into(),
+        Cost::AtMost { .. } => "the first run; none is less accurate".into(),
+        Cost::NotReached { best } if curve.is_cut() => {
+            let best = text::scientific(*best);
+            format!("not reached within the budget; the best error is {best}")
+        }
+        Cost::NotReached { best } => {
+            format!("not reached; the best error is {}", text::scientific(*best))
+        }
+        Cost::NoRun => "no run came to the end".into(),
+    }
+}
+
+/// The runs that failed or were skipped.
+fn failures(problem: &ProblemRecord) -> Option<Element> {
+    let mut rows = Vec::new();
+    for curve in &problem.curves {
+        for point in &curve.points {
+            let (what, why) = match &point.outcome {
+                Outcome::Measured(_) => continue,
+                Outcome::Failed { error } => ("failed", error),
+                Outcome::Skipped { reason } => ("skipped", reason),
+            };
+            rows.push(
+                Element::new("tr")
+                    .child(tag("td", &curve.method))
+                    .child(tag("td", parameter(curve.parameter, point.parameter)))
+                    .child(tag("td", what))
+                    .child(tag("td", why).with("class", "words")),
+            );
+        }
+    }
+    let summary = format!("{} runs failed or were skipped", rows.len());
+    let header = ["method", "run", "", "why"].map(String::from).into_iter();
+    (!rows.is_empty()).then(|| {
+        Element::new("details")
+            .child(tag("summary", summary))
+            .child(table(header, rows.into_iter()))
+    })
+}
+
+/// All runs that came to the end.
+fn runs(problem: &ProblemRecord) -> Element {
+    let fixed = [
+        "method",
+        "run",
+        "steps",
+        "evaluations",
+        "iterations (most)",
+        "CPU time",
+        "error",
+        "energy error",
+    ];
+    let header = fixed.into_iter().map(String::from);
+    let header = header.chain(
+        problem
+            .invariants
+            .iter()
+            .map(|name| format!("drift of {name}")),
+    );
+    let mut count = 0;
+    let mut rows = Vec::new();
+    for curve in &problem.curves {
+        for (value, run) in curve.measured() {
+            count += 1;
+            rows.push(run_row(curve, value, run));
+        }
+    }
+    Element::new("details")
+        .child(tag(
+            "summary",
+            format!("All {count} runs that came to the end"),
+        ))
+        .child(table(header, rows.into_iter()))
+}
+
+fn run_row(curve: &Curve, value: f64, run: &Measured) -> Element {
+    let number = |value: Option<f64>| value.map_or_else(|| "–".into(), text::scientific);
+    let iterations = match run.most_iterations {
+        0 => "–".into(),
+        most => format!("{:.1} ({most})", run.mean_iterations),
+    };
+    let cells = [
+        parameter(curve.parameter, value),
+        run.steps.map_or_else(|| "–".into(), text::grouped),
+        text::grouped(run.evaluations),
+        iterations,
+        text::seconds(run.seconds),
+        text::scientific(run.error),
+        number(run.energy_error),
+    ];
+    let drifts = run.drifts.iter().map(|drift| number(*drift));
+    Element::new("tr")
+        .child(tag("td", &curve.method))
+        .children(cells.into_iter().chain(drifts).map(|cell| tag("td", cell)))
+}
+
+fn parameter(kind: Parameter, value: f64) -> String {
+    match kind {
+        Parameter::StepSize => format!("h = {}", text::scientific(value)),
+        Parameter::Tolerance => format!("tol = {}", text::scientific(value)),
+    }
+}
+
+fn table(header: impl Iterator<Item = String>, rows: impl Iterator<Item = Element>) -> Element {
+    let header = Element::new("tr").children(header.map(|name| tag("th", name)));
+    let table = Element::new("table")
+        .child(Element::new("thead").child(header))
+        .child(Element::new("tbody").children(rows));
+    Element::new("div").with("class", "scroll").child(table)
+}
+
+fn fact_line(fact: &Fact) -> Element {
+    tag("p", format!("{}: {}", fact.name, fact.value)).with("class", "quiet")
+}
+
+fn tag(name: &'static str, words: impl Into<String>) -> Element {
+    Element::new(name).text(words)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::tests::measurements;
+
+    #[test]
+    fn the_page_is_well_formed_and_needs_nothing_from_elsewhere() {
+        let page = measurements().page();
+        // This page happens to be XML too, but for its first line.
+        let xml = page.strip_prefix("<!DOCTYPE html>\n").expect("it is HTML");
+        let document = roxmltree::Document::parse(xml).expect("every element is closed");
+        let count = |name: &str| {
+            document
+                .descendants()
+                .filter(|node| node.tag_name().name() == name)
+                .count()
+        };
+        assert_eq!(count("svg"), 3);
+        assert_eq!((count("script"), count("link"), count("img")), (0, 0, 0));
+        let without_namespace = page.replace("http://www.w3.org/2000/svg", "");
+        assert!(
+            !without_namespace.contains("http")
+                && !page.contains("@import")
+                && !page.contains("url(")
+        );
+        assert!(page.contains("prefers-color-scheme: dark"));
+    }
+
+    #[test]
+    fn what_failed_is_on_the_page_with_its_error() {
+        let page = measurements().page();
+        assert!(page.contains("2 runs failed or were skipped"), "{page}");
+        assert!(page.contains("the stages did not converge, &quot;so&quot; &lt;it&gt; says"));
+        assert!(page.contains("it would take about 1 s"));
+        assert!(page.contains("4, proved"));
+    }
+
+    #[test]
+    fn the_fastest_is_marked_and_only_it() {
+        let page = measurements().page();
+        // One for each target that is reached, with a class of its own.
+        assert_eq!(page.matches("class=\"best\"").count(), 4);
+        assert!(page.contains("not reached within the budget; the best error is 1.0·10⁻⁴"));
+    }
+}

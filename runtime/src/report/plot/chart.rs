@@ -1,0 +1,338 @@
+//! A chart: axes, curves, and their names.
+
+use std::prelude::v1::*;
+
+use core::fmt::Write;
+
+use super::axis::Axis;
+use super::element::{Element, Pixels};
+use super::labels::{self, Area};
+use super::look::Look;
+use crate::report::Kind;
+
+/// The size of a chart, with its texts.
+pub const WIDTH: f64 = 760.0;
+/// The height of it.
+pub const HEIGHT: f64 = 470.0;
+
+/// Where the curves are.
+const INNER: Area = Area {
+    left: 72.0,
+    top: 62.0,
+    right: 628.0,
+    bottom: 414.0,
+};
+
+/// What is drawn.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    pub title: String,
+    pub subtitle: String,
+    pub x: Axis,
+    pub y: Axis,
+    pub curves: Vec<Drawn>,
+    /// Up to this value of x nothing is known, from the end of the axis.
+    pub unknown: Option<(f64, &'static str)>,
+}
+
+/// A curve in a chart.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    pub name: String,
+    pub look: Look,
+    pub shape: Shape,
+}
+
+/// How it is drawn.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// Marks with lines between them, and a text for each.
+    Marks(Vec<(f64, f64, String)>),
+    /// A line, with gaps.
+    Line(Vec<Option<(f64, f64)>>),
+    /// The area between a lower and an upper line: x and both y.
+    Band(Vec<(f64, f64, f64)>),
+}
+
+impl Chart {
+    /// The elements of the chart, in a rectangle of [`WIDTH`] and [`HEIGHT`].
+    pub fn elements(&self) -> Vec<Element> {
+        let mut elements = vec![
+            Element::new("rect")
+                .with("class", "background")
+                .at("width", WIDTH)
+                .at("height", HEIGHT),
+            text(INNER.left, 26.0, "ink", &self.title)
+                .with("font-size", 16)
+                .with("font-weight", 600),
+            text(INNER.left, 46.0, "muted", &self.subtitle),
+        ];
+        elements.extend(self.key());
+        elements.extend(self.unknown_area());
+        elements.extend(self.grid());
+        let lines: Vec<Vec<(f64, f64)>> =
+            self.curves.iter().map(|curve| self.line(curve)).collect();
+        let ends: Vec<Option<(f64, f64)>> = lines.iter().map(|line| line.last().copied()).collect();
+        let labelled: Vec<(&str, (f64, f64))> = self
+            .curves
+            .iter()
+            .zip(&ends)
+            .filter_map(|(curve, end)| Some((curve.name.as_str(), (*end)?)))
+            .collect();
+        let frame = Area {
+            left: INNER.left,
+            right: WIDTH - 2.0,
+            ..INNER
+        };
+        let mut areas = labels::place(&labelled, &lines, &frame).into_iter();
+        for (curve, end) in self.curves.iter().zip(ends) {
+            let mut group = Element::new("g")
+                .with("class", "curve")
+                .children(self.draw(curve));
+            if let (Some(end), Some(area)) = (end, end.and_then(|_| areas.next())) {
+                group = group.children(label(&curve.name, curve.look, end, &area));
+            }
+            elements.push(group);
+        }
+        elements
+    }
+
+    fn place(&self, (x, y): (f64, f64)) -> (f64, f64) {
+        (
+            INNER.left + (INNER.right - INNER.left) * self.x.place(x),
+            INNER.bottom - (INNER.bottom - INNER.top) * self.y.place(y),
+        )
+    }
+
+    /// What the marks mean, where there are marks of several kinds.
+    fn key(&self) -> Vec<Element> {
+        let kinds = [
+            (Kind::Explicit, "explicit"),
+            (Kind::Implicit, "implicit"),
+            (Kind::Peer, "other"),
+        ];
+        let has_marks = |curve: &Drawn| matches!(curve.shape, Shape::Marks(_));
+        let mut x = INNER.right;
+        let mut elements = Vec::new();
+        for (kind, name) in kinds.into_iter().rev() {
+            let used = self
+                .curves
+                .iter()
+                .any(|curve| curve.look.kind == kind && has_marks(curve));
+            if used {
+                x -= labels::width(name);
+                elements.push(text(x, 46.0, "muted", name).with("font-size", 12));
+                x -= 10.0;
+                // In the grey of the last colour, which stands for none.
+                elements.push(
+                    Look::new(
+                        kind,
+                        if kind == Kind::Explicit {
+                            6
+                        } else if kind == Kind::Implicit {
+                            5
+                        } else {
+                            0
+                        },
+                    )
+                    .mark(x, 42.0),
+                );
+                x -= 16.0;
+            }
+        }
+        elements
+    }
+
+    fn unknown_area(&self) -> Vec<Element> {
+        let Some((value, words)) = self.unknown else {
+            return Vec::new();
+        };
+        let place = self.x.place(value);
+        if !(0.0..1.0).contains(&place) {
+            return Vec::new();
+        }
+        let left = INNER.left + (INNER.right - INNER.left) * place;
+        let mut elements = vec![
+            Element::new("rect")
+                .with("class", "unknown")
+                .at("x", left)
+                .at("y", INNER.top)
+                .at("width", INNER.right - left)
+                .at("height", INNER.bottom - INNER.top)
+                .child(Element::new("title").text(words)),
+        ];
+        if INNER.right - left > 1.1 * labels::width(words) {
+            elements.push(
+                text(INNER.right - 6.0, INNER.bottom - 8.0, "muted", words)
+                    .with("text-anchor", "end")
+                    .with("font-size", 11),
+            );
+        }
+        elements
+    }
+
+    fn grid(&self) -> Vec<Element> {
+        let line = |class, (x1, y1): (f64, f64), (x2, y2): (f64, f64)| {
+            let line = Element::new("line").with("class", class);
+            line.at("x1", x1).at("y1", y1).at("x2", x2).at("y2", y2)
+        };
+        let Area {
+            left,
+            top,
+            right,
+            bottom,
+        } = INNER;
+        let column = |value| left + (right - left) * self.x.place(value);
+        let row = |value| bottom - (bottom - top) * self.y.place(value);
+        let mut elements = Vec::new();
+        for (value, name) in self.x.ticks() {
+            let x = column(value);
+            elements.push(line("grid", (x, top), (x, bottom)));
+            elements.push(text(x, bottom + 19.0, "muted", &name).with("text-anchor", "middle"));
+        }
+        for (value, name) in self.y.ticks() {
+            let y = row(value);
+            elements.push(line("grid", (left, y), (right, y)));
+            elements.push(text(left - 9.0, y + 4.0, "muted", &name).with("text-anchor", "end"));
+        }
+        for value in self.x.minor_ticks() {
+            elements.push(line(
+                "frame",
+                (column(value), bottom),
+                (column(value), bottom + 3.0),
+            ));
+        }
+        for value in self.y.minor_ticks() {
+            elements.push(line("frame", (left - 3.0, row(value)), (left, row(value))));
+        }
+        let corner = format!("M{left} {top}V{bottom}H{right}");
+        elements.push(
+            Element::new("path")
+                .with("class", "frame")
+                .with("d", corner),
+        );
+        let middle = (top + bottom) / 2.0;
+        elements.push(
+            text((left + right) / 2.0, bottom + 42.0, "ink", &self.x.label)
+                .with("text-anchor", "middle"),
+        );
+        elements.push(
+            text(20.0, middle, "ink", &self.y.label)
+                .with("text-anchor", "middle")
+                .with("transform", format!("rotate(-90 20 {})", Pixels(middle))),
+        );
+        elements
+    }
+
+    /// The places of the points of a curve.
+    fn line(&self, curve: &Drawn) -> Vec<(f64, f64)> {
+        match &curve.shape {
+            Shape::Marks(points) => points
+                .iter()
+                .map(|(x, y, _)| self.place((*x, *y)))
+                .collect(),
+            Shape::Line(points) => points
+                .iter()
+                .flatten()
+                .map(|point| self.place(*point))
+                .collect(),
+            Shape::Band(points) => points
+                .iter()
+                .map(|(x, low, high)| self.place((*x, (low + high) / 2.0)))
+                .collect(),
+        }
+    }
+
+    fn draw(&self, curve: &Drawn) -> Vec<Element> {
+        let look = curve.look;
+        let stroke = |path: String, width: &str| {
+            let line = Element::new("path")
+                .with("class", look.line())
+                .with("fill", "none")
+                .with("stroke-width", width)
+                .with("stroke-linejoin", "round")
+                .with("d", path);
+            match look.dashes() {
+                Some(dashes) => line.with("stroke-dasharray", dashes),
+                None => line,
+            }
+        };
+        match &curve.shape {
+            Shape::Marks(points) => {
+                let line = self.line(curve);
+                let mut elements = vec![stroke(path(&line), "1.8")];
+                for ((x, y), (_, _, words)) in line.into_iter().zip(points) {
+                    let title = Element::new("title").text(words.as_str());
+                    elements.push(look.mark(x, y).child(title));
+                }
+                elements
+            }
+            Shape::Line(points) => {
+                let parts = points.split(Option::is_none);
+                let paths = parts.map(|part| {
+                    path(
+                        &part
+                            .iter()
+                            .flatten()
+                            .map(|point| self.place(*point))
+                            .collect::<Vec<_>>(),
+                    )
+                });
+                let paths: String = paths.collect();
+                vec![stroke(paths, "1.5").child(Element::new("title").text(curve.name.as_str()))]
+            }
+            Shape::Band(points) => {
+                let low = points.iter().map(|(x, low, _)| self.place((*x, *low)));
+                let high = points.iter().map(|(x, _, high)| self.place((*x, *high)));
+                let area: Vec<(f64, f64)> = low.chain(high.rev()).collect();
+                let area = path(&area) + "Z";
+                vec![
+                    Element::new("path")
+                        .with("class", look.area())
+                        .with("fill-opacity", "0.3")
+                        .with("d", area.as_str())
+                        .child(Element::new("title").text(curve.name.as_str())),
+                    stroke(area, "1"),
+                ]
+            }
+        }
+    }
+}
+
+/// The name of a curve, with a line to its end where it is far from it.
+fn label(name: &str, look: Look, end: (f64, f64), area: &Area) -> Vec<Element> {
+    let middle = (area.top + area.bottom) / 2.0;
+    let mut elements = Vec::new();
+    if labels::distance(area, end) > 26.0 {
+        // To the nearest point of the text.
+        let x = end.0.clamp(area.left - 3.0, area.right + 3.0);
+        let leader = path(&[end, (x, middle)]);
+        elements.push(
+            Element::new("path")
+                .with("class", "leader")
+                .with("d", leader),
+        );
+    }
+    let class = format!("label {}", look.letters());
+    elements.push(text(area.left, middle + 4.3, &class, name).with("font-size", 12));
+    elements
+}
+
+fn text(x: f64, y: f64, class: &str, words: &str) -> Element {
+    Element::new("text")
+        .with("class", class)
+        .at("x", x)
+        .at("y", y)
+        .text(words)
+}
+
+/// Straight lines between points.
+fn path(points: &[(f64, f64)]) -> String {
+    let mut path = String::new();
+    for (index, (x, y)) in points.iter().enumerate() {
+        let letter = if index == 0 { 'M' } else { 'L' };
+        let written = write!(path, "{letter}{} {}", Pixels(*x), Pixels(*y));
+        debug_assert!(written.is_ok(), "a string takes all");
+    }
+    path
+}

@@ -1,0 +1,161 @@
+//! Places for the names of curves next to their ends, where nothing else is.
+
+use std::prelude::v1::*;
+
+/// A rectangle in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Area {
+    pub left: f64,
+    pub top: f64,
+    pub right: f64,
+    pub bottom: f64,
+}
+
+impl Area {
+    fn overlaps(&self, other: &Self) -> bool {
+        self.left < other.right
+            && other.left < self.right
+            && self.top < other.bottom
+            && other.top < self.bottom
+    }
+
+    fn holds(&self, (x, y): (f64, f64)) -> bool {
+        (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
+    }
+
+    fn is_within(&self, other: &Self) -> bool {
+        self.left >= other.left
+            && self.right <= other.right
+            && self.top >= other.top
+            && self.bottom <= other.bottom
+    }
+}
+
+/// The height of a line of text.
+pub const HEIGHT: f64 = 13.0;
+
+/// The width of a text in letters of [`HEIGHT`], roughly: no font is at hand. Rather too wide.
+pub fn width(text: &str) -> f64 {
+    6.6 * text.chars().count() as f64
+}
+
+/// Places for texts that are about these points, inside `frame`: as near as can be, on no other text, and on as little of
+/// `curves` as possible. The places are those of the left end and the vertical middle of each text.
+pub fn place(labels: &[(&str, (f64, f64))], curves: &[Vec<(f64, f64)>], frame: &Area) -> Vec<Area> {
+    let obstacles: Vec<(f64, f64)> = curves.iter().flat_map(|curve| samples(curve)).collect();
+    // From top to bottom, so that labels in a column have the order of their points.
+    let mut order: Vec<usize> = (0..labels.len()).collect();
+    order.sort_by(|&a, &b| labels[a].1.1.total_cmp(&labels[b].1.1));
+    let mut placed: Vec<Option<Area>> = vec![None; labels.len()];
+    for index in order {
+        let (text, point) = labels[index];
+        let cost = |candidate: &Area| {
+            let texts = placed
+                .iter()
+                .flatten()
+                .filter(|other| candidate.overlaps(other))
+                .count();
+            let outside = u32::from(!candidate.is_within(frame));
+            let covered = obstacles.iter().filter(|at| candidate.holds(**at)).count();
+            1e4 * texts as f64
+                + 1e5 * f64::from(outside)
+                + 4.0 * covered as f64
+                + distance(candidate, point)
+        };
+        let best = candidates(width(text), point)
+            .map(|candidate| (cost(&candidate), candidate))
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        placed[index] = best.map(|(_, area)| area);
+    }
+    placed.into_iter().flatten().collect()
+}
+
+/// Places around a point, those to its right first.
+fn candidates(width: f64, (x, y): (f64, f64)) -> impl Iterator<Item = Area> {
+    let lefts = [x + 8.0, x + 20.0, x - width / 2.0, x - 8.0 - width];
+    lefts.into_iter().flat_map(move |left| {
+        (0..=60).map(move |k| {
+            // 0, −4, 4, −8, 8, …
+            let shift = 4.0 * f64::from((k + 1) / 2) * if k % 2 == 0 { 1.0 } else { -1.0 };
+            let middle = y + shift;
+            Area {
+                left,
+                top: middle - HEIGHT / 2.0,
+                right: left + width,
+                bottom: middle + HEIGHT / 2.0,
+            }
+        })
+    })
+}
+
+/// How far a text is from the point that it is about. To the right is best.
+pub fn distance(area: &Area, (x, y): (f64, f64)) -> f64 {
+    let dx = (area.left - x).max(x - area.right).max(0.0);
+    let dy = ((area.top + area.bottom) / 2.0 - y).abs();
+    let beside = if area.left > x { 0.0 } else { 12.0 };
+    dx + dy + beside
+}
+
+/// Points on the straight lines between the points of a curve, some pixels apart.
+fn samples(curve: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let between = |pair: &[(f64, f64)]| {
+        let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
+        let count = ((x1 - x0).hypot(y1 - y0) / 3.0).ceil().clamp(1.0, 1e3) as usize;
+        let part = move |k: usize| k as f64 / count as f64;
+        (0..=count).map(move |k| (x0 + part(k) * (x1 - x0), y0 + part(k) * (y1 - y0)))
+    };
+    curve.windows(2).flat_map(between).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRAME: Area = Area {
+        left: 0.0,
+        top: 0.0,
+        right: 400.0,
+        bottom: 300.0,
+    };
+
+    #[test]
+    fn one_alone_is_to_the_right_of_its_point() {
+        let found = place(&[("Verlet", (100.0, 100.0))], &[], &FRAME);
+        assert_eq!(found[0].left, 108.0);
+        assert_eq!(found[0].top, 100.0 - HEIGHT / 2.0);
+    }
+
+    #[test]
+    fn texts_of_many_points_at_one_place_are_apart_and_inside() {
+        let names: Vec<String> = (0..14).map(|k| format!("method number {k}")).collect();
+        let labels: Vec<(&str, (f64, f64))> = names
+            .iter()
+            .enumerate()
+            .map(|(k, name)| (name.as_str(), (250.0, 150.0 + k as f64)))
+            .collect();
+        let found = place(&labels, &[], &FRAME);
+        assert_eq!(found.len(), 14);
+        for (k, area) in found.iter().enumerate() {
+            assert!(area.is_within(&FRAME), "{area:?}");
+            assert!(
+                found[..k].iter().all(|other| !other.overlaps(area)),
+                "{found:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn curves_are_left_free() {
+        // A line to the right of the point.
+        let curve = vec![(100.0, 100.0), (400.0, 100.0)];
+        let found = place(&[("Verlet", (100.0, 100.0))], &[curve], &FRAME);
+        assert!(!found[0].holds((120.0, 100.0)), "{found:?}");
+        assert!((found[0].top - 100.0).abs() < 30.0);
+    }
+
+    #[test]
+    fn at_the_right_border_it_goes_to_the_left() {
+        let found = place(&[("Verlet", (395.0, 100.0))], &[], &FRAME);
+        assert!(found[0].is_within(&FRAME));
+    }
+}

@@ -1,0 +1,266 @@
+//! A problem, and the methods that are to try it.
+
+use std::prelude::v1::*;
+
+use super::contestant::{Contestant, Finish, Observe};
+use super::text;
+use super::{Ladder, Measured};
+use crate::{Error, Hamiltonian, Integrator, Method, Solver, State, Summation, Vector};
+
+/// A system with a start, the state at the end, and the methods that are run on it.
+///
+/// See the [module](super) for an example.
+pub struct Problem<V, S> {
+    pub(super) name: String,
+    pub(super) description: String,
+    pub(super) needs: String,
+    pub(super) system: S,
+    pub(super) start: State<V>,
+    pub(super) reference: Reference<V>,
+    pub(super) ladder: Ladder,
+    pub(super) trace_at: Option<f64>,
+    pub(super) invariants: Vec<(String, Box<Invariant<V>>)>,
+    pub(super) contestants: Vec<Contestant<V>>,
+}
+
+type Invariant<V> = dyn Fn(&State<V>) -> f64;
+
+impl<V, S> Problem<V, S>
+where
+    V: Vector<Scalar = f64>,
+    S: Hamiltonian<V> + Clone + 'static,
+{
+    /// The problem of getting from `start` to the end of `reference`, with steps of about `step_size` and smaller.
+    ///
+    /// `step_size` is the first step size of every method, better too large than too small: what a method cannot do with it is
+    /// seen in the report.
+    pub fn new(
+        name: impl Into<String>,
+        system: S,
+        start: State<V>,
+        reference: Reference<V>,
+        step_size: f64,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            description: String::new(),
+            needs: String::new(),
+            system,
+            start,
+            reference,
+            ladder: Ladder::Descend { first: step_size },
+            trace_at: None,
+            invariants: Vec::new(),
+            contestants: Vec::new(),
+        }
+    }
+
+    /// Says what the Hamiltonian is and where the data are from.
+    #[must_use]
+    pub fn described(mut self, description: impl Into<String>) -> Self {
+        self.description = description.into();
+        self
+    }
+
+    /// Says what the problem asks of a method.
+    #[must_use]
+    pub fn needing(mut self, needs: impl Into<String>) -> Self {
+        self.needs = needs.into();
+        self
+    }
+
+    /// Takes other step sizes than those [down](Ladder::Descend) from the first one.
+    #[must_use]
+    pub fn on_ladder(mut self, ladder: Ladder) -> Self {
+        self.ladder = ladder;
+        self
+    }
+
+    /// Shows the energy over time in the runs with the step size nearest to this one. Without it, they are those with about
+    /// as many evaluations as half of the methods need for an error of 10⁻⁶.
+    #[must_use]
+    pub const fn traced_at(mut self, step_size: f64) -> Self {
+        self.trace_at = Some(step_size);
+        self
+    }
+
+    /// Watches a function of the state that the exact flow conserves: a momentum map.
+    #[must_use]
+    pub fn conserving(
+        mut self,
+        name: impl Into<String>,
+        invariant: impl Fn(&State<V>) -> f64 + 'static,
+    ) -> Self {
+        self.invariants.push((name.into(), Box::new(invariant)));
+        self
+    }
+
+    /// Runs a method with the fixed-point iteration where it needs one, and with compensated sums.
+    #[must_use]
+    pub fn method<M: Method>(self, method: M) -> Self {
+        self.run(M::NAME, move |system, start, step_size| {
+            Integrator::new(method, system, start, step_size)
+        })
+    }
+
+    /// Runs an integrator that `build` makes from the system, the start and the step size: in lanes, by Newton's iteration,
+    /// with plain sums, ….
+    ///
+    /// A method that is called the same is the same method in the whole report, even where it is run in another way.
+    #[must_use]
+    pub fn run<M, R, N, F>(mut self, name: impl Into<String>, build: F) -> Self
+    where
+        M: Method,
+        R: Summation + 'static,
+        N: Solver<V, S> + 'static,
+        F: Fn(S, State<V>, f64) -> Result<Integrator<M, S, V, R, N>, Error> + Clone + 'static,
+    {
+        let (system, start) = (self.system.clone(), self.start.clone());
+        let end = self.reference.end.time;
+        let ladder = self.ladder.clone();
+        let make = move |step_size| build(system.clone(), start.clone(), step_size);
+        let contestant = Contestant::of_integrator(name.into(), ladder, end, make);
+        self.contestants.push(contestant);
+        self
+    }
+
+    /// Runs something that is not of this library, with its own step sizes or tolerances.
+    ///
+    /// `integrate` goes from the start to the end with the parameter that it is given. It shows the states on the way where it
+    /// is given something to show them to, and when it is not, its time is taken. The error is in words.
+    #[must_use]
+    pub fn peer<F>(mut self, name: impl Into<String>, ladder: Ladder, integrate: F) -> Self
+    where
+        F: Fn(f64, Option<Observe<'_, V>>) -> Result<Finish<V>, String> + 'static,
+    {
+        let contestant = Contestant::of_peer(name.into(), ladder, integrate);
+        self.contestants.push(contestant);
+        self
+    }
+
+    /// The methods so far.
+    pub fn methods(&self) -> impl Iterator<Item = &str> {
+        self.contestants
+            .iter()
+            .map(|contestant| contestant.name.as_str())
+    }
+}
+
+/// The state at the end, and how it is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reference<V> {
+    /// The state.
+    pub end: State<V>,
+    /// Where it is from.
+    pub origin: String,
+    /// How well it is known, as a relative error: that of [`Measured::error`](super::Measured::error).
+    pub uncertainty: f64,
+}
+
+impl<V: Vector<Scalar = f64>> Reference<V> {
+    /// A state from a closed form, or from a computation with more digits, that is known to this relative error.
+    pub fn known(end: State<V>, origin: impl Into<String>, uncertainty: f64) -> Self {
+        Self {
+            end,
+            origin: origin.into(),
+            uncertainty,
+        }
+    }
+
+    /// The state that a method finds in steps of `step_size`; the distance from what it finds in steps of 3/2 the size is how
+    /// well it is known.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Integrator::new`] and [`Integrator::integrate_to`].
+    ///
+    /// ```
+    /// use symplectic::nalgebra::Vector1;
+    /// use symplectic::report::Reference;
+    /// use symplectic::{Error, State, acceleration};
+    ///
+    /// symplectic::tableau! { Gauss6 { basis: polynomial(6), nodes: gauss(6) } }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let oscillator = acceleration::<Vector1<f64>, _>(|_, q, acceleration| *acceleration = -q);
+    /// let start = State::from_arrays(0.0, [1.0], [0.0]);
+    /// let reference = Reference::computed(Gauss6, oscillator, &start, 10.0, 0.1)?;
+    /// assert!((reference.end.q[0] - 10_f64.cos()).abs() < 1e-15);
+    /// assert!(reference.uncertainty < 1e-14);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn computed<M, S>(
+        method: M,
+        system: S,
+        start: &State<V>,
+        end: f64,
+        step_size: f64,
+    ) -> Result<Self, Error>
+    where
+        M: Method,
+        S: Hamiltonian<V>,
+    {
+        let mut integrator = Integrator::new(method, system, start.clone(), 1.5 * step_size)?;
+        let coarse = integrator.integrate_to(end)?.clone();
+        integrator.set_state(start.clone())?;
+        integrator.set_step_size(step_size)?;
+        let fine = integrator.integrate_to(end)?.clone();
+        let uncertainty = Measured::error_of(&coarse, &fine);
+        Ok(Self {
+            origin: format!(
+                "{} in steps of {step_size}; in steps of {} the end is another by {}",
+                M::NAME,
+                1.5 * step_size,
+                text::scientific(uncertainty),
+            ),
+            end: fine,
+            uncertainty,
+        })
+    }
+}
+
+impl Measured {
+    /// The larger one of the relative errors of q and p in 2-norms, absolute where the reference is zero.
+    pub(super) fn error_of<V: Vector<Scalar = f64>>(found: &State<V>, reference: &State<V>) -> f64 {
+        let relative = |found: &V, reference: &V| {
+            let pairs = found.as_slice().iter().zip(reference.as_slice());
+            let distance = pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+            let norm = reference
+                .as_slice()
+                .iter()
+                .map(|x| x * x)
+                .sum::<f64>()
+                .sqrt();
+            if norm == 0.0 {
+                distance
+            } else {
+                distance / norm
+            }
+        };
+        let (q, p) = (
+            relative(&found.q, &reference.q),
+            relative(&found.p, &reference.p),
+        );
+        // Not a number if one is.
+        if q.is_nan() || q > p { q } else { p }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_error_is_the_larger_relative_one() {
+        let reference = State::from_arrays(0.0, [3.0, 4.0], [0.0, 0.0]);
+        let found = State::from_arrays(0.0, [3.0, 4.5], [0.0, 0.01]);
+        assert!((Measured::error_of(&found, &reference) - 0.1).abs() < 1e-15);
+        let found = State::from_arrays(0.0, [3.0, 4.0], [0.25, 0.0]);
+        assert_eq!(Measured::error_of(&found, &reference), 0.25);
+        let found = State::from_arrays(0.0, [f64::NAN, 4.0], [0.25, 0.0]);
+        assert!(Measured::error_of(&found, &reference).is_nan());
+        let found = State::from_arrays(0.0, [1.0, 4.0], [0.25, f64::NAN]);
+        assert!(Measured::error_of(&found, &reference).is_nan());
+    }
+}
