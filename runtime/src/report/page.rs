@@ -39,6 +39,7 @@ impl Measurements {
                     .children(links)
                     .child(tag("a", "The methods").with("href", "#the-methods")),
             )
+            .child(self.overview())
             .child(tag("p", EXPLANATION).with("class", "quiet"))
             .children(self.problems.iter().map(|problem| self.section(problem)))
             .child(self.methods_section());
@@ -47,6 +48,25 @@ impl Measurements {
             .child(head)
             .child(body);
         format!("<!DOCTYPE html>\n{html}\n")
+    }
+
+    /// The fastest method for each problem and target.
+    fn overview(&self) -> Element {
+        let header = ["the fastest for an error of".into()].into_iter();
+        let header = header.chain(self.targets.iter().map(|target| error(*target)));
+        let rows = self.problems.iter().map(|problem| {
+            let cells = self
+                .targets
+                .iter()
+                .map(|target| match problem.fastest(*target).first() {
+                    Some((curve, found)) => format!("{}, {}", curve.method, cost(found)),
+                    None => "–".into(),
+                });
+            Element::new("tr")
+                .child(tag("td", &problem.name))
+                .children(cells.map(|cell| tag("td", cell)))
+        });
+        table(header, rows)
     }
 
     fn section(&self, problem: &ProblemRecord) -> Element {

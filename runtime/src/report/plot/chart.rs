@@ -11,7 +11,7 @@ use super::look::Look;
 use crate::report::Kind;
 
 /// The size of a chart, with its texts.
-pub const WIDTH: f64 = 760.0;
+pub const WIDTH: f64 = 820.0;
 /// The height of it.
 pub const HEIGHT: f64 = 470.0;
 
@@ -22,6 +22,9 @@ const INNER: Area = Area {
     right: 628.0,
     bottom: 414.0,
 };
+
+/// Where the names of curves that end on the right are.
+const COLUMN: f64 = INNER.right + 16.0;
 
 /// What is drawn.
 #[derive(Clone, Debug)]
@@ -84,7 +87,7 @@ impl Chart {
             right: WIDTH - 2.0,
             ..INNER
         };
-        let mut areas = labels::place(&labelled, &lines, &frame).into_iter();
+        let mut areas = labels::place(&labelled, &lines, &frame, COLUMN).into_iter();
         for (curve, end) in self.curves.iter().zip(ends) {
             let mut group = Element::new("g")
                 .with("class", "curve")
@@ -123,20 +126,7 @@ impl Chart {
                 x -= labels::width(name);
                 elements.push(text(x, 46.0, "muted", name).with("font-size", 12));
                 x -= 10.0;
-                // In the grey of the last colour, which stands for none.
-                elements.push(
-                    Look::new(
-                        kind,
-                        if kind == Kind::Explicit {
-                            6
-                        } else if kind == Kind::Implicit {
-                            5
-                        } else {
-                            0
-                        },
-                    )
-                    .mark(x, 42.0),
-                );
+                elements.push(Look::grey(kind).mark(x, 42.0));
                 x -= 16.0;
             }
         }
@@ -303,15 +293,13 @@ impl Chart {
 fn label(name: &str, look: Look, end: (f64, f64), area: &Area) -> Vec<Element> {
     let middle = (area.top + area.bottom) / 2.0;
     let mut elements = Vec::new();
-    if labels::distance(area, end) > 26.0 {
+    if labels::distance(area, end) > 14.0 {
         // To the nearest point of the text.
         let x = end.0.clamp(area.left - 3.0, area.right + 3.0);
-        let leader = path(&[end, (x, middle)]);
-        elements.push(
-            Element::new("path")
-                .with("class", "leader")
-                .with("d", leader),
-        );
+        let leader = Element::new("path")
+            .with("class", format!("leader {}", look.line()))
+            .with("d", path(&[end, (x, middle)]));
+        elements.push(leader);
     }
     let class = format!("label {}", look.letters());
     elements.push(text(area.left, middle + 4.3, &class, name).with("font-size", 12));

@@ -39,14 +39,38 @@ pub fn width(text: &str) -> f64 {
     6.6 * text.chars().count() as f64
 }
 
-/// Places for texts that are about these points, inside `frame`: as near as can be, on no other text, and on as little of
-/// `curves` as possible. The places are those of the left end and the vertical middle of each text.
-pub fn place(labels: &[(&str, (f64, f64))], curves: &[Vec<(f64, f64)>], frame: &Area) -> Vec<Area> {
+/// Ends of curves that are no farther to the left of the column have their names in it.
+const REACH: f64 = 104.0;
+
+/// Places for texts that are about these points, inside `frame`: those of points near its left end in a column that begins at
+/// `column`, in the order of the points, all others as near as can be, on no other text, and on as little of `curves` as
+/// possible.
+pub fn place(
+    labels: &[(&str, (f64, f64))],
+    curves: &[Vec<(f64, f64)>],
+    frame: &Area,
+    column: f64,
+) -> Vec<Area> {
     let obstacles: Vec<(f64, f64)> = curves.iter().flat_map(|curve| samples(curve)).collect();
-    // From top to bottom, so that labels in a column have the order of their points.
-    let mut order: Vec<usize> = (0..labels.len()).collect();
-    order.sort_by(|&a, &b| labels[a].1.1.total_cmp(&labels[b].1.1));
     let mut placed: Vec<Option<Area>> = vec![None; labels.len()];
+    let in_column = |index: &usize| labels[*index].1.0 > column - REACH;
+    let mut indices: Vec<usize> = (0..labels.len()).filter(in_column).collect();
+    indices.sort_by(|&a, &b| labels[a].1.1.total_cmp(&labels[b].1.1));
+    let wanted: Vec<f64> = indices.iter().map(|&index| labels[index].1.1).collect();
+    let middles = spread(&wanted, HEIGHT + 1.0, (frame.top, frame.bottom));
+    for (index, middle) in indices.into_iter().zip(middles) {
+        placed[index] = Some(Area {
+            left: column,
+            top: middle - HEIGHT / 2.0,
+            right: column + width(labels[index].0),
+            bottom: middle + HEIGHT / 2.0,
+        });
+    }
+    // From top to bottom, so that labels in a column have the order of their points.
+    let mut order: Vec<usize> = (0..labels.len())
+        .filter(|index| !in_column(index))
+        .collect();
+    order.sort_by(|&a, &b| labels[a].1.1.total_cmp(&labels[b].1.1));
     for index in order {
         let (text, point) = labels[index];
         let cost = |candidate: &Area| {
@@ -68,6 +92,44 @@ pub fn place(labels: &[(&str, (f64, f64))], curves: &[Vec<(f64, f64)>], frame: &
         placed[index] = best.map(|(_, area)| area);
     }
     placed.into_iter().flatten().collect()
+}
+
+/// Ascending values at least `gap` apart, as near as can be to ascending `wanted` ones in the sense of least squares, and
+/// inside the range as long as there is room.
+fn spread(wanted: &[f64], gap: f64, (low, high): (f64, f64)) -> Vec<f64> {
+    // Groups of neighbours that touch: how many they are, and the sum of where they want the first of them to be.
+    let mut groups: Vec<(usize, f64)> = Vec::new();
+    for &value in wanted {
+        let mut group = (1, value);
+        while let Some(&(count, sum)) = groups.last() {
+            let end = sum / count as f64 + gap * count as f64;
+            if end <= group.1 / group.0 as f64 {
+                break;
+            }
+            groups.pop();
+            group = (
+                count + group.0,
+                sum + group.1 - gap * (count * group.0) as f64,
+            );
+        }
+        groups.push(group);
+    }
+    let mut values: Vec<f64> = groups
+        .into_iter()
+        .flat_map(|(count, sum)| (0..count).map(move |k| sum / count as f64 + gap * k as f64))
+        .collect();
+    // What is outside is pushed in, and pushes the next ones.
+    let mut limit = low + gap / 2.0;
+    for value in &mut values {
+        *value = value.max(limit);
+        limit = *value + gap;
+    }
+    let mut limit = high - gap / 2.0;
+    for value in values.iter_mut().rev() {
+        *value = value.min(limit);
+        limit = *value - gap;
+    }
+    values
 }
 
 /// Places around a point, those to its right first.
@@ -120,7 +182,7 @@ mod tests {
 
     #[test]
     fn one_alone_is_to_the_right_of_its_point() {
-        let found = place(&[("Verlet", (100.0, 100.0))], &[], &FRAME);
+        let found = place(&[("Verlet", (100.0, 100.0))], &[], &FRAME, 1e3);
         assert_eq!(found[0].left, 108.0);
         assert_eq!(found[0].top, 100.0 - HEIGHT / 2.0);
     }
@@ -133,7 +195,7 @@ mod tests {
             .enumerate()
             .map(|(k, name)| (name.as_str(), (250.0, 150.0 + k as f64)))
             .collect();
-        let found = place(&labels, &[], &FRAME);
+        let found = place(&labels, &[], &FRAME, 1e3);
         assert_eq!(found.len(), 14);
         for (k, area) in found.iter().enumerate() {
             assert!(area.is_within(&FRAME), "{area:?}");
@@ -145,17 +207,39 @@ mod tests {
     }
 
     #[test]
+    fn a_column_keeps_the_order_and_the_distance() {
+        let labels: Vec<(&str, (f64, f64))> = [150.0, 149.0, 148.0, 40.0, 299.0, 298.0]
+            .map(|y| ("name", (280.0, y)))
+            .into();
+        let found = place(&labels, &[], &FRAME, 300.0);
+        assert!(
+            found
+                .iter()
+                .all(|area| area.left == 300.0 && area.is_within(&FRAME))
+        );
+        let tops = |of: &[usize]| of.iter().map(|&k| found[k].top).collect::<Vec<_>>();
+        assert!(
+            tops(&[3, 2, 1, 0, 5, 4])
+                .windows(2)
+                .all(|pair| pair[1] - pair[0] >= HEIGHT)
+        );
+        // The middle one of three stays where it is, and who is alone too.
+        assert!((found[1].top - (149.0 - HEIGHT / 2.0)).abs() < 1e-9);
+        assert!((found[3].top - (40.0 - HEIGHT / 2.0)).abs() < 1e-9);
+    }
+
+    #[test]
     fn curves_are_left_free() {
         // A line to the right of the point.
         let curve = vec![(100.0, 100.0), (400.0, 100.0)];
-        let found = place(&[("Verlet", (100.0, 100.0))], &[curve], &FRAME);
+        let found = place(&[("Verlet", (100.0, 100.0))], &[curve], &FRAME, 1e3);
         assert!(!found[0].holds((120.0, 100.0)), "{found:?}");
         assert!((found[0].top - 100.0).abs() < 30.0);
     }
 
     #[test]
     fn at_the_right_border_it_goes_to_the_left() {
-        let found = place(&[("Verlet", (395.0, 100.0))], &[], &FRAME);
+        let found = place(&[("Verlet", (395.0, 100.0))], &[], &FRAME, 1e3);
         assert!(found[0].is_within(&FRAME));
     }
 }

@@ -85,7 +85,7 @@ fn rules(palette: &Palette) -> String {
          .muted {{ fill: {muted} }}\n\
          .grid {{ stroke: {grid}; stroke-width: 1 }}\n\
          .frame {{ stroke: {muted}; stroke-width: 1; fill: none }}\n\
-         .leader {{ stroke: {muted}; stroke-width: 0.7; fill: none }}\n\
+         .leader {{ stroke-width: 0.8; fill: none; opacity: 0.75 }}\n\
          .unknown {{ fill: {muted}; fill-opacity: 0.13 }}\n\
          .label {{ stroke: {background}; stroke-width: 3px; stroke-linejoin: round; paint-order: stroke }}\n\
          .hollow {{ fill: {background}; stroke-width: 1.6 }}\n"
@@ -104,36 +104,31 @@ fn rules(palette: &Palette) -> String {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Look {
     pub kind: Kind,
-    /// Its place among the methods of its kind.
+    /// Its place among all methods.
     index: usize,
 }
 
 impl Look {
-    pub const fn new(kind: Kind, index: usize) -> Self {
+    const fn new(kind: Kind, index: usize) -> Self {
         Self { kind, index }
     }
 
     /// The look of a method; that of an unknown one is the first.
     pub fn of(method: &str, measurements: &Measurements) -> Self {
-        let Some(record) = measurements.method(method) else {
-            return Self::new(Kind::Peer, 0);
-        };
-        let same = measurements
-            .methods
-            .iter()
-            .filter(|other| other.kind == record.kind);
-        let index = same.take_while(|other| other.name != method).count();
-        Self::new(record.kind, index)
+        let mut methods = measurements.methods.iter().enumerate();
+        let found = methods.find(|(_, record)| record.name == method);
+        found.map_or(Self::new(Kind::Peer, 0), |(index, record)| {
+            Self::new(record.kind, index)
+        })
     }
 
-    /// The colours of kinds begin at different places, so that the first ones of all kinds differ.
+    /// The look of a mark that stands for its kind only: grey.
+    pub const fn grey(kind: Kind) -> Self {
+        Self::new(kind, COLOURS - 1)
+    }
+
     const fn colour(self) -> usize {
-        let first = match self.kind {
-            Kind::Explicit => 0,
-            Kind::Implicit => 1,
-            Kind::Peer => 6,
-        };
-        (first + self.index) % COLOURS
+        self.index % COLOURS
     }
 
     /// Whether all colours are used up once: then marks are hollow.

@@ -1,0 +1,73 @@
+//! What the compiler proves of a method, in a few words.
+
+use symplectic::report::Fact;
+use symplectic_compiler::order::{ClassOrder, HamiltonianClass};
+use symplectic_compiler::{Definition, Error, Evidence, Limits, Property};
+
+/// Stability of methods with more stages takes seconds.
+const STABILITY_STAGES: usize = 20;
+
+/// Derives the method from its definition again, and says what it is.
+pub fn facts(definition: &str) -> Vec<Fact> {
+    proved(definition).unwrap_or_else(|error| vec![Fact::new("order", error.to_string())])
+}
+
+fn proved(definition: &str) -> Result<Vec<Fact>, Error> {
+    let tableau = Definition::parse(definition)?.derive(&Limits::default())?;
+    let orders = tableau.orders();
+    let order = |class| in_words(orders.class(class));
+    let [general, separable, nystrom] = HamiltonianClass::ALL.map(order);
+    let order = if general == separable && separable == nystrom {
+        general
+    } else {
+        format!("any H: {general}; separable: {separable}; quadratic T: {nystrom}")
+    };
+    let properties = tableau.properties();
+    let own = tableau.separable_properties();
+    let for_class = |general: &Property, separable: &Property| {
+        if general.holds {
+            held(general)
+        } else if separable.holds {
+            format!("for separable H, {}", evidence(separable.evidence))
+        } else {
+            "no".into()
+        }
+    };
+    let stable = if tableau.stages() > STABILITY_STAGES {
+        "not computed".into()
+    } else {
+        let intervals = tableau.stability().intervals;
+        let first = intervals
+            .first()
+            .map_or_else(|| "∅".into(), ToString::to_string);
+        format!("{first}{}", if intervals.len() > 1 { " ∪ …" } else { "" })
+    };
+    Ok(vec![
+        Fact::new("order", order),
+        Fact::new(
+            "symplectic",
+            for_class(&properties.symplectic, &own.symplectic),
+        ),
+        Fact::new(
+            "symmetric",
+            for_class(&properties.symmetric, &own.symmetric),
+        ),
+        Fact::new("stable for hω in", stable),
+    ])
+}
+
+fn in_words(found: &ClassOrder) -> String {
+    format!("{}, {}", found.order, evidence(found.evidence))
+}
+
+fn held(property: &Property) -> String {
+    evidence(property.evidence).into()
+}
+
+fn evidence(evidence: Evidence) -> &'static str {
+    match evidence {
+        Evidence::Certified => "certified",
+        Evidence::Verified { .. } => "verified",
+        _ => "proved",
+    }
+}

@@ -1,0 +1,146 @@
+//! Error against run time of all methods on all scenes: `cargo run --release -p symplectic-tests --bin report`
+//!
+//! Writes a page, plots, CSV, JSON and the table of the README into a folder.
+
+#![allow(clippy::print_stdout, reason = "a report prints its table")]
+
+mod facts;
+mod methods;
+mod peers;
+mod scenes;
+mod sets;
+
+use std::error::Error;
+use std::fs;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+use symplectic::report::{Fact, Measurements, Repetitions, Settings, Study};
+
+use crate::scenes::{SCENES, Scene};
+
+/// Error against run time of all methods on all scenes.
+#[derive(Debug, Parser)]
+struct Arguments {
+    /// Only scenes with this in their names; may be given several times.
+    #[arg(long)]
+    scene: Vec<String>,
+    /// Only methods with this in their names; may be given several times.
+    #[arg(long)]
+    method: Vec<String>,
+    /// Errors for which methods are compared, instead of 1e-3, 1e-6, 1e-9, 1e-12.
+    #[arg(long)]
+    target: Vec<f64>,
+    /// Shorter runs and fewer repetitions: within a minute.
+    #[arg(long)]
+    quick: bool,
+    /// The folder that is written.
+    #[arg(long, default_value = "target/report")]
+    out: PathBuf,
+    /// Draws the measurements in this file of JSON again, and measures nothing.
+    #[arg(long)]
+    from: Option<PathBuf>,
+    /// Lists the names of the scenes, and measures nothing.
+    #[arg(long)]
+    list: bool,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments = Arguments::parse();
+    if arguments.list {
+        SCENES.iter().for_each(|(name, _)| println!("{name}"));
+        return Ok(());
+    }
+    let measurements = match &arguments.from {
+        Some(path) => Measurements::from_json(&fs::read_to_string(path)?)?,
+        None => measure(&arguments)?,
+    };
+    let page = measurements.write(&arguments.out)?;
+    println!("{}\n{}", measurements.table(), page.display());
+    Ok(())
+}
+
+fn measure(arguments: &Arguments) -> Result<Measurements, Box<dyn Error>> {
+    let chosen = |(name, _): &&Scene| contains_any(name, &arguments.scene);
+    let bar = ProgressBar::new(1000);
+    bar.set_style(ProgressStyle::with_template("{bar:30} {elapsed}  {msg}")?);
+    let mut study = Study::new("Error against run time");
+    for (name, add) in SCENES.iter().filter(chosen) {
+        bar.set_message(format!("{name}: reference"));
+        study = add(study)?;
+    }
+    study.retain_methods(|name| contains_any(name, &arguments.method));
+    let mut measurements = study.run(&settings(arguments), |advance| {
+        bar.set_position((1000.0 * advance.fraction) as u64);
+        let method = advance.method.unwrap_or("times, in turn");
+        bar.set_message(format!("{}: {method}", advance.problem));
+    });
+    bar.set_message("facts about the methods");
+    measurements.add_facts(facts::facts);
+    bar.finish_and_clear();
+    let elapsed = bar.elapsed().as_secs();
+    measurements.circumstances = circumstances(arguments.quick, elapsed);
+    Ok(measurements)
+}
+
+/// Whether a name has one of these texts in it, or there are none.
+fn contains_any(name: &str, texts: &[String]) -> bool {
+    let name = name.to_lowercase();
+    texts.is_empty() || texts.iter().any(|text| name.contains(&text.to_lowercase()))
+}
+
+fn settings(arguments: &Arguments) -> Settings {
+    let mut settings = if arguments.quick {
+        Settings {
+            budget: Duration::from_millis(50),
+            repetitions: Repetitions {
+                least: 3,
+                most: 5,
+                enough: Duration::from_millis(10),
+            },
+            ..Settings::default()
+        }
+    } else {
+        Settings {
+            budget: Duration::from_millis(800),
+            ..Settings::default()
+        }
+    };
+    if !arguments.target.is_empty() {
+        settings.targets = arguments.target.clone();
+        settings.targets.sort_by(|a, b| b.total_cmp(a));
+    }
+    settings
+}
+
+/// Where and how it was measured.
+fn circumstances(quick: bool, seconds: u64) -> Vec<Fact> {
+    let vectors = if cfg!(target_feature = "avx512f") {
+        ", AVX-512"
+    } else if cfg!(target_feature = "avx2") {
+        ", AVX2"
+    } else {
+        ""
+    };
+    let kind = if quick { "quick" } else { "full" };
+    vec![
+        Fact::new("Machine", format!("{}{vectors}", processor())),
+        Fact::new(
+            "Measured",
+            format!("the {kind} report, in {seconds} s, one thread"),
+        ),
+    ]
+}
+
+/// The name of the processor, where the system tells it.
+fn processor() -> String {
+    let architecture = std::env::consts::ARCH.to_owned();
+    let Ok(text) = fs::read_to_string("/proc/cpuinfo") else {
+        return architecture;
+    };
+    let name = text.lines().find(|line| line.starts_with("model name"));
+    let name = name.and_then(|line| line.split_once(": "));
+    name.map_or(architecture, |(_, name)| name.to_owned())
+}

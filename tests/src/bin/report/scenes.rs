@@ -1,0 +1,233 @@
+//! The scenes of the report, one function each: the system, the reference, the largest step, and the sets of methods.
+//!
+//! A new one is a function here and a row in [`SCENES`].
+
+use std::f64::consts::TAU;
+
+use symplectic::nalgebra::SVector;
+use symplectic::report::{Ladder, Problem, Reference, Study};
+use symplectic::{Error, Hamiltonian, HamiltonianInLanes, Integrator, Separable, State};
+use symplectic_tests::methods::{Gauss8, VelocityVerlet};
+use symplectic_tests::scenes::{
+    double_pendulum, fput_chain, fput_springs, henon_heiles, kepler, nonseparable,
+    outer_solar_system,
+};
+
+use crate::methods::Midpoint;
+use crate::peers::{with_forest_ruth, with_peers, with_rk4};
+use crate::sets::{Set, coupled, explicit, in_lanes, long, more_explicit, newton, second_order};
+
+/// A scene: what it is called on the command line, and how it is added to a study.
+pub type Scene = (&'static str, fn(Study) -> Result<Study, Error>);
+
+/// All scenes, in the order of the report.
+pub const SCENES: &[Scene] = &[
+    ("kepler-0.6", |study| {
+        kepler(study, 0.6, 125.0, &[more_explicit])
+    }),
+    ("kepler-0.3", |study| kepler(study, 0.3, 125.0, &[])),
+    ("kepler-0.9", |study| kepler(study, 0.9, 125.0, &[])),
+    ("kepler-0.999", |study| kepler(study, 0.999, 10.0, &[])),
+    ("henon-heiles", henon_heiles),
+    ("outer-solar-system", outer_solar_system),
+    ("springs-50", |study| springs(study, 50.0, 20.0)),
+    ("springs-1000", |study| springs(study, 1000.0, 2.0)),
+    ("fput-chain", fput_chain),
+    ("double-pendulum", double_pendulum),
+    ("nonseparable", nonseparable),
+    ("energy-behaviour", energy_behaviour),
+];
+
+fn kepler(
+    study: Study,
+    eccentricity: f64,
+    end: f64,
+    sets: &[Set<SVector<f64, 2>, kepler::Kepler>],
+) -> Result<Study, Error> {
+    let start = kepler::start(eccentricity);
+    // The error of the closed form is stated there; away from the pericentre it is much smaller.
+    let reference = Reference::known(
+        kepler::exact(eccentricity, end),
+        "closed form, Kepler's equation",
+        2.0 * f64::EPSILON / (1.0 - eccentricity),
+    );
+    let name = format!("Kepler, e = {eccentricity}");
+    let problem = Problem::new(name, kepler::Kepler, start.clone(), reference, TAU / 8.0)
+        .described("H = |p|²/2 − 1/|q|, from the pericentre (GNI I.2)")
+        .needing(
+            "nothing: separable, quadratic kinetic energy, not stiff; hard where e comes near 1",
+        )
+        .conserving("angular momentum", kepler::angular_momentum);
+    let problem = sets.iter().fold(problem, |problem, set| set(problem));
+    Ok(study.problem(separable::<_, 2, 4>(
+        problem,
+        kepler::Kepler,
+        &start,
+        end,
+        TAU / 8.0,
+        second_order,
+    )))
+}
+
+fn henon_heiles(study: Study) -> Result<Study, Error> {
+    let (start, end) = (henon_heiles::start(), 1000.0);
+    let system = henon_heiles::HenonHeiles;
+    let reference = Reference::computed(Gauss8, system, &start, end, 0.125)?;
+    let problem = Problem::new(
+        "Hénon–Heiles, E = 1/8",
+        system,
+        start.clone(),
+        reference,
+        2.0,
+    )
+    .described("H = (|p|² + |q|²)/2 + q₁²q₂ − q₂³/3, a star in a galaxy (GNI I.3)")
+    .needing("nothing: separable, quadratic kinetic energy, not stiff");
+    Ok(study.problem(separable::<_, 2, 4>(
+        problem,
+        system,
+        &start,
+        end,
+        2.0,
+        second_order,
+    )))
+}
+
+fn outer_solar_system(study: Study) -> Result<Study, Error> {
+    let (start, end) = (outer_solar_system::start(), 200_000.0);
+    let system = outer_solar_system::OuterSolarSystem;
+    let reference = Reference::computed(Gauss8, system, &start, end, 150.0)?;
+    let problem = Problem::new(
+        "Outer solar system",
+        system,
+        start.clone(),
+        reference,
+        1600.0,
+    )
+    .described("The Sun and five planets over 200 000 days (GNI I.2.4)")
+    .needing("nothing: separable, quadratic kinetic energy, not stiff, no close encounters")
+    .conserving("angular momentum in z", |state| {
+        outer_solar_system::angular_momentum(state)[2]
+    })
+    .conserving("momentum in x", |state| {
+        outer_solar_system::total_momentum(state)[0]
+    });
+    Ok(study.problem(separable::<_, 18, 36>(
+        problem, system, &start, end, 1600.0, in_lanes,
+    )))
+}
+
+fn springs(study: Study, omega: f64, end: f64) -> Result<Study, Error> {
+    let start = fput_springs::start(omega);
+    let system = fput_springs::FputSprings { omega };
+    let reference = Reference::computed(Gauss8, system, &start, end, 0.5 / omega)?;
+    let name = format!("Stiff and soft springs, ω = {omega}");
+    let first = 16.0 / omega;
+    let problem = Problem::new(name, system, start.clone(), reference, first)
+        .described("Fermi–Pasta–Ulam–Tsingou, three stiff springs between soft ones (GNI I.5.1)")
+        .needing(
+            "nothing; stiff: an explicit method or a fixed-point iteration wants hω of order one",
+        );
+    let problem = newton(problem);
+    Ok(study.problem(separable::<_, 6, 12>(
+        problem,
+        system,
+        &start,
+        end,
+        first,
+        second_order,
+    )))
+}
+
+fn fput_chain(study: Study) -> Result<Study, Error> {
+    const N: usize = fput_chain::PARTICLES;
+    let (start, end) = (fput_chain::start(N), 100.0);
+    let system = fput_chain::FputChain;
+    let reference = Reference::computed(Gauss8, system, &start, end, 0.2)?;
+    let problem = Problem::new("FPUT chain, N = 1024", system, start.clone(), reference, 2.0)
+        .described("H = Σ p²/2 + Σ (d²/2 + d⁴/4), d the differences of neighbours, fixed ends (Fermi, Pasta, Ulam & Tsingou 1955)")
+        .needing("nothing: separable, quadratic kinetic energy, not stiff; many components");
+    let problem = long(explicit(problem));
+    let problem = with_peers::<_, _, N, { 2 * N }>(problem, &system, &start, end, 2.0);
+    Ok(study.problem(with_forest_ruth::<_, _, N, { 2 * N }>(
+        problem, &system, &start, end, 2.0,
+    )))
+}
+
+fn double_pendulum(study: Study) -> Result<Study, Error> {
+    let (start, end) = (double_pendulum::start(), 100.0);
+    let system = double_pendulum::DoublePendulum;
+    let reference = Reference::computed(Gauss8, system, &start, end, 0.025)?;
+    let problem = Problem::new("Double pendulum", system, start.clone(), reference, 0.5)
+        .described(
+            "H = (p₁² + 2p₂² − 2p₁p₂ cos δ)/(2(1 + sin² δ)) − g(2 cos q₁ + cos q₂), δ = q₁ − q₂",
+        )
+        .needing("a method for general Hamiltonians; not separable, chaotic");
+    Ok(study.problem(with_peers::<_, _, 2, 4>(
+        coupled(problem),
+        &system,
+        &start,
+        end,
+        0.5,
+    )))
+}
+
+fn nonseparable(study: Study) -> Result<Study, Error> {
+    let (start, end) = (nonseparable::start(), 100.0);
+    let system = nonseparable::Nonseparable;
+    let reference = Reference::computed(Gauss8, system, &start, end, 0.025)?;
+    let problem = Problem::new(
+        "H = (q² + 1)(p² + 1)/2",
+        system,
+        start.clone(),
+        reference,
+        0.5,
+    )
+    .described("A Hamiltonian that is not separable (Tao, Phys. Rev. E 94, 2016)")
+    .needing("a method for general Hamiltonians; not separable");
+    Ok(study.problem(with_peers::<_, _, 1, 2>(
+        coupled(problem),
+        &system,
+        &start,
+        end,
+        0.5,
+    )))
+}
+
+/// Marsden & West, Figure 1: what happens to the energy of a conservative system in the long run.
+fn energy_behaviour(study: Study) -> Result<Study, Error> {
+    let (start, end, size) = (henon_heiles::start(), 1000.0, 0.4);
+    let system = henon_heiles::HenonHeiles;
+    let reference = Reference::computed(Gauss8, system, &start, end, 0.125)?;
+    let ladder = Ladder::Halve {
+        first: size,
+        halvings: 3,
+    };
+    let problem = Problem::new("Energy in the long run", system, start.clone(), reference, size)
+        .described("Variational methods of order 2 against the classical Runge–Kutta method of order 4 on the system of Hénon & Heiles, as in Marsden & West, Figure 1")
+        .needing("nothing")
+        .on_ladder(ladder.clone())
+        .traced_at(size)
+        .run("Newmark (Störmer–Verlet)", |system, start, h| Integrator::plain(VelocityVerlet, system, start, h))
+        .run("Midpoint", |system, start, h| Integrator::plain(Midpoint, system, start, h));
+    Ok(study.problem(with_rk4(problem, &system, &start, end, ladder)))
+}
+
+/// The methods and peers of a separable problem, with `implicit` ones.
+fn separable<S, const N: usize, const M: usize>(
+    problem: Problem<SVector<f64, N>, S>,
+    system: S,
+    start: &State<SVector<f64, N>>,
+    end: f64,
+    step_size: f64,
+    implicit: Set<SVector<f64, N>, S>,
+) -> Problem<SVector<f64, N>, S>
+where
+    S: HamiltonianInLanes<SVector<f64, N>>
+        + Hamiltonian<SVector<f64, N>, Class = Separable>
+        + Clone
+        + 'static,
+{
+    let problem = implicit(explicit(problem));
+    let problem = with_peers::<_, _, N, M>(problem, &system, start, end, step_size);
+    with_forest_ruth::<_, _, N, M>(problem, &system, start, end, step_size)
+}
