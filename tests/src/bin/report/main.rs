@@ -94,11 +94,11 @@ fn contains_any(name: &str, texts: &[String]) -> bool {
 fn settings(arguments: &Arguments) -> Settings {
     let mut settings = if arguments.quick {
         Settings {
-            budget: Duration::from_millis(50),
+            budget: Duration::from_millis(40),
             repetitions: Repetitions {
                 least: 3,
                 most: 5,
-                enough: Duration::from_millis(10),
+                enough: Duration::from_millis(5),
             },
             ..Settings::default()
         }
