@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         (p.norm_squared() + q[0] * q[0] + 2.0 * q[1] * q[1]) / 2.0 + square * square / 4.0
     });
     let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.5]);
-    let reference = Reference::computed(Gauss8, well.clone(), &start, 100.0, 0.1)?;
+    let reference = Reference::computed(Gauss8, well, &start, 100.0, 0.1)?;
 
     let problem = Problem::new("A well", well, start, reference, 1.0)
         .described("H = (|p|² + q₁² + 2q₂²)/2 + |q|⁴/4")
