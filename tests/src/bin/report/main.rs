@@ -104,7 +104,7 @@ fn settings(arguments: &Arguments) -> Settings {
         }
     } else {
         Settings {
-            budget: Duration::from_millis(800),
+            budget: Duration::from_millis(600),
             ..Settings::default()
         }
     };
