@@ -29,13 +29,13 @@ pub const SCENES: &[Scene] = &[
     ("kepler-0.9", |study| kepler(study, 0.9, 125.0, &[])),
     ("kepler-0.999", |study| kepler(study, 0.999, 10.0, &[])),
     ("henon-heiles", henon_heiles),
+    ("energy-behaviour", energy_behaviour),
     ("outer-solar-system", outer_solar_system),
     ("springs-50", |study| springs(study, 50.0, 20.0)),
     ("springs-1000", |study| springs(study, 1000.0, 2.0)),
     ("fput-chain", fput_chain),
     ("double-pendulum", double_pendulum),
     ("nonseparable", nonseparable),
-    ("energy-behaviour", energy_behaviour),
 ];
 
 fn kepler(
