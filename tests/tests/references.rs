@@ -242,7 +242,6 @@ fn the_library_comes_as_near_as_the_orbits_let_it() -> Result<(), Box<dyn Error>
             1e-10,
         ),
     ] {
-        println!("{name} {error:e}");
         assert!(error < bound, "{name}: {error:e}");
     }
     Ok(())
