@@ -9,13 +9,14 @@ use symplectic::report::{Ladder, Problem, Reference, Study};
 use symplectic::{Error, Hamiltonian, HamiltonianInLanes, Integrator, Separable, State};
 use symplectic_tests::methods::{Gauss8, VelocityVerlet};
 use symplectic_tests::scenes::{
-    double_pendulum, fput_chain, fput_springs, henon_heiles, kepler, nonseparable,
-    outer_solar_system,
+    argon_crystal, charged_particle, double_pendulum, fput_chain, fput_springs,
+    harmonic_oscillator, henon_heiles, hyperbolic, kepler, nonseparable, outer_solar_system,
+    pendulum, point_vortices, post_newtonian_kepler, pythagorean_three_body, sine_gordon,
 };
 
 use crate::methods::Midpoint;
 use crate::peers::{with_forest_ruth, with_peers, with_rk4};
-use crate::sets::{Set, coupled, explicit, in_lanes, long, more_explicit, newton, second_order};
+use crate::sets::{Set, coupled, explicit, long, more_explicit, newton, second_order};
 
 /// A scene: what it is called on the command line, and how it is added to a study.
 pub type Scene = (&'static str, fn(Study) -> Result<Study, Error>);
@@ -28,15 +29,34 @@ pub const SCENES: &[Scene] = &[
     ("kepler-0.3", |study| kepler(study, 0.3, 125.0, &[])),
     ("kepler-0.9", |study| kepler(study, 0.9, 125.0, &[])),
     ("kepler-0.999", |study| kepler(study, 0.999, 10.0, &[])),
+    ("harmonic-oscillator", harmonic_oscillator),
+    ("pendulum", pendulum),
     ("henon-heiles", henon_heiles),
+    ("henon-heiles-1/12", henon_heiles_at_one_twelfth),
     ("energy-behaviour", energy_behaviour),
     ("outer-solar-system", outer_solar_system),
+    ("pythagorean-three-body", pythagorean_three_body),
+    ("argon-crystal", argon_crystal),
+    ("sine-gordon", sine_gordon),
     ("springs-50", |study| springs(study, 50.0, 20.0)),
     ("springs-1000", |study| springs(study, 1000.0, 2.0)),
     ("fput-chain", fput_chain),
     ("double-pendulum", double_pendulum),
     ("nonseparable", nonseparable),
+    ("charged-particle", charged_particle),
+    ("post-newtonian-kepler", post_newtonian_kepler),
+    ("point-vortices", point_vortices),
+    ("hyperbolic", hyperbolic),
 ];
+
+/// A state of the scenes that has been computed with 70 digits.
+fn recorded<const N: usize>(state: Option<State<SVector<f64, N>>>) -> Reference<SVector<f64, N>> {
+    Reference::known(
+        state.expect("a recorded time"),
+        "computed with 70 digits: `cargo run --release --example references`",
+        f64::EPSILON,
+    )
+}
 
 fn kepler(
     study: Study,
@@ -112,7 +132,12 @@ fn outer_solar_system(study: Study) -> Result<Study, Error> {
         outer_solar_system::total_momentum(state)[0]
     });
     Ok(study.problem(separable::<_, 18, 36>(
-        problem, system, &start, end, 1600.0, in_lanes,
+        problem,
+        system,
+        &start,
+        end,
+        1600.0,
+        second_order,
     )))
 }
 
@@ -191,6 +216,187 @@ fn nonseparable(study: Study) -> Result<Study, Error> {
         end,
         0.5,
     )))
+}
+
+fn harmonic_oscillator(study: Study) -> Result<Study, Error> {
+    let (start, end) = (harmonic_oscillator::start(), 100.0);
+    let system = harmonic_oscillator::HarmonicOscillator { omega: 1.0 };
+    let exact = harmonic_oscillator::exact(1.0, end);
+    let reference = Reference::known(exact, "closed form", f64::EPSILON);
+    let problem = Problem::new("Harmonic oscillator", system, start.clone(), reference, 4.0)
+        .described("H = (p² + q²)/2")
+        .needing("nothing: separable, quadratic kinetic energy, not stiff");
+    Ok(study.problem(separable::<_, 1, 2>(
+        problem,
+        system,
+        &start,
+        end,
+        4.0,
+        second_order,
+    )))
+}
+
+fn pendulum(study: Study) -> Result<Study, Error> {
+    let (momentum, end) = (1.5, 100.0);
+    let (system, start) = (pendulum::Pendulum, pendulum::start(momentum));
+    let exact = pendulum::exact(momentum, end);
+    let reference = Reference::known(exact, "closed form, elliptic functions", 1e-14);
+    let problem = Problem::new("Pendulum", system, start.clone(), reference, 2.0)
+        .described("H = p²/2 − cos q, swinging far (GNI I.1.1)")
+        .needing("nothing: separable, quadratic kinetic energy, not stiff");
+    Ok(study.problem(separable::<_, 1, 2>(
+        problem,
+        system,
+        &start,
+        end,
+        2.0,
+        second_order,
+    )))
+}
+
+fn henon_heiles_at_one_twelfth(study: Study) -> Result<Study, Error> {
+    let (start, end) = (henon_heiles::start_at_one_twelfth(), 1e4);
+    let system = henon_heiles::HenonHeiles;
+    let reference = recorded(henon_heiles::recorded_at_one_twelfth(end));
+    let problem = Problem::new(
+        "Hénon–Heiles, E = 1/12",
+        system,
+        start.clone(),
+        reference,
+        2.0,
+    )
+    .described("H = (|p|² + |q|²)/2 + q₁²q₂ − q₂³/3, on an orbit that is not chaotic (GNI I.3)")
+    .needing("nothing: separable, quadratic kinetic energy, not stiff");
+    Ok(study.problem(separable::<_, 2, 4>(
+        problem,
+        system,
+        &start,
+        end,
+        2.0,
+        second_order,
+    )))
+}
+
+fn pythagorean_three_body(study: Study) -> Result<Study, Error> {
+    let (start, end) = (pythagorean_three_body::start(), 70.0);
+    let system = pythagorean_three_body::PythagoreanThreeBody;
+    let reference = recorded(pythagorean_three_body::recorded(end));
+    let first = 1.0 / 64.0;
+    let problem = Problem::new(
+        "Pythagorean three-body",
+        system,
+        start.clone(),
+        reference,
+        first,
+    )
+    .described(
+        "Masses 3, 4, 5 from rest in the corners of a triangle with these sides (Burrau 1913)",
+    )
+    .needing("steps that follow encounters as near as 4·10⁻⁴; separable, quadratic kinetic energy");
+    Ok(study.problem(separable::<_, 6, 12>(
+        problem,
+        system,
+        &start,
+        end,
+        first,
+        second_order,
+    )))
+}
+
+fn argon_crystal(study: Study) -> Result<Study, Error> {
+    let (start, end, first) = (argon_crystal::start(), 0.02, 4e-4);
+    let system = argon_crystal::ArgonCrystal;
+    let reference = recorded(argon_crystal::recorded(end));
+    let problem = Problem::new(
+        "Frozen argon crystal",
+        system,
+        start.clone(),
+        reference,
+        first,
+    )
+    .described("Seven atoms with a Lennard-Jones potential in the plane (GNI I.4)")
+    .needing("nothing: separable, quadratic kinetic energy, not stiff");
+    Ok(study.problem(separable::<_, 14, 28>(
+        problem,
+        system,
+        &start,
+        end,
+        first,
+        second_order,
+    )))
+}
+
+fn sine_gordon(study: Study) -> Result<Study, Error> {
+    const N: usize = sine_gordon::PENDULUMS;
+    let (start, end) = (sine_gordon::start(), 10.0);
+    let system = sine_gordon::SineGordon;
+    let reference = recorded(sine_gordon::recorded(end));
+    let problem = Problem::new(
+        "Sine-Gordon lattice, N = 64",
+        system,
+        start.clone(),
+        reference,
+        0.5,
+    )
+    .described("H = Σ (p²/2 + 8(q_{i+1} − q_i)² + 1 − cos q), a ring with a breather (Duncan 1997)")
+    .needing("nothing: separable, quadratic kinetic energy, not stiff");
+    let problem = long(explicit(problem));
+    Ok(study.problem(with_peers::<_, _, N, { 2 * N }>(
+        problem, &system, &start, end, 0.5,
+    )))
+}
+
+fn charged_particle(study: Study) -> Result<Study, Error> {
+    let (start, end) = (charged_particle::start(), 100.0);
+    let system = charged_particle::ChargedParticle;
+    let reference = recorded(charged_particle::recorded(end));
+    let problem = Problem::new("Charged particle", system, start.clone(), reference, 0.5)
+        .described("H = |p − A(q)|²/2 + U(q) with B = (0, 0, r) (Hairer & Lubich 2018)")
+        .needing("a method for general Hamiltonians; not separable");
+    let problem = coupled(problem);
+    Ok(study.problem(with_peers::<_, _, 3, 6>(problem, &system, &start, end, 0.5)))
+}
+
+fn post_newtonian_kepler(study: Study) -> Result<Study, Error> {
+    let (start, end, first) = (post_newtonian_kepler::start(), 125.0, TAU / 8.0);
+    let system = post_newtonian_kepler::EQUAL_MASSES;
+    let reference = recorded(post_newtonian_kepler::recorded(end));
+    let problem = Problem::new(
+        "Post-Newtonian Kepler",
+        system,
+        start.clone(),
+        reference,
+        first,
+    )
+    .described("Two equal masses to the first order in 1/c² = 10⁻³ (Damour & Schäfer 1988)")
+    .needing("a method for general Hamiltonians; not separable");
+    let problem = coupled(problem);
+    Ok(study.problem(with_peers::<_, _, 2, 4>(
+        problem, &system, &start, end, first,
+    )))
+}
+
+fn point_vortices(study: Study) -> Result<Study, Error> {
+    let (start, end) = (point_vortices::start(), 50.0);
+    let system = point_vortices::FOUR;
+    let reference = recorded(point_vortices::recorded(end));
+    let problem = Problem::new("Four point vortices", system, start.clone(), reference, 0.5)
+        .described("H = −Σ Γ_i Γ_j ln |z_i − z_j|: half of the plane is the momentum (Newton 2001)")
+        .needing("a method for general Hamiltonians; not separable, degenerate, chaotic");
+    let problem = coupled(problem);
+    Ok(study.problem(with_peers::<_, _, 4, 8>(problem, &system, &start, end, 0.5)))
+}
+
+fn hyperbolic(study: Study) -> Result<Study, Error> {
+    let (start, end) = (hyperbolic::start(), 10.0);
+    let system = hyperbolic::Hyperbolic;
+    let exact = hyperbolic::exact(end);
+    let reference = Reference::known(exact, "closed form", 4.0 * f64::EPSILON);
+    let problem = Problem::new("H = qp", system, start.clone(), reference, 1.0)
+        .described("A Hamiltonian without a Lagrangian (Leok & Zhang 2011)")
+        .needing("a method for general Hamiltonians; not separable, degenerate");
+    let problem = coupled(problem);
+    Ok(study.problem(with_peers::<_, _, 1, 2>(problem, &system, &start, end, 1.0)))
 }
 
 /// Marsden & West, Figure 1: what happens to the energy of a conservative system in the long run.

@@ -79,7 +79,7 @@ where
         })
 }
 
-/// Implicit methods for `q'' = f(q)` in few components: only positions are iterated, in lanes.
+/// Implicit methods for `q'' = M⁻¹ f(q)` in few components: only positions are iterated, in lanes.
 pub fn second_order<S, const N: usize>(
     problem: Problem<SVector<f64, N>, S>,
 ) -> Problem<SVector<f64, N>, S>
@@ -105,9 +105,7 @@ where
 }
 
 /// Implicit methods in few components, stages side by side in lanes.
-pub fn in_lanes<S, const N: usize>(
-    problem: Problem<SVector<f64, N>, S>,
-) -> Problem<SVector<f64, N>, S>
+fn in_lanes<S, const N: usize>(problem: Problem<SVector<f64, N>, S>) -> Problem<SVector<f64, N>, S>
 where
     S: HamiltonianInLanes<SVector<f64, N>> + Clone + 'static,
 {
