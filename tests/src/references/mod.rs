@@ -1,7 +1,7 @@
 //! Reference end states of the scenes without a closed form.
 //!
 //! They stand in `data/references.toml` with 30 digits and are recomputed by `cargo run --release --example references`:
-//! every number in that file is from the program, by [`recomputations`] over numbers of 237 bits ([`Wide`]), and each run is
+//! every number in that file is from the program, by `recomputations` over numbers of 237 bits ([`Wide`]), and each run is
 //! made twice, with two sequences of steps. The reference belongs to the doubles of the scene: those that its start is, and
 //! those that its coefficients are.
 

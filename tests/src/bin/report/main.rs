@@ -94,17 +94,17 @@ fn contains_any(name: &str, texts: &[String]) -> bool {
 fn settings(arguments: &Arguments) -> Settings {
     let mut settings = if arguments.quick {
         Settings {
-            budget: Duration::from_millis(40),
+            budget: Duration::from_millis(15),
             repetitions: Repetitions {
-                least: 3,
-                most: 5,
-                enough: Duration::from_millis(5),
+                least: 2,
+                most: 3,
+                enough: Duration::from_millis(4),
             },
             ..Settings::default()
         }
     } else {
         Settings {
-            budget: Duration::from_millis(600),
+            budget: Duration::from_millis(100),
             ..Settings::default()
         }
     };
