@@ -121,8 +121,18 @@ impl<'a> StepGraph<'a> {
                       evaluations: &[Vec<usize>],
                       (matrix, entries): (&A::Matrix, &[Vec<Number<'a>>]),
                       (complement, weights): (&A::Matrix, &[Number<'a>])| {
+            // An entry that is the weight itself, as in the rows of a splitting, is looked at once for all rows.
+            let zero_weights: Vec<OnceCell<bool>> = vec![OnceCell::new(); weights.len()];
+            let is_zero_weight =
+                |stage: usize| *zero_weights[stage].get_or_init(|| weights[stage].is_zero());
             let value = |stages: &Vec<usize>| {
                 let row = stages[0];
+                let is_weight = |group: &[usize]| match *group {
+                    [single] => entries[row][single]
+                        .is_same(&weights[single])
+                        .then_some(single),
+                    _ => None,
+                };
                 let rest = OnceCell::new();
                 let differ = |stage: usize| {
                     let [entry, weight] = [&entries[row][stage], &weights[stage]];
@@ -130,6 +140,7 @@ impl<'a> StepGraph<'a> {
                 };
                 // The row of weights is the one of whose complement b_j − a_ij nothing is left.
                 let vanishes = |group: &Vec<usize>| match group.as_slice() {
+                    group if is_weight(group).is_some() => true,
                     [single] if differ(*single) => false,
                     [single] => {
                         rest.get_or_init(|| algebra.row(complement, row))[*single].is_zero()
@@ -145,7 +156,9 @@ impl<'a> StepGraph<'a> {
                     .iter()
                     .zip(evaluations)
                     .map(|(coefficient, group)| {
-                        if coefficient.is_zero() {
+                        if let Some(stage) = is_weight(group) {
+                            Some(!is_zero_weight(stage))
+                        } else if coefficient.is_zero() {
                             Some(false)
                         } else {
                             vanishes(group).then_some(true)

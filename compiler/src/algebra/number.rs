@@ -63,6 +63,15 @@ impl Number<'_> {
         enclosure.with_bits(bits)
     }
 
+    /// Whether both are written in the same way, which is seen at once; numbers that are not may be equal.
+    pub fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Number::Rational(x), Number::Rational(y)) => x == y,
+            (Number::Real(x), Number::Real(y)) => x == y,
+            _ => false,
+        }
+    }
+
     /// What is known about whether the number equals a rational.
     pub fn difference(&self, value: &BigRational) -> Zero {
         let equal = match self {
