@@ -19,7 +19,8 @@ use crate::{
 /// errors.
 ///
 /// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for the stagnation: it
-/// ends with the first change of at most one [`Scalar::EPSILON`].
+/// ends with a change that is at most 64 units of [`Scalar::EPSILON`] if the next one, should it shrink by the same factor,
+/// would be at most one.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint;
 
@@ -91,7 +92,7 @@ where
 
 /// Stages that are iterated.
 pub(crate) trait Sweeps {
-    /// Whether the first change that is down to a unit of EPSILON is the last.
+    /// Whether a change that is down to rounding errors is the last where the next one would be down to a unit of EPSILON.
     const HASTY: bool;
 
     /// How many evaluations they make.
@@ -250,7 +251,9 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         smallest = smallest.min(residual);
         largest = largest.max(residual);
         let exact = residual == 0.0;
-        let small = W::HASTY && residual <= T::EPSILON;
+        // The first change has none before it that would tell how fast they shrink.
+        let rate = if iteration > 1 { residual / last } else { 1.0 };
+        let small = W::HASTY && residual <= rounding && residual * rate.min(1.0) <= T::EPSILON;
         let rounded = idle > 0 && C::settling(&change) <= rounding;
         let noisy = idle >= PATIENCE
             && smallest <= CONTRACTION * largest

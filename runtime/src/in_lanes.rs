@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use crate::fixed_point::{Sweeps, settle};
-use crate::kernel::{add, sum};
+use crate::kernel::{add, sum_of_products};
 use crate::{
     Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, HamiltonianInLanes, Inside,
     Kept, Lanes, Outcome, PartChange, Quantity, Scalar, Solver, StageStorage, StageTableau, Step,
@@ -367,6 +367,7 @@ pub(crate) fn values<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     let (mut difference, mut scale, mut sum) = (zero, zero, zero);
     for k in 0..n {
         let start = P::Lanes::from_f64(base[k]);
+        scale = scale.larger(start.abs());
         for (group, out) in out.as_mut().iter_mut().enumerate() {
             let increment = increment((group, k), combination::<P, V>(sums, group, terms, k));
             let increment = match R::COMPENSATED {
@@ -377,7 +378,7 @@ pub(crate) fn values<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
             let component = &mut out.as_mut_slice()[k];
             let moved = (new - *component).abs();
             difference = difference.larger(moved);
-            scale = scale.larger(new.abs()).larger(start.abs());
+            scale = scale.larger(new.abs());
             sum += moved;
             *component = new;
         }
@@ -396,15 +397,15 @@ fn combination<P: StageTableau, V: Vector>(
     terms: &P::Groups<Laned<V, P>>,
     component: usize,
 ) -> P::Lanes {
-    let product = |j: usize| {
+    sum_of_products(sums.columns.len(), |j| {
         let column: P::Lanes = lanes(sums.columns[j], group);
         let column = match sums.factor {
             Some(factor) => column * P::Lanes::from_f64(factor),
             None => column,
         };
-        column * P::Lanes::from_f64(entry::<P, V>(terms, j, component))
-    };
-    sum(sums.columns.len(), product)
+        let term = P::Lanes::from_f64(entry::<P, V>(terms, j, component));
+        (column, term)
+    })
 }
 
 /// Increments from those of the step before.

@@ -151,10 +151,10 @@ pub fn advance<R: Summation, V: Vector>(
     );
     let evaluation = &evaluation.as_slice()[..n];
     for i in 0..n {
-        let (high, rest) = add::<R, _>(out[i], low[i], 1, |_| factor * evaluation[i]);
-        out[i] = high;
         if R::COMPENSATED {
-            low[i] = rest;
+            (out[i], low[i]) = add::<R, _>(out[i], low[i], 1, |_| factor * evaluation[i]);
+        } else {
+            out[i] = factor.fused(evaluation[i], out[i]);
         }
     }
 }
@@ -175,14 +175,16 @@ pub fn transform<V: Vector, const N: usize>(
     for i in 0..n {
         let old: [V::Scalar; N] = array::from_fn(|j| slices[j][i]);
         for (row, slice) in matrix.iter().zip(&mut slices) {
-            let product = |j: usize| V::Scalar::from_f64(row[j]) * old[j];
+            let factor = |j: usize| V::Scalar::from_f64(row[j]);
             // Where a time of this step is one of the step before, all entries but one are zero.
             slice[i] = if row.contains(&0.0) {
-                let mut products = (0..N).filter(|&j| row[j] != 0.0).map(product);
-                let first = products.next().unwrap_or_else(V::Scalar::zero);
-                products.fold(first, |sum, product| sum + product)
+                let mut terms = (0..N).filter(|&j| row[j] != 0.0);
+                let first = terms.next().map(|j| factor(j) * old[j]);
+                terms.fold(first.unwrap_or_else(V::Scalar::zero), |sum, j| {
+                    factor(j).fused(old[j], sum)
+                })
             } else {
-                sum(N, product)
+                sum_of_products(N, |j| (factor(j), old[j]))
             };
         }
     }
@@ -224,31 +226,32 @@ fn value<R: Summation, T: Scalar, const N: usize>(
     if N == 0 {
         return base;
     }
-    let mut sum = sum(N, |j| factors[j] * terms[j][i]);
+    let mut sum = sum_of_products(N, |j| (factors[j], terms[j][i]));
     if R::COMPENSATED {
         sum += low;
     }
     base + sum
 }
 
-/// `Σ_j term(j)` of so many terms, at least one: those with even and those with odd numbers apart, for additions that
-/// need not wait for one another.
+/// The sum of so many products, at least one: those with even and those with odd numbers apart, for additions that need not
+/// wait for one another.
 #[inline(always)]
-pub(crate) fn sum<T: Scalar>(count: usize, term: impl Fn(usize) -> T) -> T {
-    // Starting from the first terms, not from zero: 0 + x is an addition that the compiler has to keep.
-    let mut even = term(0);
+pub(crate) fn sum_of_products<T: Scalar>(count: usize, factors: impl Fn(usize) -> (T, T)) -> T {
+    // Starting from the first products, not from zero: 0 + x is an addition that the compiler has to keep.
+    let product = |j: usize| {
+        let (x, y) = factors(j);
+        x * y
+    };
+    let mut sums = [product(0), T::zero()];
     if count == 1 {
-        return even;
+        return sums[0];
     }
-    let mut odd = term(1);
+    sums[1] = product(1);
     for j in 2..count {
-        if j % 2 == 0 {
-            even += term(j);
-        } else {
-            odd += term(j);
-        }
+        let (x, y) = factors(j);
+        sums[j % 2] = x.fused(y, sums[j % 2]);
     }
-    even + odd
+    sums[0] + sums[1]
 }
 
 /// The components of a result.

@@ -173,6 +173,19 @@ macro_rules! lanes {
             }
 
             #[inline(always)]
+            fn fused(self, factor: Self, term: Self) -> Self {
+                if !cfg!(feature = "fma") {
+                    self * factor + term
+                } else if cfg!(target_feature = "fma") {
+                    Self(self.0.mul_add(factor.0, term.0))
+                } else {
+                    // Without the instruction, that of `wide` rounds twice.
+                    let (x, y, z) = (self.to_array(), factor.to_array(), term.to_array());
+                    Self::from_fn(|lane| x[lane].fused(y[lane], z[lane]))
+                }
+            }
+
+            #[inline(always)]
             fn sqrt(self) -> Self {
                 Self(self.0.sqrt())
             }

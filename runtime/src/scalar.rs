@@ -82,6 +82,21 @@ pub trait Scalar:
         self.magnitude().is_finite()
     }
 
+    /// `self·factor + term`, what sums of products are made of: rounded twice, or once with the feature `fma`.
+    ///
+    /// ```
+    /// use symplectic::Scalar;
+    ///
+    /// assert_eq!(2.0_f64.fused(3.0, 4.0), 10.0);
+    /// let (x, square) = (1.0 + f64::EPSILON, 1.0 + 2.0 * f64::EPSILON);
+    /// let rest = if cfg!(feature = "fma") { f64::EPSILON.powi(2) } else { 0.0 };
+    /// assert_eq!(x.fused(x, -square), rest);
+    /// ```
+    #[inline(always)]
+    fn fused(self, factor: Self, term: Self) -> Self {
+        self * factor + term
+    }
+
     /// Square root.
     fn sqrt(self) -> Self;
     /// 1/x.
@@ -163,6 +178,15 @@ macro_rules! float {
             #[inline]
             fn magnitude(self) -> f64 {
                 $into(self.abs())
+            }
+
+            #[inline(always)]
+            fn fused(self, factor: Self, term: Self) -> Self {
+                if cfg!(feature = "fma") {
+                    Float::mul_add(self, factor, term)
+                } else {
+                    self * factor + term
+                }
             }
 
             #[inline]

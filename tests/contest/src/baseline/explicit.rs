@@ -1,6 +1,6 @@
 //! Kicks and drifts one after another.
 
-use super::lanes::{fast_two_sum, two_sum};
+use super::lanes::{Lanes, fast_two_sum, two_sum};
 use super::no_drift::Double;
 use super::systems::Separable;
 
@@ -103,7 +103,7 @@ pub fn run_compensated<M: Splitting, T: Separable<N>, const N: usize>(
 #[inline(always)]
 fn add<const N: usize>(x: &mut [f64; N], factor: f64, slope: &[f64; N]) {
     for k in 0..N {
-        x[k] += factor * slope[k];
+        x[k] = factor.fused(slope[k], x[k]);
     }
 }
 

@@ -35,7 +35,7 @@ pub trait Lanes:
     fn sin_cos(self) -> (Self, Self);
     /// Sine, as [`sin_cos`](Self::sin_cos).
     fn sin(self) -> Self;
-    /// `self * factor + term`, rounded once where the target can and twice elsewhere.
+    /// `self * factor + term`, rounded once with the feature `fma` and twice elsewhere.
     fn fused(self, factor: Self, term: Self) -> Self;
     /// |x|.
     fn abs(self) -> Self;
@@ -126,7 +126,7 @@ impl Lanes for f64 {
 
     #[inline(always)]
     fn fused(self, factor: Self, term: Self) -> Self {
-        if cfg!(target_feature = "fma") {
+        if cfg!(feature = "fma") {
             self.mul_add(factor, term)
         } else {
             self * factor + term
@@ -210,7 +210,7 @@ macro_rules! lanes {
 
             #[inline(always)]
             fn fused(self, factor: Self, term: Self) -> Self {
-                if cfg!(target_feature = "fma") {
+                if cfg!(feature = "fma") {
                     self.mul_add(factor, term)
                 } else {
                     self * factor + term
