@@ -1,10 +1,10 @@
-//! One row for each run.
+//! One row for each run, each verdict, each limit.
 
 use std::prelude::v1::*;
 
 use serde::Serialize;
 
-use super::{Curve, Measured, Measurements, Outcome, Parameter, Point, ProblemRecord};
+use super::{Curve, Measured, Measurements, Outcome, Parameter, Point, ProblemRecord, Verdict};
 
 /// The columns; what a run does not have is left empty.
 #[derive(Default, Serialize)]
@@ -93,9 +93,94 @@ impl Measurements {
                 }
             }
         }
-        let bytes = writer.into_inner().map_err(|error| error.into_error())?;
-        // Rust strings and digits went in.
-        Ok(String::from_utf8_lossy(&bytes).into_owned())
+        finish(writer)
+    }
+
+    /// The [verdicts](Self::verdicts) as comma-separated values, one a row, with a header.
+    ///
+    /// # Errors
+    ///
+    /// Those of the writer, which into memory has none.
+    pub fn verdicts_csv(&self) -> Result<String, csv::Error> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for table in &self.verdicts {
+            for row in &table.rows {
+                for (column, cell) in table.columns.iter().zip(&row.cells) {
+                    let Some(cell) = cell else { continue };
+                    let found = VerdictRow {
+                        table: &table.title,
+                        problem: &row.problem,
+                        method: &column.method,
+                        proved_stable: cell.proved_stable,
+                        ..VerdictRow::new(&cell.verdict)
+                    };
+                    writer.serialize(found)?;
+                }
+            }
+        }
+        finish(writer)
+    }
+
+    /// The [limits](Self::limits) of stability as comma-separated values, one a row, with a header.
+    ///
+    /// # Errors
+    ///
+    /// Those of the writer, which into memory has none.
+    pub fn limits_csv(&self) -> Result<String, csv::Error> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for limit in &self.limits {
+            writer.serialize(limit)?;
+        }
+        finish(writer)
+    }
+}
+
+fn finish(writer: csv::Writer<Vec<u8>>) -> Result<String, csv::Error> {
+    let bytes = writer.into_inner().map_err(|error| error.into_error())?;
+    // Rust strings and digits went in.
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// The columns of a verdict; what it does not have is left empty.
+#[derive(Default, Serialize)]
+struct VerdictRow<'a> {
+    table: &'a str,
+    problem: &'a str,
+    method: &'a str,
+    verdict: &'static str,
+    error: Option<f64>,
+    energy_error: Option<f64>,
+    steps: Option<u64>,
+    proved_stable: Option<bool>,
+    message: &'a str,
+}
+
+impl<'a> VerdictRow<'a> {
+    fn new(verdict: &'a Verdict) -> Self {
+        let row = Self::default();
+        match verdict {
+            Verdict::Accurate { error } => Self {
+                verdict: "accurate",
+                error: Some(*error),
+                ..row
+            },
+            Verdict::Bounded { energy, error } => Self {
+                verdict: "bounded",
+                error: Some(*error),
+                energy_error: Some(*energy),
+                ..row
+            },
+            Verdict::Unstable { steps } => Self {
+                verdict: "unstable",
+                steps: Some(*steps),
+                ..row
+            },
+            Verdict::Stopped { error, .. } => Self {
+                verdict: "stopped",
+                message: error,
+                ..row
+            },
+        }
     }
 }
 
@@ -119,6 +204,24 @@ mod tests {
             Kepler & co,Gauss 4,0.25,,measured,1e-13,1e-14,angular momentum 1e-15,0.004,5,0,4000,0.0,0,
             Kepler & co,DOP853,,1.0,measured,0.0001,0.00001,angular momentum 1e-6,0.002,5,0,2000,0.0,0,
             Kepler & co,DOP853,,0.5,measured,1e-10,1.0000000000000001e-11,angular momentum 1e-12,0.01,5,1,10000,0.0,0,
+        "#]].assert_eq(&csv);
+    }
+
+    #[test]
+    fn rows_of_all_verdicts_and_limits() {
+        let csv = measurements().verdicts_csv().expect("memory takes all");
+        expect![[r#"
+            table,problem,method,verdict,error,energy_error,steps,proved_stable,message
+            Stiff & extreme,short,Verlet,accurate,0.00002,,,,
+            Stiff & extreme,short,Gauss 4,bounded,0.25,0.5,,false,
+            Stiff & extreme,long,Verlet,unstable,,,12,false,
+            Stiff & extreme,long,Gauss 4,stopped,,,,,step 1 of size 1 did not converge
+            Stiff & extreme,only Gauss,Gauss 4,accurate,0.0,,,,
+        "#]].assert_eq(&csv);
+        let csv = measurements().limits_csv().expect("memory takes all");
+        expect![[r#"
+            method,proved,measured
+            Verlet,2.0,2.00002
         "#]].assert_eq(&csv);
     }
 }

@@ -29,8 +29,8 @@ pub enum WriteError {
 }
 
 impl Measurements {
-    /// Writes `index.html`, `measurements.json`, `measurements.csv`, `table.md` and the plots, `plots/*.svg`, into `folder`,
-    /// which is made where there is none; returns the path of the page.
+    /// Writes `index.html`, `measurements.json`, `measurements.csv`, `verdicts.csv`, `limits.csv`, `table.md` and the plots,
+    /// `plots/*.svg`, into `folder`, which is made where there is none; returns the path of the page.
     ///
     /// # Errors
     ///
@@ -47,6 +47,8 @@ impl Measurements {
         }
         write(folder.join("measurements.json"), &self.json()?)?;
         write(folder.join("measurements.csv"), &self.csv()?)?;
+        write(folder.join("verdicts.csv"), &self.verdicts_csv()?)?;
+        write(folder.join("limits.csv"), &self.limits_csv()?)?;
         write(folder.join("table.md"), &self.table())?;
         let page = folder.join("index.html");
         write(page.clone(), &self.page())?;

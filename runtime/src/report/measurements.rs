@@ -4,6 +4,8 @@ use std::prelude::v1::*;
 
 use serde::{Deserialize, Serialize};
 
+use super::{StabilityLimit, Verdicts};
+
 /// All that was measured.
 ///
 /// The writers are methods of it, and give the same bytes for the same measurements: [`csv`](Self::csv),
@@ -21,6 +23,13 @@ pub struct Measurements {
     pub methods: Vec<MethodRecord>,
     /// The problems.
     pub problems: Vec<ProblemRecord>,
+    /// Tables of what becomes of methods, where they do not converge or steps are too long. No study fills them; they are
+    /// drawn and written with all the rest.
+    #[serde(default)]
+    pub verdicts: Vec<Verdicts>,
+    /// Limits of stability of methods, proved and measured.
+    #[serde(default)]
+    pub limits: Vec<StabilityLimit>,
 }
 
 /// Something to know, with its name.

@@ -61,6 +61,7 @@ mod study;
 mod table;
 mod text;
 mod timing;
+mod verdict;
 
 pub use best::Cost;
 pub use contestant::{Finish, Observe};
@@ -74,6 +75,7 @@ pub use plot::{Plot, Scheme};
 pub use problem::{Problem, Reference};
 pub use study::{Advance, Settings, Study};
 pub use timing::Repetitions;
+pub use verdict::{Cause, Cell, Column, Row, StabilityLimit, Verdict, Verdicts};
 
 #[cfg(test)]
 mod tests;

@@ -21,7 +21,7 @@ pub(super) struct Observer<'a, V> {
 }
 
 /// How far a value comes from its first one.
-struct Deviation {
+pub(super) struct Deviation {
     initial: f64,
     /// What deviations are relative to.
     unit: f64,
@@ -29,7 +29,8 @@ struct Deviation {
 }
 
 impl Deviation {
-    fn new(initial: f64) -> Self {
+    /// Relative to a first value, absolute where that is zero.
+    pub fn new(initial: f64) -> Self {
         let unit = if initial == 0.0 { 1.0 } else { initial.abs() };
         Self {
             initial,
@@ -39,13 +40,18 @@ impl Deviation {
     }
 
     /// The deviation of `value`, with its sign.
-    fn observe(&mut self, value: f64) -> f64 {
+    pub fn observe(&mut self, value: f64) -> f64 {
         let deviation = (value - self.initial) / self.unit;
         // Not a number once and for all.
         if !(deviation.abs() <= self.largest || self.largest.is_nan()) {
             self.largest = deviation.abs();
         }
         deviation
+    }
+
+    /// The largest one; not a number if one was not.
+    pub const fn largest(&self) -> f64 {
+        self.largest
     }
 }
 

@@ -224,18 +224,20 @@ impl Measured {
     /// The larger one of the relative errors of q and p in 2-norms, absolute where the reference is zero.
     pub(super) fn error_of<V: Vector<Scalar = f64>>(found: &State<V>, reference: &State<V>) -> f64 {
         let relative = |found: &V, reference: &V| {
-            let pairs = found.as_slice().iter().zip(reference.as_slice());
-            let distance = pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
-            let norm = reference
-                .as_slice()
-                .iter()
-                .map(|x| x * x)
-                .sum::<f64>()
-                .sqrt();
-            if norm == 0.0 {
+            let (found, reference) = (found.as_slice(), reference.as_slice());
+            let largest = reference.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+            // Scaled, for the squares of 1e300 and of 1e-300 are no doubles.
+            let unit = if largest == 0.0 { 1.0 } else { largest };
+            let norm = |components: &mut dyn Iterator<Item = f64>| {
+                let squares = components.map(|x| (x / unit) * (x / unit));
+                squares.sum::<f64>().sqrt()
+            };
+            let pairs = found.iter().zip(reference);
+            let distance = norm(&mut pairs.map(|(a, b)| a - b));
+            if largest == 0.0 {
                 distance
             } else {
-                distance / norm
+                distance / norm(&mut reference.iter().copied())
             }
         };
         let (q, p) = (
@@ -262,5 +264,14 @@ mod tests {
         assert!(Measured::error_of(&found, &reference).is_nan());
         let found = State::from_arrays(0.0, [1.0, 4.0], [0.25, f64::NAN]);
         assert!(Measured::error_of(&found, &reference).is_nan());
+    }
+
+    #[test]
+    fn the_error_of_tiny_and_huge_states_is_none_of_their_size() {
+        for scale in [1e-300, 1.0, 1e300] {
+            let reference = State::from_arrays(0.0, [3.0 * scale], [4.0 * scale]);
+            let found = State::from_arrays(0.0, [3.0 * scale], [5.0 * scale]);
+            assert!((Measured::error_of(&found, &reference) - 0.25).abs() < 1e-15);
+        }
     }
 }

@@ -119,6 +119,8 @@ impl Study {
             targets: settings.targets.clone(),
             methods,
             problems,
+            verdicts: Vec::new(),
+            limits: Vec::new(),
         }
     }
 }

@@ -92,7 +92,50 @@ pub(super) fn measurements() -> Measurements {
             invariants: vec!["angular momentum".into()],
             curves: vec![verlet, gauss, peer],
         }],
+        verdicts: vec![verdicts()],
+        limits: vec![StabilityLimit {
+            method: "Verlet".into(),
+            proved: 2.0,
+            measured: 2.000_02,
+        }],
     }
+}
+
+/// A table with each kind of verdict, a wrong proof and a method that was not run.
+fn verdicts() -> Verdicts {
+    let mut table = Verdicts::new("Stiff & extreme", "Longer steps than anyone would take.");
+    table.add_column("Verlet", vec![Fact::new("stable for hω in", "(0, 2)")]);
+    let proved = |verdict, proved_stable| Cell {
+        verdict,
+        proved_stable: Some(proved_stable),
+    };
+    table.set("short", "Verlet", Verdict::Accurate { error: 2e-5 });
+    table.set(
+        "long",
+        "Verlet",
+        proved(Verdict::Unstable { steps: 12 }, false),
+    );
+    table.set(
+        "short",
+        "Gauss 4",
+        proved(
+            Verdict::Bounded {
+                energy: 0.5,
+                error: 0.25,
+            },
+            false,
+        ),
+    );
+    table.set(
+        "long",
+        "Gauss 4",
+        Verdict::Stopped {
+            cause: Cause::NoConvergence,
+            error: "step 1 of size 1 did not converge".into(),
+        },
+    );
+    table.set("only Gauss", "Gauss 4", Verdict::Accurate { error: 0.0 });
+    table
 }
 
 fn settings() -> Settings {
@@ -248,6 +291,13 @@ fn json_comes_back_as_it_was() {
         before
     );
     assert!(Measurements::from_json("{}").is_err());
+    // What was written without verdicts and limits is read too.
+    let older = json
+        .split_once(",\n  \"verdicts\"")
+        .map(|(older, _)| format!("{older}}}"))
+        .expect("they come last");
+    let older = Measurements::from_json(&older).expect("it was written");
+    assert!(older.verdicts.is_empty() && older.problems == before.problems);
 }
 
 #[test]

@@ -131,9 +131,14 @@ impl Look {
         self.index % COLOURS
     }
 
-    /// Whether all colours are used up once: then marks are hollow.
+    /// How often all colours are used up before it: marks and lines tell those of one colour apart.
+    const fn round(self) -> usize {
+        self.index / COLOURS
+    }
+
+    /// Whether marks are hollow.
     const fn is_hollow(self) -> bool {
-        (self.index / COLOURS) % 2 == 1
+        self.round() % 2 == 1
     }
 
     /// The classes of a line.
@@ -151,11 +156,17 @@ impl Look {
         format!("text{}", self.colour())
     }
 
-    /// The dashes of a line.
+    /// The dashes of a line: short ones for methods that are not of the library, long ones where a colour comes again.
     pub const fn dashes(self) -> Option<&'static str> {
-        match self.kind {
-            Kind::Explicit | Kind::Implicit => None,
-            Kind::Peer => Some("5 3"),
+        match (self.kind, self.round() % 4) {
+            (Kind::Peer, 0) => Some("5 3"),
+            (Kind::Peer, 1) => Some("5 3 1.5 3"),
+            (Kind::Peer, 2) => Some("5 3 1.5 3 1.5 3"),
+            (Kind::Peer, _) => Some("2 3"),
+            (_, 0) => None,
+            (_, 1) => Some("14 3"),
+            (_, 2) => Some("14 3 2.5 3"),
+            (_, _) => Some("14 3 2.5 3 2.5 3"),
         }
     }
 
@@ -187,6 +198,8 @@ impl Look {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
 
     /// The relative luminance of a colour (WCAG 2).
@@ -201,6 +214,25 @@ mod tests {
             }
         };
         0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5)
+    }
+
+    #[test]
+    fn methods_of_one_colour_are_told_apart_without_it() {
+        for kind in [Kind::Explicit, Kind::Implicit, Kind::Peer] {
+            for colour in 0..COLOURS {
+                let looks = (0..4).map(|round| Look::new(kind, colour + round * COLOURS));
+                let seen: BTreeSet<_> = looks
+                    .map(|look| {
+                        assert_eq!(look.line(), Look::new(kind, colour).line());
+                        look.dashes()
+                    })
+                    .collect();
+                assert_eq!(seen.len(), 4);
+            }
+        }
+        // A peer is none of the library's either.
+        let of = |kind| (0..4).map(move |round| Look::new(kind, round * COLOURS).dashes());
+        assert!(of(Kind::Peer).all(|dashes| of(Kind::Implicit).all(|other| other != dashes)));
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! The page: everything in one file, without anything from elsewhere.
 
+mod verdicts;
+
 use std::prelude::v1::*;
 
 use super::plot::element::Element;
@@ -13,7 +15,7 @@ use super::{
 
 impl Measurements {
     /// The page, in HTML: for each problem its plots, the times for the [targets](Self::targets), what failed and every run;
-    /// then what is known of the methods. It needs no other file and no network, and is light or dark as the reader prefers.
+    /// the tables of [verdicts](Self::verdicts); the [limits](Self::limits) of stability; then what is known of the methods. It needs no other file and no network, and is light or dark as the reader prefers.
     pub fn page(&self) -> String {
         let head = Element::new("head")
             .child(Element::new("meta").with("charset", "utf-8"))
@@ -28,21 +30,24 @@ impl Measurements {
                 include_str!("page.css"),
                 style(Scheme::Reader)
             )));
-        let links = self.problems.iter().map(|problem| {
-            tag("a", &problem.name).with("href", format!("#{}", file_name(&problem.name)))
-        });
+        let names = self.problems.iter().map(|problem| &problem.name);
+        let names = names.chain(self.verdicts.iter().map(|table| &table.title));
+        let links = names.map(|name| link(name, &file_name(name)));
+        let limits = (!self.limits.is_empty()).then_some(&self.limits);
         let body = Element::new("body")
             .child(tag("h1", &self.title))
             .children(self.circumstances.iter().map(fact_line))
             .child(
                 Element::new("nav")
                     .children(links)
-                    .child(tag("a", "The methods").with("href", "#the-methods")),
+                    .children(limits.map(|_| link(verdicts::LIMITS, verdicts::LIMITS_ID)))
+                    .children(self.has_methods().then(|| link("The methods", METHODS_ID))),
             )
-            .child(self.overview())
-            .child(tag("p", EXPLANATION).with("class", "quiet"))
+            .children(self.overview())
             .children(self.problems.iter().map(|problem| self.section(problem)))
-            .child(self.methods_section());
+            .children(self.verdicts.iter().map(verdicts::section))
+            .children(limits.map(|limits| verdicts::limits_section(limits)))
+            .children(self.has_methods().then(|| self.methods_section()));
         let html = Element::new("html")
             .with("lang", "en")
             .child(head)
@@ -50,8 +55,15 @@ impl Measurements {
         format!("<!DOCTYPE html>\n{html}\n")
     }
 
-    /// The fastest method for each problem and target.
-    fn overview(&self) -> Element {
+    const fn has_methods(&self) -> bool {
+        !self.methods.is_empty()
+    }
+
+    /// The fastest method for each problem and target, with what the numbers are; nothing where there are no problems.
+    fn overview(&self) -> Vec<Element> {
+        if self.problems.is_empty() {
+            return Vec::new();
+        }
         let header = ["the fastest for an error of".into()].into_iter();
         let header = header.chain(self.targets.iter().map(|target| error(*target)));
         let rows = self.problems.iter().map(|problem| {
@@ -66,7 +78,10 @@ impl Measurements {
                 .child(tag("td", &problem.name))
                 .children(cells.map(|cell| tag("td", cell)))
         });
-        table(header, rows)
+        vec![
+            table(header, rows),
+            tag("p", EXPLANATION).with("class", "quiet"),
+        ]
     }
 
     fn section(&self, problem: &ProblemRecord) -> Element {
@@ -154,11 +169,13 @@ impl Measurements {
         let header = header.chain(["definition"]).map(String::from);
         let rows = self.methods.iter().map(|method| method_row(method, &names));
         Element::new("section")
-            .with("id", "the-methods")
+            .with("id", METHODS_ID)
             .child(tag("h2", "The methods"))
             .child(table(header, rows))
     }
 }
+
+const METHODS_ID: &str = "the-methods";
 
 const EXPLANATION: &str = "Errors are global ones at the end of the run: the larger one of |q − q*|/|q*| and |p − p*|/|p*|. \
     Times are CPU times of the whole integration, the median of several that all methods took in turn. Times for an error are \
@@ -306,6 +323,10 @@ fn fact_line(fact: &Fact) -> Element {
     tag("p", format!("{}: {}", fact.name, fact.value)).with("class", "quiet")
 }
 
+fn link(words: &str, id: &str) -> Element {
+    tag("a", words).with("href", format!("#{id}"))
+}
+
 fn tag(name: &'static str, words: impl Into<String>) -> Element {
     Element::new(name).text(words)
 }
@@ -345,6 +366,33 @@ mod tests {
         assert!(page.contains("the stages did not converge, &quot;so&quot; &lt;it&gt; says"));
         assert!(page.contains("it would take about 1 s"));
         assert!(page.contains("4, proved"));
+    }
+
+    #[test]
+    fn verdicts_are_words_with_signs() {
+        let page = measurements().page();
+        for words in [
+            "<b>● accurate</b><span>2.0·10⁻⁵</span>",
+            "<b>▲ unstable</b><span>12 steps</span><i>as proved</i>",
+            "<b>◐ bounded</b><span>0.25</span><i>not as proved</i>",
+            "<b>■ no convergence</b></td>",
+            "title=\"stopped: step 1 of size 1 did not converge\"",
+            "href=\"#stiff-extreme\"",
+            "<td>2.00000</td><td>2.00002</td><td>1.0·10⁻⁵</td>",
+        ] {
+            assert!(page.contains(words), "{words} in {page}");
+        }
+        // A row for the fact, and a dash where there is none.
+        assert!(page.contains("<th>stable for hω in</th><td>(0, 2)</td><td>–</td>"));
+    }
+
+    #[test]
+    fn sections_without_contents_are_left_out() {
+        let empty = Measurements::default().page();
+        assert!(
+            !empty.contains("<table") && !empty.contains("<section"),
+            "{empty}"
+        );
     }
 
     #[test]
