@@ -8,7 +8,7 @@ pub mod linear_stability;
 pub mod measure;
 pub mod methods;
 pub mod order;
-pub mod outcomes;
 pub mod references;
 pub mod scenes;
+pub mod stiff_and_extreme;
 pub mod table;

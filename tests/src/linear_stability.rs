@@ -9,6 +9,9 @@ use std::path::Path;
 
 use nalgebra::Matrix2;
 use serde::Deserialize;
+use symplectic::report::Fact;
+use symplectic_compiler::order::HamiltonianClass;
+use symplectic_compiler::{Definition, Evidence, Limits};
 
 /// A method of the catalogue.
 #[derive(Clone, Debug)]
@@ -19,6 +22,8 @@ pub struct Entry {
     pub stable: Vec<[f64; 2]>,
     /// Whether it is proved to be explicit for separable systems.
     pub is_explicit: bool,
+    /// What is proved of its order for separable systems, and for quadratic kinetic energy if that is another.
+    pub order: String,
     a: Vec<Vec<f64>>,
     a_tilde: Vec<Vec<f64>>,
     b: Vec<f64>,
@@ -31,7 +36,35 @@ struct File {
     name: String,
     decimals: Decimals,
     properties: Properties,
+    order: Orders,
     stability: Stability,
+}
+
+#[derive(Deserialize)]
+struct Orders {
+    separable: Order,
+    nystrom: Order,
+}
+
+#[derive(Deserialize)]
+struct Order {
+    order: usize,
+    evidence: String,
+}
+
+impl Orders {
+    fn in_words(&self) -> String {
+        let words = |order: &Order| format!("{}, {}", order.order, order.evidence);
+        if self.separable.order == self.nystrom.order {
+            words(&self.separable)
+        } else {
+            format!(
+                "{}; quadratic T: {}",
+                words(&self.separable),
+                words(&self.nystrom)
+            )
+        }
+    }
 }
 
 #[derive(Deserialize)]
@@ -95,12 +128,71 @@ impl Entry {
         Some(Self {
             name: file.name.clone(),
             is_explicit: file.properties.explicit.holds,
+            order: file.order.in_words(),
             stable: ends.collect::<Option<_>>()?,
             a: matrix(file.decimals.a.as_ref()?)?,
             a_tilde: matrix(file.decimals.a_tilde.as_ref()?)?,
             b: row(&file.decimals.b)?,
             b_tilde: row(&file.decimals.b_tilde)?,
         })
+    }
+
+    /// A method that is not in the catalogue, from its definition.
+    ///
+    /// # Errors
+    ///
+    /// Where the compiler does not take the definition.
+    pub fn derived(name: &str, definition: &str) -> io::Result<Self> {
+        let definition = Definition::parse(definition).map_err(io::Error::other)?;
+        let tableau = definition
+            .derive(&Limits::default())
+            .map_err(io::Error::other)?;
+        let order = |class| {
+            let found = tableau.orders().class(class).clone();
+            Order {
+                order: found.order,
+                evidence: evidence(found.evidence).into(),
+            }
+        };
+        let orders = Orders {
+            separable: order(HamiltonianClass::Separable),
+            nystrom: order(HamiltonianClass::Nystrom),
+        };
+        let intervals = tableau.stability().intervals;
+        let intervals = intervals.iter();
+        let doubles = tableau.to_f64();
+        Ok(Self {
+            name: name.into(),
+            stable: intervals
+                .map(|interval| [interval.low.to_f64(), interval.high.to_f64()])
+                .collect(),
+            is_explicit: tableau.evaluations().is_some(),
+            order: orders.in_words(),
+            a: doubles.a,
+            a_tilde: doubles.a_tilde,
+            b: doubles.b,
+            b_tilde: doubles.b_tilde,
+        })
+    }
+
+    /// What is proved, in a few words.
+    pub fn facts(&self) -> Vec<Fact> {
+        let end = |end: f64| match end {
+            0.0 => "0".to_owned(),
+            _ if end.is_infinite() => "∞".to_owned(),
+            _ => format!("{end:.4}"),
+        };
+        let intervals = self.stable.iter().take(SHOWN);
+        let mut stable: Vec<String> = intervals
+            .map(|[low, high]| format!("({}, {})", end(*low), end(*high)))
+            .collect();
+        if self.stable.len() > SHOWN {
+            stable.push("…".to_owned());
+        }
+        vec![
+            Fact::new("proved order", self.order.as_str()),
+            Fact::new("proved to be stable for hω in", stable.join(" ∪ ")),
+        ]
     }
 
     /// The end of the first interval of stability, if that begins at zero.
@@ -223,6 +315,18 @@ impl ExplicitStep<'_> {
         unstable
     }
 }
+
+/// How something is known, in a word.
+pub const fn evidence(evidence: Evidence) -> &'static str {
+    match evidence {
+        Evidence::Certified => "certified",
+        Evidence::Verified { .. } => "verified",
+        _ => "proved",
+    }
+}
+
+/// Intervals of stability that are listed.
+const SHOWN: usize = 3;
 
 /// The distance of the points at which a limit is searched.
 pub const SEARCH: f64 = 1.0 / 64.0;

@@ -34,6 +34,21 @@ symplectic::tableau! {
     pub Gauss8 {
         basis: polynomial(8), nodes: gauss(8), require: [symplectic, symmetric, equal_matrices, order == 16]
     }
+
+    /// The implicit midpoint rule, which is the variational Newmark method with γ = 1/2 in other variables, order 2.
+    pub Midpoint { basis: polynomial(1), nodes: gauss(1), require: [order == 2, p_stable] }
+
+    /// Radau with three stages, the end of the step one of them.
+    pub RadauRight3 { basis: polynomial(3), nodes: radau-right(3), require: [symplectic] }
+
+    /// Clenshaw–Curtis with four stages.
+    pub ClenshawCurtis4 { basis: polynomial(4), nodes: clenshaw-curtis(4), require: [symplectic, symmetric] }
+
+    /// Galerkin: polynomials of degree two and Gauss quadrature with three nodes.
+    pub GalerkinGauss3 { basis: legendre(2), quadrature: gauss(3), require: [symplectic, symmetric] }
+
+    /// A trigonometric basis on the nodes of Gauss: symplectic and symmetric, which is verified and not proved.
+    pub TrigonometricGauss4 { basis: [1, t, cos(t), sin(t)], nodes: gauss(4) }
 }
 
 symplectic::composition! {
@@ -45,4 +60,37 @@ symplectic::composition! {
 
     /// Blanes & Moan, order 6 for quadratic kinetic energy.
     pub BlanesMoanSrkn14a { base: blanes-moan-2002-srkn14a }
+
+    /// Ruth, order 3.
+    pub Ruth3 { base: ruth-1983 }
+
+    /// McLachlan & Atela, order 4 with the smallest error constant of its kind.
+    pub McLachlanAtela4 { base: mclachlan-atela-1992-order-4-optimal }
+
+    /// Blanes & Moan S6, order 4.
+    pub BlanesMoanS6 { base: blanes-moan-2002-s6 }
+
+    /// Blanes & Moan S10, order 6.
+    pub BlanesMoanS10 { base: blanes-moan-2002-s10 }
+
+    /// Blanes & Moan SRKN 11b, order 6 for quadratic kinetic energy.
+    pub BlanesMoanSrkn11b { base: blanes-moan-2002-srkn11b }
+
+    /// Blanes and others, for perturbed systems.
+    pub BlanesPerturbed { base: blanes-2013-aba-10-6-4 }
+
+    /// Yoshida's solution D, order 8.
+    pub Yoshida8 { base: yoshida-1990-order-8-d }
+
+    /// Kahan & Li, order 8 with 17 steps of Störmer–Verlet.
+    pub KahanLi8 { base: kahan-li-1997-s17odr8-a }
+
+    /// Sofroniou & Spaletta, order 10 with 35 steps of Störmer–Verlet.
+    pub SofroniouSpaletta10 { base: sofroniou-spaletta-2005-s35odr10 }
+
+    /// Order 8 by triple jumps, with 27 steps of Störmer–Verlet.
+    pub TripleJump8 { base: triple-jump-8 }
+
+    /// Order 6 by a triple jump of three implicit steps.
+    pub GaussTripleJump { base: gauss-2, weights: triple_jump(6) }
 }

@@ -1,108 +1,145 @@
-//! The table of methods and problems, stiff and extreme: each cell has the outcome that is written here, or that the proved
+//! The table of methods and problems, stiff and extreme: each cell has the verdict that is written here, or that the proved
 //! stability set says, and none is silent.
 //!
-//! `cargo run --release --example stiff_and_extreme -- --long` prints it with 10⁷ steps in its last row.
+//! `cargo run --release -p symplectic-tests --bin report -- --scene stiff` makes a page of it, with 10⁷ steps in its last row.
 
-use symplectic_tests::linear_stability::catalogue;
-use symplectic_tests::outcomes::{
-    BY_NEWTON, EXPLICIT, METHODS, OSCILLATOR_STEPS, Outcome, Row, extremes, oscillators,
-    oscillators_at_the_limit,
+use symplectic::report::{Cell, Verdict};
+use symplectic_tests::stiff_and_extreme::{
+    ENTRANTS, PARTS_OF_THE_LIMIT, Stages, at_the_limit, extremes, limits, oscillators, verdicts,
 };
 
-/// The outcomes of [`extremes`], a letter a method as [`Outcome::letter`] has them, in the order of [`METHODS`]: symplectic
-/// Euler, Störmer–Verlet, Forest & Ruth, Blanes & Moan; Lobatto 3, Gauss 2, 4 and 8 by fixed-point iteration; Gauss 4 by
-/// Newton's.
+/// The verdicts on [`extremes`], a letter a method as [`Verdict::letter`] has them, in the order of [`ENTRANTS`]. Explicit ones:
+/// symplectic Euler, Störmer–Verlet, Ruth, McLachlan & Atela, Forest & Ruth; Blanes & Moan S6, S10, SRKN 11b and 14a, ABA
+/// (10, 6, 4); Yoshida 8, Kahan & Li 8, Sofroniou & Spaletta 10, triple jump 8. By fixed-point iteration: Lobatto 3, Gauss 2, 4
+/// and 8. By Newton's: midpoint, Gauss 4, Lobatto 3, Radau 3, Clenshaw–Curtis 4, Galerkin, trigonometric Gauss 4, triple jump of
+/// Gauss 2.
 ///
 /// Through a collision an explicit method leaps, and only the energy knows; the iteration of an implicit one stops.
 const EXPECTED: &[(&str, &str)] = &[
-    ("spring pendulum, ω = 10⁴, resolved", "aaaa aaaa a"),
-    ("FPUT springs, ω = 10⁵, resolved", "bbaa aaaa a"),
+    (
+        "spring pendulum, ω = 10⁴, resolved",
+        "aaaaa aaaaa aaaa aaaa aaaaaaaa",
+    ),
+    (
+        "FPUT springs, ω = 10⁵, resolved",
+        "bbaaa aaaaa aaaa aaaa aaaaaaaa",
+    ),
     (
         "spring pendulum, ω = 10⁴, a hundred times too long",
-        "uuuu nnnn a",
+        "uuuuu uuuuu uuuu nnnn aauuuuaa",
     ),
     (
         "FPUT springs, ω = 10⁵, a hundred times too long",
-        "uuuu nnnn a",
+        "uuuuu uuuuu ffff nnnn aauuuuba",
     ),
-    ("Kepler, e = 0.9", "bbba aaaa a"),
-    ("Kepler, e = 0.999, resolved", "bbba aaaa a"),
-    ("Kepler, e = 0.999, not resolved", "uuub ubbb b"),
-    ("Kepler, e = 1 − 10⁻⁹, resolved", "ubba baaa a"),
-    ("Kepler, e = 1 − 10⁻⁹, not resolved", "uuuu uuuu n"),
-    ("Kepler, head-on collision", "bbub bnnn n"),
-    ("three bodies, not resolved", "bbbb nnnn n"),
-    ("oscillator of the size 10^-300", "baaa aaaa a"),
-    ("oscillator of the size 10^-150", "baaa aaaa a"),
-    ("oscillator of the size 10^150", "baaa aaaa a"),
-    ("oscillator of the size 10^300", "baaa aaaa a"),
-    ("Kepler, e = 0.6, 2000 steps", "bbaa aaaa a"),
+    ("Kepler, e = 0.9", "bbbab aaaaa aaab aaaa baaabaaa"),
+    (
+        "Kepler, e = 0.999, resolved",
+        "bbbab aaaaa aaaa aaaa baaabaaa",
+    ),
+    (
+        "Kepler, e = 0.999, not resolved",
+        "uuuuu uuubb uuuu ubbb bbubunbn",
+    ),
+    (
+        "Kepler, e = 1 − 10⁻⁹, resolved",
+        "ubbab aaaaa aaaa baaa bababaaa",
+    ),
+    (
+        "Kepler, e = 1 − 10⁻⁹, not resolved",
+        "uuuuu uuuuu uuuu uuuu unuuunnn",
+    ),
+    (
+        "Kepler, head-on collision",
+        "bbbbu bbbbb ubub bnnn nnbnnnnn",
+    ),
+    (
+        "three bodies, not resolved",
+        "bbbbb bbbbb ubbb nnnn nnnnbnnn",
+    ),
+    (
+        "oscillator of the size 10^-300",
+        "baaaa aaaaa aaaa aaaa aaaaaaaa",
+    ),
+    (
+        "oscillator of the size 10^-150",
+        "baaaa aaaaa aaaa aaaa aaaaaaaa",
+    ),
+    (
+        "oscillator of the size 10^150",
+        "baaaa aaaaa aaaa aaaa aaaaaaaa",
+    ),
+    (
+        "oscillator of the size 10^300",
+        "baaaa aaaaa aaaa aaaa aaaaaaaa",
+    ),
+    (
+        "Kepler, e = 0.6, 2000 steps",
+        "bbaaa aaaaa aaaa aaaa baaaaaaa",
+    ),
 ];
 
 #[test]
 fn every_explicit_method_has_its_proved_limit() {
-    let catalogue = catalogue().expect("the files of the repository");
-    let explicit = catalogue.values().filter(|entry| entry.is_explicit);
-    let mut measured = 0;
-    for entry in explicit {
-        let step = entry.explicit().expect("an order of the stages");
-        let proved = entry.proved_limit().expect("a limit");
-        let error = (step.measured_limit() / proved - 1.0).abs();
-        assert!(error < 0.01, "{}: {error} of {proved}", entry.name);
-        measured += 1;
+    let limits = limits(|_| true).expect("the files of the repository");
+    for limit in &limits {
+        let deviation = limit.deviation();
+        assert!(deviation < 0.01, "{limit:?}: {deviation}");
     }
-    assert!(measured >= 80, "{measured}");
+    assert!(limits.len() >= 80, "{}", limits.len());
 }
 
 #[test]
-fn oscillators_are_stable_where_that_is_proved_and_nowhere_else() {
-    let catalogue = catalogue().expect("the files of the repository");
-    let entries = METHODS.map(|(_, name)| &catalogue[name]);
+fn oscillators_are_stable_where_that_is_proved_and_the_others_end_as_they_are_known_to() {
+    let table = verdicts(2_000, |_| true, |_, _| {}).expect("the files of the repository");
+    let problems: Vec<&str> = table.rows.iter().map(|row| row.problem.as_str()).collect();
+    let expected: Vec<String> = oscillators()
+        .map(|(problem, _)| problem)
+        .chain(PARTS_OF_THE_LIMIT.map(at_the_limit))
+        .chain(extremes(2_000).into_iter().map(|(problem, _)| problem))
+        .collect();
+    assert_eq!(problems, expected);
+    let of_extremes = &table.rows[table.rows.len() - extremes(2_000).len()..];
+    let linear = &table.rows[..table.rows.len() - of_extremes.len()];
     let mut kinds = String::new();
-    let mut check = |row: &Row, nu: &dyn Fn(usize) -> f64| {
-        for (column, outcome) in row.outcomes.iter().enumerate() {
-            let Some(outcome) = outcome else { continue };
-            let letters = match entries[column].is_stable_at(nu(column)) {
-                false => "u",
-                true if (EXPLICIT..BY_NEWTON).contains(&column) => "abn",
-                true => "ab",
+    for row in linear {
+        for (entrant, cell) in ENTRANTS.iter().zip(&row.cells) {
+            let Some(cell) = cell else {
+                // Only where there is no limit.
+                assert!(row.problem.ends_with('*'), "{}", row.problem);
+                continue;
             };
-            // An iteration that does not converge hides what the method would do.
-            let stopped = (EXPLICIT..BY_NEWTON).contains(&column) && outcome.letter() == 'n';
+            // An iteration by fixed points that does not converge hides what the method would do.
+            let hidden = entrant.stages == Stages::FixedPoint && cell.verdict.letter() == 'n';
+            let as_proved = cell.is_as_proved() == Some(true);
             assert!(
-                outcome.is_finite() && (letters.contains(outcome.letter()) || stopped),
-                "{}, {}: {outcome}",
+                cell.verdict.is_finite() && (as_proved || hidden),
+                "{}, {}: {cell:?}",
                 row.problem,
-                METHODS[column].0
+                entrant.name
             );
-            kinds.push(outcome.letter());
+            kinds.push(cell.verdict.letter());
         }
-    };
-    for (row, nu) in oscillators().iter().zip(OSCILLATOR_STEPS) {
-        check(row, &|_| nu);
-    }
-    for fraction in [0.99, 1.01] {
-        let row = oscillators_at_the_limit(fraction, entries);
-        assert_eq!(row.outcomes.iter().flatten().count(), EXPLICIT + 1);
-        let limit = |column: usize| entries[column].proved_limit().unwrap_or(f64::NAN);
-        check(&row, &|column| fraction * limit(column));
     }
     for kind in "abun".chars() {
         assert!(kinds.contains(kind), "{kinds}");
     }
-}
-
-#[test]
-fn extremes_end_as_they_are_known_to() {
-    let rows = extremes(2_000);
-    assert_eq!(rows.len(), EXPECTED.len());
-    for (row, (problem, letters)) in rows.iter().zip(EXPECTED) {
-        let outcomes = row.outcomes.iter().flatten();
-        let found: String = outcomes.clone().map(Outcome::letter).collect();
-        assert_eq!(
-            (row.problem.as_str(), found),
-            (*problem, letters.replace(' ', ""))
-        );
-        assert!(outcomes.clone().all(Outcome::is_finite));
+    for row in of_extremes {
+        let cells: Vec<&Cell> = row.cells.iter().flatten().collect();
+        assert_eq!(cells.len(), ENTRANTS.len(), "{}", row.problem);
+        assert!(cells.iter().all(|cell| cell.verdict.is_finite()));
     }
+    let found: Vec<(&str, String)> = of_extremes
+        .iter()
+        .map(|row| {
+            let cells = row.cells.iter().flatten();
+            let letters = cells.map(|cell| Verdict::letter(&cell.verdict));
+            (row.problem.as_str(), letters.collect())
+        })
+        .collect();
+    let expected: Vec<(&str, String)> = EXPECTED
+        .iter()
+        .map(|(problem, letters)| (*problem, letters.replace(' ', "")))
+        .collect();
+    assert_eq!(found, expected);
 }

@@ -217,11 +217,13 @@ mod tests {
             Stiff & extreme,long,Verlet,unstable,,,12,false,
             Stiff & extreme,long,Gauss 4,stopped,,,,,step 1 of size 1 did not converge
             Stiff & extreme,only Gauss,Gauss 4,accurate,0.0,,,,
-        "#]].assert_eq(&csv);
+        "#]]
+        .assert_eq(&csv);
         let csv = measurements().limits_csv().expect("memory takes all");
         expect![[r#"
             method,proved,measured
             Verlet,2.0,2.00002
-        "#]].assert_eq(&csv);
+        "#]]
+        .assert_eq(&csv);
     }
 }

@@ -2,7 +2,8 @@
 
 use symplectic::report::Fact;
 use symplectic_compiler::order::{ClassOrder, HamiltonianClass};
-use symplectic_compiler::{Definition, Error, Evidence, Limits, Property};
+use symplectic_compiler::{Definition, Error, Limits, Property};
+use symplectic_tests::linear_stability::evidence;
 
 /// Stability of methods with more stages takes seconds.
 const STABILITY_STAGES: usize = 20;
@@ -62,12 +63,4 @@ fn in_words(found: &ClassOrder) -> String {
 
 fn held(property: &Property) -> String {
     evidence(property.evidence).into()
-}
-
-fn evidence(evidence: Evidence) -> &'static str {
-    match evidence {
-        Evidence::Certified => "certified",
-        Evidence::Verified { .. } => "verified",
-        _ => "proved",
-    }
 }

@@ -5,7 +5,6 @@
 #![allow(clippy::print_stdout, reason = "a report prints its table")]
 
 mod facts;
-mod methods;
 mod peers;
 mod scenes;
 mod sets;
@@ -18,8 +17,12 @@ use std::time::Duration;
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use symplectic::report::{Fact, Measurements, Repetitions, Settings, Study};
+use symplectic_tests::stiff_and_extreme;
 
 use crate::scenes::{SCENES, Scene};
+
+/// The name of the stiff and extreme cases among the scenes.
+const STIFF: &str = "stiff-and-extreme";
 
 /// Error against run time of all methods on all scenes.
 #[derive(Debug, Parser)]
@@ -50,7 +53,8 @@ struct Arguments {
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments = Arguments::parse();
     if arguments.list {
-        SCENES.iter().for_each(|(name, _)| println!("{name}"));
+        let names = SCENES.iter().map(|(name, _)| *name);
+        names.chain([STIFF]).for_each(|name| println!("{name}"));
         return Ok(());
     }
     let measurements = match &arguments.from {
@@ -77,6 +81,17 @@ fn measure(arguments: &Arguments) -> Result<Measurements, Box<dyn Error>> {
         let method = advance.method.unwrap_or("times, in turn");
         bar.set_message(format!("{}: {method}", advance.problem));
     });
+    if contains_any(STIFF, &arguments.scene) {
+        let keep = |name: &str| contains_any(name, &arguments.method);
+        let steps = if arguments.quick { 10_000 } else { 10_000_000 };
+        let table = stiff_and_extreme::verdicts(steps, keep, |problem, part| {
+            bar.set_position((1000.0 * part) as u64);
+            bar.set_message(format!("{STIFF}: {problem}"));
+        })?;
+        measurements.verdicts.push(table);
+        bar.set_message("limits of stability");
+        measurements.limits = stiff_and_extreme::limits(keep)?;
+    }
     bar.set_message("facts about the methods");
     measurements.add_facts(facts::facts);
     bar.finish_and_clear();

@@ -6,15 +6,14 @@ use std::f64::consts::TAU;
 
 use symplectic::nalgebra::SVector;
 use symplectic::report::{Ladder, Problem, Reference, Study};
-use symplectic::{Error, Hamiltonian, HamiltonianInLanes, Integrator, Separable, State};
-use symplectic_tests::methods::{Gauss8, VelocityVerlet};
+use symplectic::{Error, Hamiltonian, HamiltonianInLanes, Integrator, Separable, State, Vector};
+use symplectic_tests::methods::{Gauss8, Midpoint, VelocityVerlet};
 use symplectic_tests::scenes::{
     argon_crystal, charged_particle, double_pendulum, fput_chain, fput_springs,
     harmonic_oscillator, henon_heiles, hyperbolic, kepler, nonseparable, outer_solar_system,
     pendulum, point_vortices, post_newtonian_kepler, pythagorean_three_body, sine_gordon,
 };
 
-use crate::methods::Midpoint;
 use crate::peers::{with_forest_ruth, with_peers, with_rk4};
 use crate::sets::{Set, coupled, explicit, long, more_explicit, newton, second_order};
 
@@ -38,9 +37,14 @@ pub const SCENES: &[Scene] = &[
     ("pythagorean-three-body", pythagorean_three_body),
     ("argon-crystal", argon_crystal),
     ("sine-gordon", sine_gordon),
-    ("springs-50", |study| springs(study, 50.0, 20.0)),
-    ("springs-1000", |study| springs(study, 1000.0, 2.0)),
+    ("springs-50", |study| springs(study, 50.0, 20.0, 16.0)),
+    ("springs-1000", |study| springs(study, 1000.0, 2.0, 16.0)),
+    ("springs-100000", |study| {
+        springs(study, 1e5, 1.0 / 64.0, 256.0)
+    }),
     ("fput-chain", fput_chain),
+    ("fput-chain-16", short_fput_chain),
+    ("fput-chain-65536", long_fput_chain),
     ("double-pendulum", double_pendulum),
     ("nonseparable", nonseparable),
     ("charged-particle", charged_particle),
@@ -50,7 +54,7 @@ pub const SCENES: &[Scene] = &[
 ];
 
 /// A state of the scenes that has been computed with 70 digits.
-fn recorded<const N: usize>(state: Option<State<SVector<f64, N>>>) -> Reference<SVector<f64, N>> {
+fn recorded<V: Vector<Scalar = f64>>(state: Option<State<V>>) -> Reference<V> {
     Reference::known(
         state.expect("a recorded time"),
         "computed with 70 digits: `cargo run --release --example references`",
@@ -141,12 +145,16 @@ fn outer_solar_system(study: Study) -> Result<Study, Error> {
     )))
 }
 
-fn springs(study: Study, omega: f64, end: f64) -> Result<Study, Error> {
+/// `largest` is hω with the first step size.
+fn springs(study: Study, omega: f64, end: f64, largest: f64) -> Result<Study, Error> {
     let start = fput_springs::start(omega);
     let system = fput_springs::FputSprings { omega };
-    let reference = Reference::computed(Gauss8, system, &start, end, 0.5 / omega)?;
+    let reference = match fput_springs::recorded(omega, end) {
+        known @ Some(_) => recorded(known),
+        None => Reference::computed(Gauss8, system, &start, end, 0.5 / omega)?,
+    };
     let name = format!("Stiff and soft springs, ω = {omega}");
-    let first = 16.0 / omega;
+    let first = largest / omega;
     let problem = Problem::new(name, system, start.clone(), reference, first)
         .described("Fermi–Pasta–Ulam–Tsingou, three stiff springs between soft ones (GNI I.5.1)")
         .needing(
@@ -168,13 +176,54 @@ fn fput_chain(study: Study) -> Result<Study, Error> {
     let (start, end) = (fput_chain::start(N), 100.0);
     let system = fput_chain::FputChain;
     let reference = Reference::computed(Gauss8, system, &start, end, 0.2)?;
-    let problem = Problem::new("FPUT chain, N = 1024", system, start.clone(), reference, 2.0)
-        .described("H = Σ p²/2 + Σ (d²/2 + d⁴/4), d the differences of neighbours, fixed ends (Fermi, Pasta, Ulam & Tsingou 1955)")
-        .needing("nothing: separable, quadratic kinetic energy, not stiff; many components");
+    let problem = Problem::new(
+        "FPUT chain, N = 1024",
+        system,
+        start.clone(),
+        reference,
+        2.0,
+    )
+    .described(FPUT_CHAIN)
+    .needing("nothing: separable, quadratic kinetic energy, not stiff; many components");
     let problem = long(explicit(problem));
     let problem = with_peers::<_, _, N, { 2 * N }>(problem, &system, &start, end, 2.0);
     Ok(study.problem(with_forest_ruth::<_, _, N, { 2 * N }>(
         problem, &system, &start, end, 2.0,
+    )))
+}
+
+const FPUT_CHAIN: &str = "H = Σ p²/2 + Σ (d²/2 + d⁴/4), d the differences of neighbours, fixed ends (Fermi, Pasta, Ulam & Tsingou 1955)";
+
+fn short_fput_chain(study: Study) -> Result<Study, Error> {
+    let (start, end) = (fput_chain::start(16), 100.0);
+    let system = fput_chain::FputChain;
+    let reference = recorded(fput_chain::recorded(16, end));
+    let problem = Problem::new("FPUT chain, N = 16", system, start.clone(), reference, 2.0)
+        .described(FPUT_CHAIN)
+        .needing("nothing: separable, quadratic kinetic energy, not stiff");
+    let problem = long(explicit(problem));
+    let problem = with_peers::<_, _, 16, 32>(problem, &system, &start, end, 2.0);
+    Ok(study.problem(with_forest_ruth::<_, _, 16, 32>(
+        problem, &system, &start, end, 2.0,
+    )))
+}
+
+fn long_fput_chain(study: Study) -> Result<Study, Error> {
+    const N: usize = 65_536;
+    let (start, end) = (fput_chain::start(N), 4.0);
+    let system = fput_chain::FputChain;
+    let reference = Reference::computed(Gauss8, system, &start, end, 0.2)?;
+    let problem = Problem::new("FPUT chain, N = 65536", system, start.clone(), reference, 2.0)
+        .described(FPUT_CHAIN)
+        .needing("nothing: separable, quadratic kinetic energy, not stiff; more components than the nearest memory holds");
+    let ladder = Ladder::Descend { first: 2.0 };
+    // The other crates have states of a length that is known when they are compiled, on the stack, which is too small.
+    Ok(study.problem(with_rk4(
+        long(explicit(problem)),
+        &system,
+        &start,
+        end,
+        ladder,
     )))
 }
 
@@ -293,8 +342,14 @@ fn pythagorean_three_body(study: Study) -> Result<Study, Error> {
         "Masses 3, 4, 5 from rest in the corners of a triangle with these sides (Burrau 1913)",
     )
     .needing("steps that follow encounters as near as 4·10⁻⁴; separable, quadratic kinetic energy");
-    // Without the peers, which cannot be stopped: with a loose tolerance they take minutes in the encounters.
-    Ok(study.problem(second_order(explicit(problem))))
+    Ok(study.problem(separable::<_, 6, 12>(
+        problem,
+        system,
+        &start,
+        end,
+        first,
+        second_order,
+    )))
 }
 
 fn argon_crystal(study: Study) -> Result<Study, Error> {

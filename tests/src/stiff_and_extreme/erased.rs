@@ -1,0 +1,96 @@
+//! A system whose type is forgotten, so that a method is compiled once for all problems.
+
+use std::fmt;
+use std::rc::Rc;
+
+use symplectic::nalgebra::{DVector, SVector};
+use symplectic::{SeparableHamiltonian, State, Vector};
+
+/// A separable system of any number of components.
+#[derive(Clone)]
+pub struct Erased(Rc<dyn OnSlices>);
+
+impl Erased {
+    /// The system of `N` components that is given.
+    pub fn new<S, const N: usize>(system: S) -> Self
+    where
+        S: SeparableHamiltonian<SVector<f64, N>> + 'static,
+    {
+        Self(Rc::new(OfSize(system)))
+    }
+}
+
+impl fmt::Debug for Erased {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Erased")
+    }
+}
+
+/// The state as one of any number of components.
+pub fn erased<V: Vector<Scalar = f64>>(state: &State<V>) -> State<DVector<f64>> {
+    let vector = |half: &V| DVector::from_column_slice(half.as_slice());
+    State::new(state.time, vector(&state.q), vector(&state.p))
+}
+
+/// The functions of a system with slices for its vectors.
+trait OnSlices {
+    fn velocity(&self, time: f64, p: &[f64], velocity: &mut [f64]);
+    fn force(&self, time: f64, q: &[f64], force: &mut [f64]);
+    fn energy(&self, time: f64, q: &[f64], p: &[f64]) -> Option<f64>;
+}
+
+/// A system of `N` components.
+struct OfSize<S, const N: usize>(S);
+
+impl<S: SeparableHamiltonian<SVector<f64, N>>, const N: usize> OnSlices for OfSize<S, N> {
+    fn velocity(&self, time: f64, p: &[f64], velocity: &mut [f64]) {
+        let mut found = SVector::zeros();
+        self.0.velocity(time, &vector(p), &mut found);
+        velocity.copy_from_slice(found.as_slice());
+    }
+
+    fn force(&self, time: f64, q: &[f64], force: &mut [f64]) {
+        let mut found = SVector::zeros();
+        self.0.force(time, &vector(q), &mut found);
+        force.copy_from_slice(found.as_slice());
+    }
+
+    fn energy(&self, time: f64, q: &[f64], p: &[f64]) -> Option<f64> {
+        self.0.energy(time, &vector(q), &vector(p))
+    }
+}
+
+fn vector<const N: usize>(slice: &[f64]) -> SVector<f64, N> {
+    SVector::from_column_slice(slice)
+}
+
+impl SeparableHamiltonian<DVector<f64>> for Erased {
+    fn velocity(&self, time: f64, p: &DVector<f64>, velocity: &mut DVector<f64>) {
+        self.0.velocity(time, p.as_slice(), velocity.as_mut_slice());
+    }
+
+    fn force(&self, time: f64, q: &DVector<f64>, force: &mut DVector<f64>) {
+        self.0.force(time, q.as_slice(), force.as_mut_slice());
+    }
+
+    fn energy(&self, time: f64, q: &DVector<f64>, p: &DVector<f64>) -> Option<f64> {
+        self.0.energy(time, q.as_slice(), p.as_slice())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::{check, kepler};
+
+    #[test]
+    fn a_system_is_the_same_without_its_type() {
+        let start = kepler::start(0.6);
+        let system = Erased::new(kepler::Kepler);
+        check::derivatives(&system, &erased(&start), 1e-5, 1e-8);
+        assert_eq!(
+            system.energy(0.0, &erased(&start).q, &erased(&start).p),
+            kepler::Kepler.energy(0.0, &start.q, &start.p)
+        );
+    }
+}
