@@ -10,6 +10,10 @@
 //! * evaluations of velocities and forces, iterations, and what went wrong: a run that failed is shown with its error, one
 //!   that would take too long is said to be skipped.
 //!
+//! How long steps may be before a method breaks is another question: a [`Verdict`] says what became of a run, accurate,
+//! bounded, unstable or stopped, and [`Verdicts`] are a table of them, problems by methods, which
+//! [`Measurements::verdicts`] takes to the page and the files.
+//!
 //! ```
 //! use symplectic::nalgebra::Vector1;
 //! use symplectic::report::{Kind, Measurements, Problem, Reference, Settings, Study};

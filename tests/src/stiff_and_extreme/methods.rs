@@ -22,7 +22,7 @@ pub struct Entrant {
     pub definition: &'static str,
     /// How its stages are found.
     pub stages: Stages,
-    run: fn(&Run) -> Verdict,
+    run: fn(&Run) -> Option<Verdict>,
 }
 
 /// How stages are found.
@@ -42,7 +42,7 @@ impl Entrant {
         name: &'static str,
         catalogue: Option<&'static str>,
         stages: Stages,
-        run: fn(&Run) -> Verdict,
+        run: fn(&Run) -> Option<Verdict>,
     ) -> Self {
         Self {
             name,
@@ -53,8 +53,8 @@ impl Entrant {
         }
     }
 
-    /// What becomes of a run by this method.
-    pub fn verdict(&self, run: &Run) -> Verdict {
+    /// What becomes of a run by this method; `None` for the longest run by Newton's iteration.
+    pub fn verdict(&self, run: &Run) -> Option<Verdict> {
         (self.run)(run)
     }
 }
@@ -74,7 +74,7 @@ macro_rules! entrants {
     (@catalogue) => { None };
     (@catalogue $name:literal) => { Some($name) };
     (@run Newton $method:ident) => { |run| run.by_newton($method) };
-    (@run $stages:ident $method:ident) => { |run| run.by($method) };
+    (@run $stages:ident $method:ident) => { |run| Some(run.by($method)) };
 }
 
 entrants! {

@@ -180,7 +180,8 @@ const METHODS_ID: &str = "the-methods";
 const EXPLANATION: &str = "Errors are global ones at the end of the run: the larger one of |q − q*|/|q*| and |p − p*|/|p*|. \
     Times are CPU times of the whole integration, the median of several that all methods took in turn. Times for an error are \
     interpolated between two runs on a logarithmic scale; ≤ is the time of the first run that is good enough, and nothing is \
-    extrapolated. In the plots, the mouse on a run shows its numbers.";
+    extrapolated. Evaluations are those of velocities and of forces together, of all methods alike, which is about twice the number \
+    of forces; those that Newton's iteration makes its derivatives of are not counted. In the plots, the mouse on a run shows its numbers.";
 
 fn method_row(method: &MethodRecord, names: &[&str]) -> Element {
     let kind = match method.kind {

@@ -210,13 +210,13 @@ fn short_fput_chain(study: Study) -> Result<Study, Error> {
 
 fn long_fput_chain(study: Study) -> Result<Study, Error> {
     const N: usize = 65_536;
-    let (start, end) = (fput_chain::start(N), 4.0);
+    let (start, end) = (fput_chain::start(N), 1.0);
     let system = fput_chain::FputChain;
     let reference = Reference::computed(Gauss8, system, &start, end, 0.2)?;
-    let problem = Problem::new("FPUT chain, N = 65536", system, start.clone(), reference, 2.0)
+    let problem = Problem::new("FPUT chain, N = 65536", system, start.clone(), reference, 1.0)
         .described(FPUT_CHAIN)
         .needing("nothing: separable, quadratic kinetic energy, not stiff; more components than the nearest memory holds");
-    let ladder = Ladder::Descend { first: 2.0 };
+    let ladder = Ladder::Descend { first: 1.0 };
     // The other crates have states of a length that is known when they are compiled, on the stack, which is too small.
     Ok(study.problem(with_rk4(
         long(explicit(problem)),
