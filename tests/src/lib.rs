@@ -1,4 +1,4 @@
-//! What the integration tests, the examples and later the report share: [`scenes`] to integrate, [`methods`] to
+//! What the integration tests, the examples and the report share: [`scenes`] to integrate, [`methods`] to
 //! integrate them with, how results are measured ([`measure`], [`counting`], [`order`]), and what they are measured
 //! against ([`references`]).
 

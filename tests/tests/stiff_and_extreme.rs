@@ -74,10 +74,10 @@ const EXPECTED: &[(&str, &str)] = &[
         "baaaa aaaaa aaaa aaaa aaaaaaaa",
     ),
     (
-        "Kepler, e = 0.6, 200 steps",
+        "Kepler, e = 0.6, 2e2 steps",
         "bbaaa aaaaa aaaa aaaa baaaaaaa",
     ),
-    ("Kepler, e = 0.6, 2000 steps", "bbaaa aaaaa aaaa aaaa"),
+    ("Kepler, e = 0.6, 2e3 steps", "bbaaa aaaaa aaaa aaaa"),
 ];
 
 #[test]

@@ -9,7 +9,7 @@ use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::report::{Cell, StabilityLimit, Verdict, Verdicts};
 use symplectic::{Error, Integrator, Method, SeparableHamiltonian, State};
 
-use crate::linear_stability::{self, Entry};
+use crate::linear_stability::{self, Entry, FARTHEST};
 use crate::scenes::fput_springs::{self, FputSprings};
 use crate::scenes::harmonic_oscillator::{self, HarmonicOscillator};
 use crate::scenes::kepler::{self, Kepler};
@@ -192,7 +192,8 @@ fn oscillator(entrant: &Entrant, entry: &Entry, nu: f64) -> Option<Cell> {
     })
 }
 
-/// The limits of stability of the explicit methods of the catalogue whose names `keep` thinks so of, proved and measured.
+/// The limits of stability of the explicit methods of the catalogue whose names `keep` thinks so of, proved and measured; where
+/// none was seen, [`FARTHEST`] is the measured one.
 ///
 /// # Errors
 ///
@@ -206,7 +207,8 @@ pub fn limits(keep: impl Fn(&str) -> bool) -> io::Result<Vec<StabilityLimit>> {
             Some(StabilityLimit {
                 method: entry.name.clone(),
                 proved: entry.proved_limit()?,
-                measured: entry.explicit()?.measured_limit(),
+                // An infinite one is no number in JSON.
+                measured: entry.explicit()?.measured_limit().min(FARTHEST),
             })
         })
         .collect();
@@ -253,13 +255,16 @@ pub fn extremes(long_steps: u64) -> Vec<(String, Run)> {
         rows.push((format!("oscillator of the size 10^{exponent}"), run));
     }
     let run = Run::new(Kepler, &kepler::start(0.6), 1.0 / 64.0, long_steps / 10);
-    rows.push((format!("Kepler, e = 0.6, {} steps", run.steps), run.clone()));
+    rows.push((
+        format!("Kepler, e = 0.6, {:e} steps", run.steps),
+        run.clone(),
+    ));
     let run = Run {
         system: System::Kepler,
         steps: long_steps,
         ..run
     };
-    rows.push((format!("Kepler, e = 0.6, {} steps", run.steps), run));
+    rows.push((format!("Kepler, e = 0.6, {:e} steps", run.steps), run));
     rows
 }
 

@@ -102,8 +102,19 @@ fn measure(arguments: &Arguments) -> Result<Measurements, Box<dyn Error>> {
 
 /// Whether a name has one of these texts in it, or there are none.
 fn contains_any(name: &str, texts: &[String]) -> bool {
-    let name = name.to_lowercase();
-    texts.is_empty() || texts.iter().any(|text| name.contains(&text.to_lowercase()))
+    let name = plain(name);
+    texts.is_empty() || texts.iter().any(|text| name.contains(&plain(text)))
+}
+
+/// Small letters that any keyboard has.
+fn plain(text: &str) -> String {
+    let letter = |c| match c {
+        'ö' => 'o',
+        'é' => 'e',
+        '–' => '-',
+        other => other,
+    };
+    text.to_lowercase().chars().map(letter).collect()
 }
 
 fn settings(arguments: &Arguments) -> Settings {
@@ -158,4 +169,18 @@ fn processor() -> String {
     let name = text.lines().find(|line| line.starts_with("model name"));
     let name = name.and_then(|line| line.split_once(": "));
     name.map_or(architecture, |(_, name)| name.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_found_as_anyone_types_them() {
+        let found = |name, text: &str| contains_any(name, &[text.to_owned()]);
+        assert!(found("Störmer–Verlet", "stormer-verlet"));
+        assert!(found("Störmer–Verlet", "Störmer"));
+        assert!(!found("Störmer–Verlet", "gauss"));
+        assert!(contains_any("Gauss 4", &[]));
+    }
 }
