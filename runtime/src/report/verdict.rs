@@ -365,7 +365,7 @@ mod tests {
     fn a_run_that_cannot_be_judged_is_stopped() {
         let system = acceleration::<Vector1<f64>, _>(|_, q, acceleration| *acceleration = -q);
         let start = State::from_arrays(0.0, [1.0], [0.0]);
-        let without_energy = Integrator::new(Verlet, system.clone(), start.clone(), 0.1);
+        let without_energy = Integrator::new(Verlet, system, start.clone(), 0.1);
         let not_made = Integrator::new(Verlet, system, start, 0.0);
         for integrator in [without_energy, not_made] {
             assert_eq!(Verdict::of(integrator, 1, None).letter(), 'x');

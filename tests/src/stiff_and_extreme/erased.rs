@@ -81,15 +81,22 @@ impl SeparableHamiltonian<DVector<f64>> for Erased {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenes::{check, kepler};
+    use crate::scenes::kepler;
 
     #[test]
     fn a_system_is_the_same_without_its_type() {
-        let start = kepler::start(0.6);
-        let system = Erased::new(kepler::Kepler);
-        check::derivatives(&system, &erased(&start), 1e-5, 1e-8);
+        let start: State<SVector<f64, 2>> = kepler::start(0.6);
+        let (system, any) = (Erased::new(kepler::Kepler), erased(&start));
+        let (mut velocity, mut force) = (SVector::zeros(), SVector::zeros());
+        let (mut found_velocity, mut found_force) = (DVector::zeros(2), DVector::zeros(2));
+        kepler::Kepler.velocity(0.0, &start.p, &mut velocity);
+        kepler::Kepler.force(0.0, &start.q, &mut force);
+        system.velocity(0.0, &any.p, &mut found_velocity);
+        system.force(0.0, &any.q, &mut found_force);
+        assert_eq!(found_velocity.as_slice(), velocity.as_slice());
+        assert_eq!(found_force.as_slice(), force.as_slice());
         assert_eq!(
-            system.energy(0.0, &erased(&start).q, &erased(&start).p),
+            system.energy(0.0, &any.q, &any.p),
             kepler::Kepler.energy(0.0, &start.q, &start.p)
         );
     }
