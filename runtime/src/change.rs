@@ -49,6 +49,12 @@ impl PartChange {
         Self { difference, scale }
     }
 
+    /// Whether it is of finite values.
+    #[inline(always)]
+    pub(crate) const fn is_finite(&self) -> bool {
+        self.difference.is_finite() && self.scale.is_finite()
+    }
+
     /// Notes that a component of a stage value, `base` plus an increment, went from `old` to `new`.
     #[inline(always)]
     pub fn record<T: Scalar>(&mut self, base: T, old: T, new: T) {

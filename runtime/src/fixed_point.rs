@@ -104,8 +104,8 @@ pub(crate) trait Sweeps {
         C::progress(change)
     }
 
-    /// Starting values; evaluations that are made once.
-    fn begin(&mut self, kept: Kept);
+    /// Starting values; evaluations that are made once. Returns whether all of these are seen to be finite.
+    fn begin(&mut self, kept: Kept) -> bool;
 
     /// The first evaluation that is not finite although its argument is.
     fn non_finite(&self) -> Option<(Quantity, usize)>;
@@ -140,8 +140,9 @@ where
     }
 
     #[inline(always)]
-    fn begin(&mut self, kept: Kept) {
+    fn begin(&mut self, kept: Kept) -> bool {
         P::begin::<R, V, S>(self.step, self.system, self.stages, kept);
+        false
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
@@ -186,11 +187,12 @@ fn solve<C: Class, T: Scalar>(
     max_iterations: u32,
     work: &mut Work,
 ) -> Result<(), Failure> {
-    sweeps.begin(kept);
+    let sound = sweeps.begin(kept);
     let counts = sweeps.evaluations();
     let made = counts.at_begin(kept);
     work.evaluations += made;
     if made > 0
+        && !sound
         && let Some((what, stage)) = sweeps.non_finite()
     {
         return Err(Failure::NonFinite {
@@ -251,9 +253,11 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         smallest = smallest.min(residual);
         largest = largest.max(residual);
         let exact = residual == 0.0;
-        // The first change has none before it that would tell how fast they shrink.
-        let rate = if iteration > 1 { residual / last } else { 1.0 };
-        let small = W::HASTY && residual <= rounding && residual * rate.min(1.0) <= T::EPSILON;
+        // The next one would be residual²/last. The first has none before it that would tell how fast they shrink.
+        let before = if iteration > 1 { last } else { residual };
+        let small = W::HASTY
+            && residual <= rounding
+            && residual * residual.min(before) <= T::EPSILON * before;
         let rounded = idle > 0 && C::settling(&change) <= rounding;
         let noisy = idle >= PATIENCE
             && smallest <= CONTRACTION * largest

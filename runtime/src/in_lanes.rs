@@ -193,7 +193,7 @@ where
     }
 
     #[inline(always)]
-    fn begin(&mut self, kept: Kept) {
+    fn begin(&mut self, kept: Kept) -> bool {
         let extrapolates = !P::MOMENTA.extrapolation.is_empty()
             && (P::Class::SEPARABLE || !P::POSITIONS.extrapolation.is_empty());
         if kept.stages && extrapolates {
@@ -207,7 +207,7 @@ where
             fill::<P, V>(&mut self.stages.p, self.step.p);
             self.velocities();
         }
-        self.positions();
+        self.positions().is_finite()
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {

@@ -12,7 +12,7 @@ use crate::time::{Clock, uniform};
 use crate::{
     Class, Compensated, Error, FixedPoint, Hamiltonian, HamiltonianInLanes, InLanes, Inside,
     Interpolation, Kept, Method, Plain, Plan, Quantity, Retry, Scalar, SecondOrderInLanes, Solver,
-    StageStorage, State, States, Statistics, Summation, Vector,
+    StageStorage, State, States, Statistics, Summation, Vector, Work,
 };
 #[cfg(feature = "alloc")]
 use crate::{GeneratingFunction, Step, generating_function::generating};
@@ -72,6 +72,8 @@ pub struct Integrator<
     next: (V, V),
     /// What they leave out.
     next_low: (V, V),
+    /// What that step took.
+    work: Work,
     memory: <PlanOf<M, S, V> as Plan>::Memory<V, S, N>,
     /// What `memory` holds for the next step.
     kept: Kept,
@@ -216,6 +218,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             low: zeros(),
             next: zeros(),
             next_low: zeros(),
+            work: Work::default(),
             memory: StageStorage::like(&state.q),
             kept: Kept::default(),
             last_size: step_size,
@@ -240,6 +243,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             low: self.low,
             next: self.next,
             next_low: self.next_low,
+            work: self.work,
             last_size: self.last_size,
             last_time: self.last_time,
             clock: self.clock,
@@ -326,7 +330,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     #[cfg(feature = "alloc")]
     pub fn step_with_generating_function(&mut self) -> Result<GeneratingFunction<V>, Error> {
         let (size, time) = (self.step_size, self.clock.next());
-        let work = self.prepare(size, time)?;
+        self.prepare(size, time)?;
         let step = Step {
             time: self.state.time,
             size,
@@ -338,7 +342,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         let number = self.statistics.steps + 1;
         let outcome = generating::<M, S, V>(&self.system, &step, number, self.max_iterations);
         if outcome.is_ok() {
-            self.accept(size, time, work);
+            self.accept(size, time);
             self.clock.tick();
         } else {
             // The stages are those of a step that was not taken.

@@ -93,7 +93,7 @@ where
         R: Summation,
         S: Hamiltonian<V, Class = P::Class>,
     {
-        let (Some(tableau), true) = (P::SECOND_ORDER, P::Class::SEPARABLE) else {
+        if !eliminates::<P>() {
             return <InLanes as Solver<V, S>>::take::<P, R>(
                 step,
                 system,
@@ -102,7 +102,7 @@ where
                 max_iterations,
                 outcome,
             );
-        };
+        }
         let mut sweeps = Positions::<P, R, V, S> {
             lanes: ByLanes {
                 step,
@@ -110,7 +110,6 @@ where
                 stages: &mut *stages,
                 sums: PhantomData,
             },
-            tableau,
         };
         let work = settle::<P::Class, f64>(&mut sweeps, kept, max_iterations)?;
         let Outcome { q, q_low, p, p_low } = outcome;
@@ -136,7 +135,7 @@ where
             let term = |number: usize| match number.checked_sub(1) {
                 None => h * velocity,
                 Some(stage) => {
-                    h * (tableau.rest[stage] * entry::<P, V>(&stages.velocity, stage, k))
+                    h * (tableau::<P>().rest[stage] * entry::<P, V>(&stages.velocity, stage, k))
                 }
             };
             let (high, rest) = add::<R, f64>(base, low, P::POSITIONS.count + 1, term);
@@ -149,7 +148,7 @@ where
     }
 
     fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside, q: &mut V, p: &mut V) {
-        if P::SECOND_ORDER.is_none() || !P::Class::SEPARABLE {
+        if !eliminates::<P>() {
             return <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
         }
         extend::<P, V>(&P::POSITIONS, at, &stages.force, p);
@@ -173,7 +172,25 @@ where
 /// of the velocities are those of the increments of the momentum.
 struct Positions<'a, P: StageTableau, R, V: Vector, S> {
     lanes: ByLanes<'a, P, R, V, S>,
-    tableau: SecondOrderTableau,
+}
+
+/// Whether the momenta of the stages of a plan are eliminated.
+#[inline(always)]
+const fn eliminates<P: StageTableau>() -> bool {
+    P::SECOND_ORDER.is_some() && P::Class::SEPARABLE
+}
+
+/// The coefficients of a plan that [`eliminates`] them: constants, so that sums over stages are written out.
+#[inline(always)]
+const fn tableau<P: StageTableau>() -> SecondOrderTableau {
+    match P::SECOND_ORDER {
+        Some(tableau) => tableau,
+        None => SecondOrderTableau {
+            nodes: &[],
+            columns: &[],
+            rest: &[],
+        },
+    }
 }
 
 impl<P, R, V, S> Positions<'_, P, R, V, S>
@@ -187,15 +204,14 @@ where
     #[inline(always)]
     fn positions(&mut self) -> PartChange {
         let (step, stages) = (self.lanes.step, &mut *self.lanes.stages);
-        let tableau = self.tableau;
         let sums = Sums {
-            columns: tableau.columns,
+            columns: tableau::<P>().columns,
             factor: None,
         };
         let h = P::Lanes::from_f64(step.size);
         let start = stages.p.as_ref();
         let increment = |(group, k): (usize, usize), sum: P::Lanes| {
-            let node: P::Lanes = lanes(tableau.nodes, group);
+            let node: P::Lanes = lanes(tableau::<P>().nodes, group);
             h * (node * start[group].as_slice()[k] + sum)
         };
         let base = (step.q, step.q_low);
@@ -251,7 +267,7 @@ where
     }
 
     #[inline(always)]
-    fn begin(&mut self, kept: Kept) {
+    fn begin(&mut self, kept: Kept) -> bool {
         if kept.stages && !P::POSITIONS.extrapolation.is_empty() {
             extrapolate::<P, V>(&P::POSITIONS, &mut self.lanes.stages.force);
         } else {
@@ -261,7 +277,7 @@ where
         }
         self.start();
         self.velocities();
-        self.positions();
+        self.positions().is_finite()
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {

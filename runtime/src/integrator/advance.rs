@@ -8,7 +8,7 @@ use crate::diagnosis::{Attempt, FirstFault};
 use crate::stage::is_finite;
 use crate::{
     Error, Failure, Hamiltonian, Kept, Method, Outcome, Plan, Solver, StageStorage, State, Step,
-    Summation, Vector, Work,
+    Summation, Vector,
 };
 
 impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
@@ -18,8 +18,8 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     #[inline]
     pub(crate) fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
         match self.prepare(size, time) {
-            Ok(work) => {
-                self.accept(size, time, work);
+            Ok(()) => {
+                self.accept(size, time);
                 Ok(())
             }
             Err(error) => self.take_again(size, time, error).map(|_| ()),
@@ -36,17 +36,17 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
     ) -> Result<ControlFlow<B>, Error> {
         match self.prepare(size, time) {
-            Ok(work) => {
-                self.accept(size, time, work);
+            Ok(()) => {
+                self.accept(size, time);
                 see(self)
             }
             Err(error) => self.take_again_in_sight(size, time, error, see),
         }
     }
 
-    /// Computes a step of size `size`, to the time `time`, into `next`; returns what it took.
+    /// Computes a step of size `size`, to the time `time`, into `next`.
     #[inline]
-    pub(super) fn prepare(&mut self, size: f64, time: f64) -> Result<Work, Error> {
+    pub(super) fn prepare(&mut self, size: f64, time: f64) -> Result<(), Error> {
         if time == self.state.time {
             return Err(Error::TimeResolution {
                 time,
@@ -59,14 +59,14 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 
     /// Makes the step that [`prepare`](Self::prepare) has computed the present state.
     #[inline]
-    pub(super) fn accept(&mut self, size: f64, time: f64, work: Work) {
+    pub(super) fn accept(&mut self, size: f64, time: f64) {
         mem::swap(&mut self.state.q, &mut self.next.0);
         mem::swap(&mut self.state.p, &mut self.next.1);
         if R::COMPENSATED {
             mem::swap(&mut self.low, &mut self.next_low);
         }
         self.last_time = mem::replace(&mut self.state.time, time);
-        self.statistics.count(work);
+        self.statistics.count(self.work);
         self.last_size = size;
         self.kept = Kept {
             evaluation: true,
@@ -74,14 +74,14 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         };
     }
 
-    /// Computes a step into `next` and checks it; returns what it took.
+    /// Computes a step into `next` and checks it.
     #[inline]
-    fn attempt(&mut self, size: f64) -> Result<Work, Option<Failure>> {
+    fn attempt(&mut self, size: f64) -> Result<(), Option<Failure>> {
         let kept = Kept {
             stages: self.kept.stages && size == self.last_size,
             ..self.kept
         };
-        let work = <PlanOf<M, S, V> as Plan>::take::<R, V, S, N>(
+        self.work = <PlanOf<M, S, V> as Plan>::take::<R, V, S, N>(
             &step(&self.state, &self.low, size),
             &self.system,
             &mut self.memory,
@@ -92,7 +92,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         let (q1, p1) = &self.next;
         let dimension = self.state.q.dimension();
         let sound = self.memory.mismatch(dimension).is_none() && is_finite(q1) && is_finite(p1);
-        if sound { Ok(work) } else { Err(None) }
+        if sound { Ok(()) } else { Err(None) }
     }
 
     /// Says why a step failed, and forgets everything that it left behind.

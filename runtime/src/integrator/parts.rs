@@ -66,8 +66,8 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         let mut clock = Clock::new(self.state.time, part);
         for number in 1..=parts {
             let time = if number == parts { end } else { clock.next() };
-            let work = self.prepare(part, time)?;
-            self.accept(part, time, work);
+            self.prepare(part, time)?;
+            self.accept(part, time);
             clock.tick();
             if seen.is_continue() {
                 seen = see(self)?;

@@ -60,7 +60,7 @@ where
         }
     }
 
-    fn begin(&mut self, kept: Kept) {
+    fn begin(&mut self, kept: Kept) -> bool {
         let memory = &mut *self.memory;
         (self.last, self.sweeps, self.since) = (f64::NAN, 0, 0);
         memory.failure = None;
@@ -85,6 +85,8 @@ where
         if self.memory.stale || self.memory.factored != Some(self.step.size) {
             self.factor();
         }
+        // There are none.
+        true
     }
 
     /// Both halves are corrected at once: neither is a function of the other.
