@@ -19,7 +19,7 @@ pub(super) fn chain(pairs: &mut Vec<Pair>) {
         by_hand: (),
         start: start(PARTICLES),
         step_size: 0.5,
-        steps: 2,
+        steps: 20,
         tolerance: 1e-14,
     };
     let Problem {
@@ -30,18 +30,25 @@ pub(super) fn chain(pairs: &mut Vec<Pair>) {
     } = problem;
     let begin = problem.blocks();
     let by_hand = chain::SecondOrder::<8>::new(&rule!(Gauss8), PARTICLES, step_size);
-    let gauss = ("Gauss 8", Gauss8);
+    let by_hand = move || {
+        let (mut q, mut p) = begin.clone();
+        let mut by_hand = by_hand.clone();
+        by_hand.run(&mut q, &mut p, tolerance, steps);
+        q.values().chain(p.values()).collect()
+    };
     pairs.push(problem.pair(
-        gauss,
+        ("Gauss 8", Gauss8),
+        step_size,
+        steps,
+        Integrator::<_, _, _, Plain>::in_second_order_lanes,
+        by_hand.clone(),
+    ));
+    pairs.push(problem.pair(
+        ("Gauss 8, stage by stage", Gauss8),
         step_size,
         steps,
         Ok::<Integrator<_, _, _, Plain>, _>,
-        move || {
-            let (mut q, mut p) = begin.clone();
-            let mut by_hand = by_hand.clone();
-            by_hand.run(&mut q, &mut p, tolerance, steps);
-            q.values().chain(p.values()).collect()
-        },
+        by_hand,
     ));
     pairs.push(problem.explicit::<explicit::Verlet, _>(("Verlet", VelocityVerlet), 0.05, 200));
     let forest_ruth = ("Forest–Ruth", ForestRuth);

@@ -15,7 +15,7 @@ use symplectic_tests::scenes::{
 };
 
 use crate::peers::{with_forest_ruth, with_peers, with_rk4};
-use crate::sets::{Set, coupled, explicit, long, more_explicit, newton, second_order};
+use crate::sets::{Set, coupled, explicit, more_explicit, newton, second_order};
 
 /// A scene: what it is called on the command line, and how it is added to a study.
 pub type Scene = (&'static str, fn(Study) -> Result<Study, Error>);
@@ -185,7 +185,7 @@ fn fput_chain(study: Study) -> Result<Study, Error> {
     )
     .described(FPUT_CHAIN)
     .needing("nothing: separable, quadratic kinetic energy, not stiff; many components");
-    let problem = long(explicit(problem));
+    let problem = second_order(explicit(problem));
     let problem = with_peers::<_, _, N, { 2 * N }>(problem, &system, &start, end, 2.0);
     Ok(study.problem(with_forest_ruth::<_, _, N, { 2 * N }>(
         problem, &system, &start, end, 2.0,
@@ -201,7 +201,7 @@ fn short_fput_chain(study: Study) -> Result<Study, Error> {
     let problem = Problem::new("FPUT chain, N = 16", system, start.clone(), reference, 2.0)
         .described(FPUT_CHAIN)
         .needing("nothing: separable, quadratic kinetic energy, not stiff");
-    let problem = long(explicit(problem));
+    let problem = second_order(explicit(problem));
     let problem = with_peers::<_, _, 16, 32>(problem, &system, &start, end, 2.0);
     Ok(study.problem(with_forest_ruth::<_, _, 16, 32>(
         problem, &system, &start, end, 2.0,
@@ -219,7 +219,7 @@ fn long_fput_chain(study: Study) -> Result<Study, Error> {
     let ladder = Ladder::Descend { first: 1.0 };
     // The other crates have states of a length that is known when they are compiled, on the stack, which is too small.
     Ok(study.problem(with_rk4(
-        long(explicit(problem)),
+        second_order(explicit(problem)),
         &system,
         &start,
         end,
@@ -389,7 +389,7 @@ fn sine_gordon(study: Study) -> Result<Study, Error> {
     )
     .described("H = Σ (p²/2 + 8(q_{i+1} − q_i)² + 1 − cos q), a ring with a breather (Duncan 1997)")
     .needing("nothing: separable, quadratic kinetic energy, not stiff");
-    let problem = long(explicit(problem));
+    let problem = second_order(explicit(problem));
     Ok(study.problem(with_peers::<_, _, N, { 2 * N }>(
         problem, &system, &start, end, 0.5,
     )))

@@ -69,12 +69,11 @@ where
     )
 }
 
-/// Implicit methods for `q'' = M⁻¹ f(q)` in few components: only positions are iterated, in lanes.
-pub fn second_order<S, const N: usize>(
-    problem: Problem<SVector<f64, N>, S>,
-) -> Problem<SVector<f64, N>, S>
+/// Implicit methods for `q'' = M⁻¹ f(q)`: only positions are iterated, in lanes.
+pub fn second_order<V, S>(problem: Problem<V, S>) -> Problem<V, S>
 where
-    S: HamiltonianInLanes<SVector<f64, N>> + Clone + 'static,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V> + Clone + 'static,
 {
     run_gauss!(problem, integrator => integrator.in_second_order_lanes())
 }
@@ -91,15 +90,6 @@ where
         StoermerVerlet "Störmer–Verlet, implicit" plain,
         Lobatto3 "Lobatto 3" plain,
     )
-}
-
-/// Implicit methods in many components: lanes run along them as it is.
-pub fn long<V, S>(problem: Problem<V, S>) -> Problem<V, S>
-where
-    V: Vector<Scalar = f64>,
-    S: Hamiltonian<V> + Clone + 'static,
-{
-    run_gauss!(problem, integrator => Ok(integrator))
 }
 
 /// By Newton's iteration, for what is stiff.
