@@ -131,7 +131,7 @@ impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
     Integrator<M, S, V, R>
 {
     /// The same integrator with coupled stages side by side, [`InLanes`]: for a system that is generic over its
-    /// scalar, and vectors with few or many components. An explicit method stays what it is.
+    /// scalar. Vectors may be long. An explicit method stays what it is.
     ///
     /// ```
     /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }

@@ -15,7 +15,8 @@ use super::{
 
 impl Measurements {
     /// The page, in HTML: for each problem its plots, the times for the [targets](Self::targets), what failed and every run;
-    /// the tables of [verdicts](Self::verdicts); the [limits](Self::limits) of stability; then what is known of the methods. It needs no other file and no network, and is light or dark as the reader prefers.
+    /// the tables of [verdicts](Self::verdicts); the [limits](Self::limits) of stability; then what is known of the methods.
+    /// It needs no other file and no network, and is light or dark as the reader prefers.
     pub fn page(&self) -> String {
         let head = Element::new("head")
             .child(Element::new("meta").with("charset", "utf-8"))
