@@ -49,10 +49,16 @@ impl PartChange {
         Self { difference, scale }
     }
 
-    /// Whether it is of finite values.
+    /// Whether the [relative](Self::relative) change is NaN.
     #[inline(always)]
-    pub(crate) const fn is_finite(&self) -> bool {
-        self.difference.is_finite() && self.scale.is_finite()
+    pub(crate) const fn is_undefined(&self) -> bool {
+        self.difference.is_nan() || self.difference.is_infinite() && self.scale.is_infinite()
+    }
+
+    /// Whether the change is above a bound, and a number.
+    #[inline(always)]
+    pub(crate) fn exceeds(&self, bound: f64) -> bool {
+        self.difference > bound
     }
 
     /// Notes that a component of a stage value, `base` plus an increment, went from `old` to `new`.

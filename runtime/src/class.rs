@@ -17,12 +17,6 @@ pub trait Class: sealed::Sealed + Sized + 'static {
     /// Whether the velocity depends on the momentum only, and the force on the position only.
     const SEPARABLE: bool;
 
-    /// The relative change of the stages by which an iteration is seen to go on.
-    ///
-    /// Of a separable system it is that of the positions, the last of a sweep: the momenta are a function of the positions
-    /// before.
-    fn progress(change: &Change) -> f64;
-
     /// The relative change of the stages that has to be down to rounding errors where an iteration has settled.
     ///
     /// Of a general system both halves have to be. Of a separable one either will do: the stage momenta are a function
@@ -45,11 +39,6 @@ impl Class for General {
     const SEPARABLE: bool = false;
 
     #[inline]
-    fn progress(change: &Change) -> f64 {
-        change.residual()
-    }
-
-    #[inline]
     fn settling(change: &Change) -> f64 {
         change.residual()
     }
@@ -58,11 +47,6 @@ impl Class for General {
 impl Class for Separable {
     type Plan<M: Method> = M::Separable;
     const SEPARABLE: bool = true;
-
-    #[inline]
-    fn progress(change: &Change) -> f64 {
-        change.q.relative()
-    }
 
     #[inline]
     fn settling(change: &Change) -> f64 {

@@ -32,6 +32,10 @@ const ROUNDING: f64 = 64.0;
 /// Sweeps without progress after which a change that has shrunk by [`CONTRACTION`] counts as noise.
 const PATIENCE: u32 = 10;
 
+/// Changes above this many units of EPSILON of the start are not looked at further in the first sweeps: from them on the next
+/// one can be the last only as rounding.
+const FAR: f64 = ROUNDING * ROUNDING;
+
 /// What tells an iteration that came down to its noise from one that never got anywhere.
 const CONTRACTION: f64 = 1.0 / 1024.0;
 
@@ -92,29 +96,68 @@ where
 
 /// Stages that are iterated.
 pub(crate) trait Sweeps {
+    /// How a sweep moves them.
+    type Movement: Movement;
+
     /// Whether a change that is down to rounding errors is the last where the next one would be down to a unit of EPSILON.
     const HASTY: bool;
 
     /// How many evaluations they make.
     fn evaluations(&self) -> EvaluationCounts;
 
-    /// The relative change by which the iteration is seen to go on.
+    /// Whether the momenta too show that the iteration goes on: not where they are a function of the positions before.
     #[inline(always)]
-    fn progress<C: Class>(change: &Change) -> f64 {
-        C::progress(change)
+    fn both<C: Class>() -> bool {
+        !C::SEPARABLE
     }
 
-    /// Starting values; evaluations that are made once. Returns whether all of these are seen to be finite.
-    fn begin(&mut self, kept: Kept) -> bool;
+    /// The largest components of the position and of the momentum at the start; infinite where every change is to be looked at.
+    fn scales(&self) -> [f64; 2];
+
+    /// Starting values; evaluations that are made once.
+    fn begin(&mut self, kept: Kept);
 
     /// The first evaluation that is not finite although its argument is.
-    fn non_finite(&self) -> Option<(Quantity, usize)>;
+    fn non_finite(&mut self) -> Option<(Quantity, usize)>;
 
     /// The first stage, from 1, whose force is not finite: forces come first in a sweep.
-    fn non_finite_force(&self) -> Option<usize>;
+    fn non_finite_force(&mut self) -> Option<usize>;
 
     /// One sweep over all of them.
-    fn sweep(&mut self) -> Change;
+    fn sweep(&mut self) -> Self::Movement;
+}
+
+/// How a sweep moved the stages.
+pub(crate) trait Movement: Copy {
+    /// By how much altogether.
+    fn change(&self) -> Change;
+
+    /// Whether it is a number, and by how much the positions moved, or the momenta where they count, is above its bound.
+    fn exceeds(&self, bounds: [f64; 2], both: bool) -> bool;
+}
+
+impl Movement for Change {
+    #[inline(always)]
+    fn change(&self) -> Change {
+        *self
+    }
+
+    #[inline(always)]
+    fn exceeds(&self, [q, p]: [f64; 2], both: bool) -> bool {
+        self.q.exceeds(q) || both && self.p.exceeds(p)
+    }
+}
+
+/// The largest components of the position and of the momentum at the start of a step.
+#[inline(always)]
+pub(crate) fn scales<V: Vector>(step: &Step<'_, V>) -> [f64; 2] {
+    [step.q, step.p].map(|vector| {
+        let sizes = vector.as_slice().iter().map(|x| x.magnitude());
+        sizes.fold(
+            0.0,
+            |largest, size| if size > largest { size } else { largest },
+        )
+    })
 }
 
 /// The stages of a plan, one after another.
@@ -132,6 +175,8 @@ where
     V: Vector,
     S: Hamiltonian<V, Class = P::Class>,
 {
+    type Movement = Change;
+
     const HASTY: bool = !R::COMPENSATED;
 
     #[inline(always)]
@@ -140,16 +185,20 @@ where
     }
 
     #[inline(always)]
-    fn begin(&mut self, kept: Kept) -> bool {
-        P::begin::<R, V, S>(self.step, self.system, self.stages, kept);
-        false
+    fn scales(&self) -> [f64; 2] {
+        scales(self.step)
     }
 
-    fn non_finite(&self) -> Option<(Quantity, usize)> {
+    #[inline(always)]
+    fn begin(&mut self, kept: Kept) {
+        P::begin::<R, V, S>(self.step, self.system, self.stages, kept);
+    }
+
+    fn non_finite(&mut self) -> Option<(Quantity, usize)> {
         self.stages.non_finite()
     }
 
-    fn non_finite_force(&self) -> Option<usize> {
+    fn non_finite_force(&mut self) -> Option<usize> {
         self.stages.non_finite_force()
     }
 
@@ -167,16 +216,15 @@ pub(crate) fn settle<C: Class, T: Scalar>(
     max_iterations: u32,
 ) -> Result<Work, Failure> {
     let mut work = Work::default();
-    let mut solved = solve::<C, T>(sweeps, kept, max_iterations, &mut work);
-    if solved.is_err() && kept.stages {
+    let mut kept = kept;
+    loop {
+        let solved = solve::<C, T>(sweeps, kept, max_iterations, &mut work);
+        if solved.is_ok() || !kept.stages {
+            return solved.map(|()| work);
+        }
         // What the step before was like may say nothing about this one: once more without it.
-        let anew = Kept {
-            stages: false,
-            ..kept
-        };
-        solved = solve::<C, T>(sweeps, anew, max_iterations, &mut work);
+        kept.stages = false;
     }
-    solved.map(|()| work)
 }
 
 /// Finds the coupled stages, and adds to `work` what that took.
@@ -187,12 +235,13 @@ fn solve<C: Class, T: Scalar>(
     max_iterations: u32,
     work: &mut Work,
 ) -> Result<(), Failure> {
-    let sound = sweeps.begin(kept);
+    sweeps.begin(kept);
     let counts = sweeps.evaluations();
     let made = counts.at_begin(kept);
     work.evaluations += made;
+    // With stages that are kept the first sweep shows it, and the attempt without them is looked at.
     if made > 0
-        && !sound
+        && !kept.stages
         && let Some((what, stage)) = sweeps.non_finite()
     {
         return Err(Failure::NonFinite {
@@ -214,29 +263,51 @@ fn solve<C: Class, T: Scalar>(
 ///
 /// A change that grows ends nothing: where the stages are many and their coupling is far from normal, it can
 /// grow for many sweeps and vanish after all. A true divergence ends at the bound or overflows.
-#[inline]
+#[inline(always)]
 fn iterate<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
     max_iterations: u32,
 ) -> Result<u32, Failure> {
     let rounding = ROUNDING * T::EPSILON;
+    let both = W::both::<C>();
+    let progress = |change: &Change| match both {
+        true => change.residual(),
+        false => change.q.relative(),
+    };
+    let scales = sweeps.scales();
+    let far = scales.map(|scale| FAR * T::EPSILON * scale);
+    // A change that is the last with sums that are hasty. The first has none before it that would tell how fast they shrink.
+    let mut enough = T::EPSILON;
     let mut smallest = f64::INFINITY;
     let mut largest = 0.0_f64;
-    let mut last = f64::INFINITY;
     let mut idle = 0;
+    let mut first = None;
+    let mut before = None;
     for iteration in 1..=max_iterations {
-        let change = sweeps.sweep();
-        let residual = W::progress::<C>(&change);
-        if change.residual().is_nan() {
+        let movement = sweeps.sweep();
+        let last = before.replace(movement);
+        if iteration == 1 {
+            first = before;
+        }
+        if iteration < PATIENCE && movement.exceeds(far, both) {
+            enough = rounding;
+            continue;
+        }
+        let change = movement.change();
+        let residual = progress(&change);
+        if W::HASTY && residual <= enough {
+            return Ok(iteration);
+        }
+        if change.q.is_undefined() || change.p.is_undefined() {
             // In the first sweep the system has been evaluated at the start and next to it: that the state is
             // out of bounds is likelier than that the iteration is. Later it has run away.
-            if iteration > 1 {
+            if let Some(last) = last {
                 return Err(Failure::NoConvergence {
-                    residual: last,
+                    residual: progress(&last.change()),
                     iterations: iteration,
                 });
             }
-            let part = if change.q.relative().is_nan() {
+            let part = if change.q.is_undefined() {
                 Quantity::Position
             } else {
                 Quantity::Momentum
@@ -249,26 +320,41 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
                 stage: culprit.map(|(_, stage)| stage),
             });
         }
-        idle = if residual < smallest { 0 } else { idle + 1 };
-        smallest = smallest.min(residual);
-        largest = largest.max(residual);
+        // Comparisons, for it is a number: `min` and `max` look whether it is.
+        (smallest, idle) = if residual < smallest {
+            (residual, 0)
+        } else {
+            (smallest, idle + 1)
+        };
+        largest = if residual > largest {
+            residual
+        } else {
+            largest
+        };
         let exact = residual == 0.0;
-        // The next one would be residual²/last. The first has none before it that would tell how fast they shrink.
-        let before = if iteration > 1 { last } else { residual };
-        let small = W::HASTY
-            && residual <= rounding
-            && residual * residual.min(before) <= T::EPSILON * before;
         let rounded = idle > 0 && C::settling(&change) <= rounding;
-        let noisy = idle >= PATIENCE
-            && smallest <= CONTRACTION * largest
-            && Separable::settling(&change) <= rounding;
-        if exact || small || rounded || noisy {
+        let noisy = || {
+            let first = first.map_or(0.0, |first: W::Movement| progress(&first.change()));
+            smallest <= CONTRACTION * larger(largest, first)
+                && Separable::settling(&change) <= rounding
+        };
+        if exact || rounded || idle >= PATIENCE && noisy() {
             return Ok(iteration);
         }
-        last = residual;
+        // After the next one, should it shrink by the factor by which it has shrunk itself, comes one of next²/residual.
+        if W::HASTY {
+            enough = larger(Scalar::sqrt(T::EPSILON * residual), T::EPSILON);
+            enough = if enough < rounding { enough } else { rounding };
+        }
     }
     Err(Failure::NoConvergence {
-        residual: last,
+        residual: before.map_or(f64::INFINITY, |last| progress(&last.change())),
         iterations: max_iterations,
     })
+}
+
+/// The larger of two numbers.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }

@@ -1,8 +1,9 @@
 //! Coupled stages side by side in lanes.
 
 use core::marker::PhantomData;
+use core::mem;
 
-use crate::fixed_point::{Sweeps, settle};
+use crate::fixed_point::{Movement, Sweeps, scales, settle};
 use crate::kernel::{add, sum_of_products};
 use crate::{
     Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, HamiltonianInLanes, Inside,
@@ -11,7 +12,7 @@ use crate::{
 };
 
 /// The iteration of [`FixedPoint`](crate::FixedPoint) with the stages side by side in [`Lanes`]: one evaluation of the
-/// system is that of four or eight stages.
+/// system is that of two, four or eight stages.
 ///
 /// It needs a system that is generic over its scalar. Vectors may be long: without it the lanes run along their components,
 /// but sums over the stages are slower than with all stages of a component at hand (`--example ratios` of the contest has
@@ -23,13 +24,32 @@ pub struct InLanes;
 pub(crate) type Laned<V, P> = <V as Vector>::With<<P as StageTableau>::Lanes>;
 
 /// Stages in lanes.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct LaneStages<V: Vector, P: StageTableau> {
     pub(crate) q: P::Groups<Laned<V, P>>,
     pub(crate) p: P::Groups<Laned<V, P>>,
     /// Evaluations, or the increments made of them.
     pub(crate) velocity: P::Groups<Laned<V, P>>,
     pub(crate) force: P::Groups<Laned<V, P>>,
+}
+
+impl<V: Vector, P: StageTableau> LaneStages<V, P> {
+    /// What `look` sees in the stages.
+    ///
+    /// It is shown them in another place: stages that nothing points to can be in registers from step to step.
+    #[inline(always)]
+    fn seen<T>(&mut self, look: impl Fn(&Self) -> T) -> T {
+        let blank = || P::groups(|_| Laned::<V, P>::blank());
+        let elsewhere = Self {
+            q: mem::replace(&mut self.q, blank()),
+            p: mem::replace(&mut self.p, blank()),
+            velocity: mem::replace(&mut self.velocity, blank()),
+            force: mem::replace(&mut self.force, blank()),
+        };
+        let seen = look(&elsewhere);
+        *self = elsewhere;
+        seen
+    }
 }
 
 impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for LaneStages<V, P> {
@@ -97,7 +117,7 @@ where
 {
     type Memory<P: StageTableau> = LaneStages<V, P>;
 
-    #[inline]
+    #[inline(always)]
     fn take<P, R>(
         step: &Step<'_, V>,
         system: &S,
@@ -180,6 +200,8 @@ where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
+    type Movement = LaneMovement<P::Lanes>;
+
     const HASTY: bool = !R::COMPENSATED;
 
     #[inline(always)]
@@ -194,7 +216,12 @@ where
     }
 
     #[inline(always)]
-    fn begin(&mut self, kept: Kept) -> bool {
+    fn scales(&self) -> [f64; 2] {
+        scales(self.step)
+    }
+
+    #[inline(always)]
+    fn begin(&mut self, kept: Kept) {
         let extrapolates = !P::MOMENTA.extrapolation.is_empty()
             && (P::Class::SEPARABLE || !P::POSITIONS.extrapolation.is_empty());
         if kept.stages && extrapolates {
@@ -208,24 +235,26 @@ where
             fill::<P, V>(&mut self.stages.p, self.step.p);
             self.velocities();
         }
-        self.positions().is_finite()
-    }
-
-    fn non_finite(&self) -> Option<(Quantity, usize)> {
-        self.stages.non_finite()
-    }
-
-    fn non_finite_force(&self) -> Option<usize> {
-        self.stages.non_finite_force()
+        self.positions();
     }
 
     #[inline(always)]
-    fn sweep(&mut self) -> Change {
+    fn non_finite(&mut self) -> Option<(Quantity, usize)> {
+        self.stages.seen(StageStorage::non_finite)
+    }
+
+    #[inline(always)]
+    fn non_finite_force(&mut self) -> Option<usize> {
+        self.stages.seen(StageStorage::non_finite_force)
+    }
+
+    #[inline(always)]
+    fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         self.forces();
         let p = self.momenta();
         self.velocities();
         let q = self.positions();
-        Change { q, p }
+        LaneMovement { q, p }
     }
 }
 
@@ -238,20 +267,20 @@ where
 {
     /// New positions; returns how much they changed.
     #[inline(always)]
-    pub(crate) fn positions(&mut self) -> PartChange {
+    pub(crate) fn positions(&mut self) -> LanePart<P::Lanes> {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.q, step.q_low);
         let sums = Sums::of::<P>(&P::POSITIONS, step.size);
-        values::<P, R, V>(&sums, &mut stages.q, base, &stages.velocity, |_, sum| sum)
+        values::<P, V>(&sums, &mut stages.q, base, &stages.velocity, sum::<R, P>)
     }
 
     /// New momenta; returns how much they changed.
     #[inline(always)]
-    pub(crate) fn momenta(&mut self) -> PartChange {
+    pub(crate) fn momenta(&mut self) -> LanePart<P::Lanes> {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.p, step.p_low);
         let sums = Sums::of::<P>(&P::MOMENTA, step.size);
-        values::<P, R, V>(&sums, &mut stages.p, base, &stages.force, |_, sum| sum)
+        values::<P, V>(&sums, &mut stages.p, base, &stages.force, sum::<R, P>)
     }
 
     /// Evaluates all forces.
@@ -349,16 +378,16 @@ impl Sums {
     }
 }
 
-/// New stage values from evaluations, `base + low + increment`; returns how much they changed. The increment is made of
-/// the number of the group and of the component, and of the sum.
+/// New stage values from evaluations; returns how much they changed. Each is made of the number of the group and of the
+/// component, of the base with what it leaves out, and of the sum.
 #[inline(always)]
-pub(crate) fn values<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
+pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     sums: &Sums,
     out: &mut P::Groups<Laned<V, P>>,
     (base, low): (&V, &V),
     terms: &P::Groups<Laned<V, P>>,
-    increment: impl Fn((usize, usize), P::Lanes) -> P::Lanes,
-) -> PartChange {
+    value: impl Fn((usize, usize), (P::Lanes, P::Lanes), P::Lanes) -> P::Lanes,
+) -> LanePart<P::Lanes> {
     let n = shortest::<P, V>(out, terms)
         .min(base.dimension())
         .min(low.dimension());
@@ -370,12 +399,12 @@ pub(crate) fn values<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
         let start = P::Lanes::from_f64(base[k]);
         scale = scale.larger(start.abs());
         for (group, out) in out.as_mut().iter_mut().enumerate() {
-            let increment = increment((group, k), combination::<P, V>(sums, group, terms, k));
-            let increment = match R::COMPENSATED {
-                true => increment + P::Lanes::from_f64(low[k]),
-                false => increment,
-            };
-            let new = start + increment;
+            let sum_of_terms = combination::<P, V>(sums, group, terms, k);
+            let new = value(
+                (group, k),
+                (start, P::Lanes::from_f64(low[k])),
+                sum_of_terms,
+            );
             let component = &mut out.as_mut_slice()[k];
             let moved = (new - *component).abs();
             difference = difference.larger(moved);
@@ -384,10 +413,72 @@ pub(crate) fn values<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
             *component = new;
         }
     }
-    if sum.any_nan() {
-        return PartChange::new(f64::NAN, f64::NAN);
+    LanePart {
+        difference,
+        scale,
+        sum,
     }
-    PartChange::new(difference.largest(), scale.largest())
+}
+
+/// How a sweep moved the stages, lane by lane.
+#[derive(Clone, Copy)]
+pub(crate) struct LaneMovement<L> {
+    pub(crate) q: LanePart<L>,
+    pub(crate) p: LanePart<L>,
+}
+
+/// How it moved the positions, or the momenta.
+#[derive(Clone, Copy)]
+pub(crate) struct LanePart<L> {
+    /// The largest change of a component, without those that are NaN.
+    difference: L,
+    /// The largest component.
+    scale: L,
+    /// All changes together: NaN if one is.
+    sum: L,
+}
+
+impl<L: Lanes> Movement for LaneMovement<L> {
+    #[inline(always)]
+    fn change(&self) -> Change {
+        Change {
+            q: self.q.change(),
+            p: self.p.change(),
+        }
+    }
+
+    #[inline(always)]
+    fn exceeds(&self, [q, p]: [f64; 2], both: bool) -> bool {
+        self.q.exceeds(q) || both && self.p.exceeds(p)
+    }
+}
+
+impl<L: Lanes> LanePart<L> {
+    #[inline(always)]
+    fn change(&self) -> PartChange {
+        if self.sum.any_nan() {
+            return PartChange::new(f64::NAN, f64::NAN);
+        }
+        PartChange::new(self.difference.largest(), self.scale.largest())
+    }
+
+    #[inline(always)]
+    fn exceeds(&self, bound: f64) -> bool {
+        self.difference.any_above(bound) && !self.sum.any_nan()
+    }
+}
+
+/// `base + low + sum`.
+#[inline(always)]
+fn sum<R: Summation, P: StageTableau>(
+    _place: (usize, usize),
+    (base, low): (P::Lanes, P::Lanes),
+    sum: P::Lanes,
+) -> P::Lanes {
+    match R::COMPENSATED {
+        true => base + (sum + low),
+        false => base + sum,
+    }
 }
 
 /// `factor Σ_j columns_j terms_j` in one component, for the stages of one group; the factor, if any, is in the products.

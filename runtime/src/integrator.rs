@@ -12,17 +12,23 @@ use crate::time::{Clock, uniform};
 use crate::{
     Class, Compensated, Error, FixedPoint, Hamiltonian, HamiltonianInLanes, InLanes, Inside,
     Interpolation, Kept, Method, Plain, Plan, Quantity, Retry, Scalar, SecondOrderInLanes, Solver,
-    StageStorage, State, States, Statistics, Summation, Vector, Work,
+    State, States, Statistics, Summation, Vector,
 };
 #[cfg(feature = "alloc")]
 use crate::{GeneratingFunction, Step, generating_function::generating};
 
 mod advance;
 mod blocks;
+mod course;
 mod parts;
+
+use course::Course;
 
 /// The plan of the method `M` for the class of the system `S`.
 pub(crate) type PlanOf<M, S, V> = <<S as Hamiltonian<V>>::Class as Class>::Plan<M>;
+
+/// The memory of that plan with the solver `N`.
+type MemoryOf<M, S, V, N> = <PlanOf<M, S, V> as Plan>::Memory<V, S, N>;
 
 /// A method that steps a system from a state.
 ///
@@ -65,27 +71,11 @@ pub struct Integrator<
     N: Solver<V, S> = FixedPoint,
 > {
     system: S,
-    state: State<V>,
-    /// What the position and the momentum of the state leave out.
-    low: (V, V),
-    /// Where a step writes its result; swapped with the state when it is accepted.
-    next: (V, V),
-    /// What they leave out.
-    next_low: (V, V),
-    /// What that step took.
-    work: Work,
-    memory: <PlanOf<M, S, V> as Plan>::Memory<V, S, N>,
-    /// What `memory` holds for the next step.
-    kept: Kept,
-    /// Size of the step before.
-    last_size: f64,
-    /// Time at the start of the step before.
-    last_time: f64,
+    course: Course<V, MemoryOf<M, S, V, N>>,
     clock: Clock,
     step_size: f64,
     max_iterations: u32,
     retry: Retry,
-    statistics: Statistics,
     method: PhantomData<(M, R, N)>,
 }
 
@@ -173,7 +163,7 @@ impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
     pub fn in_second_order_lanes(
         self,
     ) -> Result<Integrator<M, S, V, R, SecondOrderInLanes>, Error> {
-        let State { time, q, p } = &self.state;
+        let State { time, q, p } = &self.course.state;
         let solver = SecondOrderInLanes::new(&self.system, *time, q, p)?;
         Ok(self.with_solver(solver))
     }
@@ -212,23 +202,13 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     ) -> Result<Self, Error> {
         check_step_size(step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
-        let zeros = || (state.q.zeros_like(), state.q.zeros_like());
         Ok(Self {
             system,
-            low: zeros(),
-            next: zeros(),
-            next_low: zeros(),
-            work: Work::default(),
-            memory: StageStorage::like(&state.q),
-            kept: Kept::default(),
-            last_size: step_size,
-            last_time: state.time,
             clock: Clock::new(state.time, step_size),
-            state,
+            course: Course::new(state),
             step_size,
             max_iterations: Self::DEFAULT_MAX_ITERATIONS,
             retry: Retry::default(),
-            statistics: Statistics::default(),
             method: PhantomData,
         })
     }
@@ -236,21 +216,12 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     /// The same integrator with another [`Solver`] for coupled stages: from here on, with the counts so far.
     pub fn with_solver<O: Solver<V, S>>(self, _solver: O) -> Integrator<M, S, V, R, O> {
         Integrator {
-            memory: StageStorage::like(&self.state.q),
-            kept: Kept::default(),
             system: self.system,
-            state: self.state,
-            low: self.low,
-            next: self.next,
-            next_low: self.next_low,
-            work: self.work,
-            last_size: self.last_size,
-            last_time: self.last_time,
+            course: self.course.with_memory(),
             clock: self.clock,
             step_size: self.step_size,
             max_iterations: self.max_iterations,
             retry: self.retry,
-            statistics: self.statistics,
             method: PhantomData,
         }
     }
@@ -265,7 +236,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     pub fn step(&mut self) -> Result<&State<V>, Error> {
         self.advance(self.step_size, self.clock.next())?;
         self.clock.tick();
-        Ok(&self.state)
+        Ok(&self.course.state)
     }
 
     /// Takes so many steps and returns the state after them: as often [`step`](Self::step), to the last bit, and faster where
@@ -299,7 +270,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         let size = self.step_size;
         let outcome = self.advance_by(count, size, &mut clock, None);
         self.clock = clock;
-        outcome.map(|()| &self.state)
+        outcome.map(|()| &self.course.state)
     }
 
     /// Takes one step and returns its generating function at the position before and the momentum after it, the
@@ -332,21 +303,21 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         let (size, time) = (self.step_size, self.clock.next());
         self.prepare(size, time)?;
         let step = Step {
-            time: self.state.time,
+            time: self.course.state.time,
             size,
-            q: &self.state.q,
-            q_low: &self.low.0,
-            p: &self.next.1,
-            p_low: &self.next_low.1,
+            q: &self.course.state.q,
+            q_low: &self.course.low.0,
+            p: &self.course.next.1,
+            p_low: &self.course.next_low.1,
         };
-        let number = self.statistics.steps + 1;
+        let number = self.course.statistics.steps + 1;
         let outcome = generating::<M, S, V>(&self.system, &step, number, self.max_iterations);
         if outcome.is_ok() {
             self.accept(size, time);
             self.clock.tick();
         } else {
             // The stages are those of a step that was not taken.
-            self.kept = Kept::default();
+            self.course.kept = Kept::default();
         }
         outcome
     }
@@ -359,11 +330,11 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the
     /// last good step.
     pub fn integrate_to(&mut self, end: f64) -> Result<&State<V>, Error> {
-        let (count, size) = uniform(self.state.time, end, self.step_size)?;
-        let mut clock = Clock::new(self.state.time, size);
+        let (count, size) = uniform(self.course.state.time, end, self.step_size)?;
+        let mut clock = Clock::new(self.course.state.time, size);
         let outcome = self.advance_by(count, size, &mut clock, Some(end));
         self.restart_clock();
-        outcome.map(|()| &self.state)
+        outcome.map(|()| &self.course.state)
     }
 
     /// [`integrate_to`](Self::integrate_to) that shows `observe` the state after every step.
@@ -393,10 +364,10 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     ) -> Result<&State<V>, Error> {
         self.steps_to(end, |integrator, next| {
             integrator.advance(next.size, next.time)?;
-            observe(&integrator.state);
+            observe(integrator.state());
             Ok(ControlFlow::<Infallible>::Continue(()))
         })?;
-        Ok(&self.state)
+        Ok(&self.course.state)
     }
 
     /// Lets `take` take the steps of [`integrate_to`](Self::integrate_to), until it breaks.
@@ -406,7 +377,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         end: f64,
         mut take: impl FnMut(&mut Self, NextStep) -> Result<ControlFlow<B>, Error>,
     ) -> Result<ControlFlow<B>, Error> {
-        let start = self.state.time;
+        let start = self.course.state.time;
         let (steps, size) = uniform(start, end, self.step_size)?;
         let mut clock = Clock::new(start, size);
         let mut outcome = Ok(ControlFlow::Continue(()));
@@ -451,13 +422,13 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 
     /// The present state, rounded.
     pub const fn state(&self) -> &State<V> {
-        &self.state
+        &self.course.state
     }
 
     /// What the position and the momentum of [`state`](Self::state) leave out: less than half a unit in their last
     /// places, and zero with [`Plain`] sums.
     pub const fn remainder(&self) -> (&V, &V) {
-        (&self.low.0, &self.low.1)
+        (&self.course.low.0, &self.course.low.1)
     }
 
     /// Puts another state of the same dimension in place of the present one.
@@ -466,17 +437,20 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     ///
     /// [`Error::Dimension`], [`Error::NonFiniteState`]; the state is then untouched.
     pub fn set_state(&mut self, state: State<V>) -> Result<(), Error> {
-        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
-        self.state = state;
-        self.low = (self.state.q.zeros_like(), self.state.q.zeros_like());
-        self.kept = Kept::default();
+        check_state(
+            state.time,
+            &state.q,
+            &state.p,
+            self.course.state.q.dimension(),
+        )?;
+        self.course.set_state(state);
         self.restart_clock();
         Ok(())
     }
 
     /// The present state, given away.
     pub fn into_state(self) -> State<V> {
-        self.state
+        self.course.state
     }
 
     /// The step size.
@@ -536,38 +510,38 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 
     /// What the steps have taken so far.
     pub const fn statistics(&self) -> &Statistics {
-        &self.statistics
+        &self.course.statistics
     }
 
     /// Number of steps taken.
     pub const fn steps(&self) -> u64 {
-        self.statistics.steps
+        self.course.statistics.steps
     }
 
     /// Number of fixed-point sweeps in all steps taken; 0 for an explicit method.
     pub const fn iterations(&self) -> u64 {
-        self.statistics.iterations
+        self.course.statistics.iterations
     }
 
     /// The energy of the present state, where the system knows it.
     pub fn energy(&self) -> Option<V::Scalar> {
-        let State { time, q, p } = &self.state;
+        let State { time, q, p } = &self.course.state;
         self.system.energy(V::Scalar::from_f64(*time), q, p)
     }
 
     /// The last step, if its stages are still there.
     pub(crate) fn last_step(&self) -> Option<LastStep<'_, V>> {
-        self.kept.stages.then_some(LastStep {
-            start: self.last_time,
-            end: self.state.time,
-            size: self.last_size,
+        self.course.kept.stages.then_some(LastStep {
+            start: self.course.last_time,
+            end: self.course.state.time,
+            size: self.course.last_size,
             positions: Line {
-                start: (&self.next.0, &self.next_low.0),
-                end: (&self.state.q, &self.low.0),
+                start: (&self.course.next.0, &self.course.next_low.0),
+                end: (&self.course.state.q, &self.course.low.0),
             },
             momenta: Line {
-                start: (&self.next.1, &self.next_low.1),
-                end: (&self.state.p, &self.low.1),
+                start: (&self.course.next.1, &self.course.next_low.1),
+                end: (&self.course.state.p, &self.course.low.1),
             },
         })
     }
@@ -579,11 +553,11 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 
     /// Adds what the stages of the last step say about its inside: see [`Plan::extend`].
     pub(crate) fn extend(&self, at: Inside, q: &mut V, p: &mut V) {
-        <PlanOf<M, S, V> as Plan>::extend::<V, S, N>(&self.memory, at, q, p);
+        <PlanOf<M, S, V> as Plan>::extend::<V, S, N>(&self.course.memory, at, q, p);
     }
 
     const fn restart_clock(&mut self) {
-        self.clock = Clock::new(self.state.time, self.step_size);
+        self.clock = Clock::new(self.course.state.time, self.step_size);
     }
 }
 
@@ -594,9 +568,9 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt
         formatter
             .debug_struct("Integrator")
             .field("method", &M::NAME)
-            .field("state", &self.state)
+            .field("state", &self.course.state)
             .field("step_size", &self.step_size)
-            .field("statistics", &self.statistics)
+            .field("statistics", &self.course.statistics)
             .finish_non_exhaustive()
     }
 }

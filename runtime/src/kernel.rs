@@ -287,19 +287,43 @@ pub(crate) fn add<R: Summation, T: Scalar>(
     if count == 0 {
         return (base, low);
     }
-    let mut sum = term(0);
+    let mut sum = eight::<R, T>(count, &term);
+    for block in 1..count.div_ceil(8) {
+        let terms = |j| term(8 * block + j);
+        sum = pair::<R, T>(sum, eight::<R, T>(count - 8 * block, &terms));
+    }
     if !R::COMPENSATED {
-        for j in 1..count {
-            sum += term(j);
+        return (base + sum.0, low);
+    }
+    let (high, error) = two_sum(base, sum.0);
+    fast_two_sum(high, (sum.1 + low) + error)
+}
+
+/// The sum of the first eight terms, at least one, and what it leaves out: pairs, and pairs of them, for additions that need
+/// not wait for one another.
+#[inline(always)]
+fn eight<R: Summation, T: Scalar>(count: usize, term: &impl Fn(usize) -> T) -> (T, T) {
+    let mut sums: [(T, T); 8] = array::from_fn(|j| {
+        let term = if j < count { term(j) } else { T::zero() };
+        (term, T::zero())
+    });
+    for width in [4, 2, 1] {
+        for j in 0..width {
+            if j + width < count {
+                sums[j] = pair::<R, T>(sums[j], sums[j + width]);
+            }
         }
-        return (base + sum, low);
     }
-    let mut rest = low;
-    for j in 1..count {
-        let (next, error) = two_sum(sum, term(j));
-        sum = next;
-        rest += error;
+    sums[0]
+}
+
+/// The sum of two sums, and what it leaves out.
+#[inline(always)]
+fn pair<R: Summation, T: Scalar>(a: (T, T), b: (T, T)) -> (T, T) {
+    if R::COMPENSATED {
+        let (sum, error) = two_sum(a.0, b.0);
+        (sum, error + (a.1 + b.1))
+    } else {
+        (a.0 + b.0, a.1)
     }
-    let (high, error) = two_sum(base, sum);
-    fast_two_sum(high, rest + error)
 }

@@ -40,6 +40,9 @@ pub trait Lanes: Scalar {
     /// The largest number; any where one of them is NaN.
     fn largest(self) -> f64;
 
+    /// Whether a number is above `bound`; NaN is not.
+    fn any_above(self, bound: f64) -> bool;
+
     /// Whether a number is NaN.
     fn any_nan(self) -> bool;
 
@@ -72,13 +75,50 @@ pub trait Lanes: Scalar {
     label = "this needs a system that is generic over its `Scalar`: `impl<T: Scalar> SeparableHamiltonian<SVector<T, N>> for …`"
 )]
 pub trait HamiltonianInLanes<V: Vector>:
-    Hamiltonian<V> + Hamiltonian<V::With<F64x4>> + Hamiltonian<V::With<F64x8>>
+    Hamiltonian<V>
+    + Hamiltonian<V::With<F64x2>>
+    + Hamiltonian<V::With<F64x4>>
+    + Hamiltonian<V::With<F64x8>>
 {
 }
 
 impl<V: Vector, S> HamiltonianInLanes<V> for S where
-    S: Hamiltonian<V> + Hamiltonian<V::With<F64x4>> + Hamiltonian<V::With<F64x8>>
+    S: Hamiltonian<V>
+        + Hamiltonian<V::With<F64x2>>
+        + Hamiltonian<V::With<F64x4>>
+        + Hamiltonian<V::With<F64x8>>
 {
+}
+
+/// The largest of some numbers, any where one of them is NaN: half by half, for registers are narrower then.
+trait Largest {
+    fn largest(self) -> f64;
+}
+
+impl Largest for [f64; 8] {
+    #[inline(always)]
+    fn largest(self) -> f64 {
+        let lower = wide::f64x4::new(array::from_fn(|lane| self[lane]));
+        let upper = wide::f64x4::new(array::from_fn(|lane| self[lane + 4]));
+        lower.fast_max(upper).to_array().largest()
+    }
+}
+
+impl Largest for [f64; 4] {
+    #[inline(always)]
+    fn largest(self) -> f64 {
+        let [a, b, c, d] = self;
+        let (lower, upper) = (wide::f64x2::new([a, b]), wide::f64x2::new([c, d]));
+        lower.fast_max(upper).to_array().largest()
+    }
+}
+
+impl Largest for [f64; 2] {
+    #[inline(always)]
+    fn largest(self) -> f64 {
+        let [a, b] = self;
+        if a > b { a } else { b }
+    }
 }
 
 macro_rules! operator {
@@ -234,20 +274,12 @@ macro_rules! lanes {
 
             #[inline(always)]
             fn largest(self) -> f64 {
-                let mut lanes = self.to_array();
-                let mut width = $width / 2;
-                while width > 0 {
-                    for lane in 0..width {
-                        let other = lanes[lane + width];
-                        lanes[lane] = if lanes[lane] > other {
-                            lanes[lane]
-                        } else {
-                            other
-                        };
-                    }
-                    width /= 2;
-                }
-                lanes[0]
+                Largest::largest(self.to_array())
+            }
+
+            #[inline(always)]
+            fn any_above(self, bound: f64) -> bool {
+                self.0.simd_gt(<$inner>::splat(bound)).any()
             }
 
             #[inline(always)]
@@ -286,6 +318,12 @@ macro_rules! lanes {
     };
 }
 
+lanes!(
+    F64x2,
+    wide::f64x2,
+    2,
+    "Two doubles side by side: [`Lanes`]."
+);
 lanes!(
     F64x4,
     wide::f64x4,

@@ -147,7 +147,7 @@ pub use kernel::{
     advance, combine, copy, copy_to, factors, relax, scale, total, transform, weighted_total,
     weights,
 };
-pub use lanes::{F64x4, F64x8, HamiltonianInLanes, Lanes};
+pub use lanes::{F64x2, F64x4, F64x8, HamiltonianInLanes, Lanes};
 pub use long_splitting::{SeparableOnly, rows, staircase};
 pub use method::{Method, Plan, StagePlan};
 pub use nalgebra;

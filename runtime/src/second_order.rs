@@ -4,13 +4,14 @@ use core::marker::PhantomData;
 
 use crate::fixed_point::{Sweeps, settle};
 use crate::in_lanes::{
-    ByLanes, LaneStages, Sums, entry, extend, extrapolate, fill, lanes, total, values,
+    ByLanes, LaneMovement, LanePart, LaneStages, Sums, entry, extend, extrapolate, fill, lanes,
+    total, values,
 };
 use crate::kernel::add;
 use crate::{
-    Change, Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes,
-    Inside, Kept, Lanes, Outcome, PartChange, Quantity, Scalar, SecondOrderTableau, Solver,
-    StageTableau, Step, Summation, Vector, Work,
+    Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes, Inside,
+    Kept, Lanes, Outcome, Quantity, Scalar, SecondOrderTableau, Solver, StageTableau, Step,
+    Summation, Vector, Work,
 };
 
 /// [`InLanes`] for second-order systems `q'' = M⁻¹ f(q)`, whose velocity `M⁻¹ p` is linear in the momentum: only the
@@ -79,7 +80,7 @@ where
 {
     type Memory<P: StageTableau> = LaneStages<V, P>;
 
-    #[inline]
+    #[inline(always)]
     fn take<P, R>(
         step: &Step<'_, V>,
         system: &S,
@@ -132,11 +133,11 @@ where
                 false => low,
             };
             let velocity = entry::<P, V>(&stages.p, 0, k);
-            let term = |number: usize| match number.checked_sub(1) {
-                None => h * velocity,
-                Some(stage) => {
-                    h * (tableau::<P>().rest[stage] * entry::<P, V>(&stages.velocity, stage, k))
+            let term = |stage: usize| {
+                if stage == P::POSITIONS.count {
+                    return h * velocity;
                 }
+                h * (tableau::<P>().rest[stage] * entry::<P, V>(&stages.velocity, stage, k))
             };
             let (high, rest) = add::<R, f64>(base, low, P::POSITIONS.count + 1, term);
             q.as_mut_slice()[k] = high;
@@ -202,7 +203,7 @@ where
 {
     /// New positions; returns how much they changed.
     #[inline(always)]
-    fn positions(&mut self) -> PartChange {
+    fn positions(&mut self) -> LanePart<P::Lanes> {
         let (step, stages) = (self.lanes.step, &mut *self.lanes.stages);
         let sums = Sums {
             columns: tableau::<P>().columns,
@@ -210,12 +211,17 @@ where
         };
         let h = P::Lanes::from_f64(step.size);
         let start = stages.p.as_ref();
-        let increment = |(group, k): (usize, usize), sum: P::Lanes| {
+        let value = |(group, k): (usize, usize), (base, low): (P::Lanes, P::Lanes), sum| {
             let node: P::Lanes = lanes(tableau::<P>().nodes, group);
-            h * (node * start[group].as_slice()[k] + sum)
+            let drift = node * start[group].as_slice()[k];
+            match R::COMPENSATED {
+                true => base + (h * (drift + sum) + low),
+                // All but the sum is the same in every sweep.
+                false => h.fused(sum, base + h * drift),
+            }
         };
         let base = (step.q, step.q_low);
-        values::<P, R, V>(&sums, &mut stages.q, base, &stages.velocity, increment)
+        values::<P, V>(&sums, &mut stages.q, base, &stages.velocity, value)
     }
 
     /// The velocities of the increments of the momentum.
@@ -253,6 +259,8 @@ where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
+    type Movement = LaneMovement<P::Lanes>;
+
     const HASTY: bool = !R::COMPENSATED;
 
     #[inline(always)]
@@ -267,7 +275,12 @@ where
     }
 
     #[inline(always)]
-    fn begin(&mut self, kept: Kept) -> bool {
+    fn scales(&self) -> [f64; 2] {
+        self.lanes.scales()
+    }
+
+    #[inline(always)]
+    fn begin(&mut self, kept: Kept) {
         if kept.stages && !P::POSITIONS.extrapolation.is_empty() {
             extrapolate::<P, V>(&P::POSITIONS, &mut self.lanes.stages.force);
         } else {
@@ -277,23 +290,25 @@ where
         }
         self.start();
         self.velocities();
-        self.positions().is_finite()
+        self.positions();
     }
 
-    fn non_finite(&self) -> Option<(Quantity, usize)> {
+    #[inline(always)]
+    fn non_finite(&mut self) -> Option<(Quantity, usize)> {
         self.lanes.non_finite()
     }
 
-    fn non_finite_force(&self) -> Option<usize> {
+    #[inline(always)]
+    fn non_finite_force(&mut self) -> Option<usize> {
         self.lanes.non_finite_force()
     }
 
     #[inline(always)]
-    fn sweep(&mut self) -> Change {
+    fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         self.lanes.forces();
         self.velocities();
         let q = self.positions();
         // Both halves are this one.
-        Change { q, p: q }
+        LaneMovement { q, p: q }
     }
 }

@@ -4,8 +4,8 @@ use std::fmt::Debug;
 
 use symplectic::nalgebra::{DVector, SVector, Vector2};
 use symplectic::{
-    Error, F64x4, F64x8, General, Hamiltonian, HamiltonianInLanes, Integrator, Lanes, Method,
-    Quantity, Scalar, SeparableHamiltonian, State, Vector, tableau,
+    Error, F64x2, F64x4, F64x8, General, Hamiltonian, HamiltonianInLanes, Integrator, Lanes,
+    Method, Quantity, Scalar, SeparableHamiltonian, State, Vector, tableau,
 };
 
 tableau! { Gauss1 { basis: polynomial(1), nodes: gauss(1) } }
@@ -156,6 +156,7 @@ fn functions_are_taken_lane_by_lane() {
             (L::WIDTH - 1) as f64
         );
     }
+    check::<F64x2>();
     check::<F64x4>();
     check::<F64x8>();
 }

@@ -2,7 +2,7 @@
 
 use core::mem;
 
-use super::{Integrator, PlanOf};
+use super::{Course, Integrator, MemoryOf, PlanOf};
 use crate::stage::is_finite;
 use crate::time::Clock;
 use crate::{
@@ -15,6 +15,9 @@ use crate::{
 fn block(dimension: usize) -> u64 {
     (1 << 16) / (dimension as u64).clamp(16, 1 << 10)
 }
+
+/// Bytes that may be moved for a block of steps.
+const LIGHT: usize = 1 << 14;
 
 impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     Integrator<M, S, V, R, N>
@@ -31,10 +34,15 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         let mut left = count;
         while left > 0 {
             // The last step is taken by itself: the state before it stays at hand.
-            let block = (left - 1).min(block(self.state.q.dimension()));
-            let ready = self.kept.evaluation && block > 0;
+            let block = (left - 1).min(block(self.course.state.q.dimension()));
+            let ready = self.course.kept.evaluation && block > 0;
             if ready && self.advance_in_place(block, size, clock) {
                 left -= block;
+                continue;
+            }
+            let coupled = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE.is_none();
+            if ready && coupled && self.is_light() {
+                left -= self.advance_apart(block, size, clock)?;
                 continue;
             }
             // One step to have an evaluation to go on from, or those of the block one by one.
@@ -55,21 +63,21 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             return false;
         };
         let (first, last) = (clock.next(), clock.later(steps));
-        if first == self.state.time || clock.later(steps - 1) == last && steps > 1 {
+        if first == self.course.state.time || clock.later(steps - 1) == last && steps > 1 {
             return false;
         }
         // The places are moved out of the memory of the integrator, so that short vectors are in registers from step to
         // step. The state stays as it is, and nothing of what is left behind is used if the system panics.
-        let before = mem::take(&mut self.kept);
-        let mut q = mem::replace(&mut self.next.0, V::blank());
-        let mut p = mem::replace(&mut self.next.1, V::blank());
-        let mut low = mem::replace(&mut self.next_low, (V::blank(), V::blank()));
-        let mut memory = mem::replace(&mut self.memory, StageStorage::like(&V::blank()));
-        copy(&mut q, &self.state.q);
-        copy(&mut p, &self.state.p);
+        let before = mem::take(&mut self.course.kept);
+        let mut q = mem::replace(&mut self.course.next.0, V::blank());
+        let mut p = mem::replace(&mut self.course.next.1, V::blank());
+        let mut low = mem::replace(&mut self.course.next_low, (V::blank(), V::blank()));
+        let mut memory = mem::replace(&mut self.course.memory, StageStorage::like(&V::blank()));
+        copy(&mut q, &self.course.state.q);
+        copy(&mut p, &self.course.state.p);
         if R::COMPENSATED {
-            copy(&mut low.0, &self.low.0);
-            copy(&mut low.1, &self.low.1);
+            copy(&mut low.0, &self.course.low.0);
+            copy(&mut low.1, &self.course.low.1);
         }
         for number in 0..steps {
             // Nothing of this remains where the system does not look at the time.
@@ -86,25 +94,67 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
                 },
             );
         }
-        let dimension = self.state.q.dimension();
+        let dimension = self.course.state.q.dimension();
         let sound = memory.mismatch(dimension).is_none() && is_finite(&q) && is_finite(&p);
         if !sound {
-            (self.next, self.next_low) = ((q, p), low);
-            self.memory = StageStorage::like(&self.state.q);
+            (self.course.next, self.course.next_low) = ((q, p), low);
+            self.course.memory = StageStorage::like(&self.course.state.q);
             return false;
         }
-        self.next.0 = mem::replace(&mut self.state.q, q);
-        self.next.1 = mem::replace(&mut self.state.p, p);
-        self.next_low = mem::replace(&mut self.low, low);
-        self.memory = memory;
-        self.kept = Kept {
+        self.course.next.0 = mem::replace(&mut self.course.state.q, q);
+        self.course.next.1 = mem::replace(&mut self.course.state.p, p);
+        self.course.next_low = mem::replace(&mut self.course.low, low);
+        self.course.memory = memory;
+        self.course.kept = Kept {
             stages: false,
             ..before
         };
         clock.skip(steps);
-        self.state.time = last;
-        self.last_size = size;
-        self.statistics.count_explicit(steps, evaluations);
+        self.course.state.time = last;
+        self.course.last_size = size;
+        self.course.statistics.count_explicit(steps, evaluations);
         true
+    }
+
+    /// Whether what steps change is little and all in one place: copies of it do not show beside a few steps.
+    fn is_light(&self) -> bool {
+        let components = self.course.state.q.dimension() * size_of::<V::Scalar>();
+        components == size_of::<V>() && size_of::<Course<V, MemoryOf<M, S, V, N>>>() <= LIGHT
+    }
+
+    /// Takes up to so many steps; returns how many were taken.
+    ///
+    /// What they change is moved out of the memory of the integrator, so that it is in registers from step to step. If the
+    /// system panics, the state is that before.
+    #[inline]
+    fn advance_apart(&mut self, steps: u64, size: f64, clock: &mut Clock) -> Result<u64, Error> {
+        let before = self.course.anew();
+        let mut course = mem::replace(&mut self.course, before);
+        let mut failed = None;
+        let mut taken = 0;
+        while taken < steps && failed.is_none() {
+            let time = clock.next();
+            if time == course.state.time {
+                break;
+            }
+            let attempt =
+                course.attempt::<PlanOf<M, S, V>, R, S, N>(&self.system, size, self.max_iterations);
+            match attempt {
+                Ok(()) => {
+                    course.accept::<R>(size, time);
+                    clock.tick();
+                    taken += 1;
+                }
+                Err(failure) => failed = Some((failure, time)),
+            }
+        }
+        self.course = course;
+        if let Some((failure, time)) = failed {
+            let error = self.fail(size, failure);
+            self.take_again(size, time, error)?;
+            clock.tick();
+            taken += 1;
+        }
+        Ok(taken)
     }
 }

@@ -19,12 +19,12 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         error: Error,
         see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
     ) -> Result<ControlFlow<B>, Error> {
-        let (state, low) = (self.state.clone(), self.low.clone());
+        let (state, low) = (self.course.state.clone(), self.course.low.clone());
         let parts = self.take_again(size, time, error)?;
-        let statistics = self.statistics;
-        (self.state, self.low, self.kept) = (state, low, Kept::default());
+        let statistics = self.course.statistics;
+        (self.course.state, self.course.low, self.course.kept) = (state, low, Kept::default());
         let seen = self.take_in_parts(size, time, parts, see);
-        self.statistics = statistics;
+        self.course.statistics = statistics;
         seen
     }
 
@@ -38,17 +38,17 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         if !of_the_size || self.retry == Retry::Never {
             return Err(error);
         }
-        let (state, low) = (self.state.clone(), self.low.clone());
-        let statistics = self.statistics;
+        let (state, low) = (self.course.state.clone(), self.course.low.clone());
+        let statistics = self.course.statistics;
         for (failed, parts) in (1..).zip(self.retry.parts()) {
             let mut unseen = |_: &Self| Ok(ControlFlow::<Infallible>::Continue(()));
             if self.take_in_parts(size, time, parts, &mut unseen).is_ok() {
-                self.statistics.rejected += failed;
+                self.course.statistics.rejected += failed;
                 return Ok(parts);
             }
-            self.state = state.clone();
-            self.low = low.clone();
-            self.statistics = statistics;
+            self.course.state = state.clone();
+            self.course.low = low.clone();
+            self.course.statistics = statistics;
         }
         Err(error)
     }
@@ -63,7 +63,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     ) -> Result<ControlFlow<B>, Error> {
         let mut seen = ControlFlow::Continue(());
         let part = size / f64::from(parts);
-        let mut clock = Clock::new(self.state.time, part);
+        let mut clock = Clock::new(self.course.state.time, part);
         for number in 1..=parts {
             let time = if number == parts { end } else { clock.next() };
             self.prepare(part, time)?;

@@ -48,6 +48,8 @@ where
     S: Hamiltonian<V, Class = P::Class>,
     L: LinearSolver<V, S>,
 {
+    type Movement = Change;
+
     const HASTY: bool = !R::COMPENSATED;
 
     fn evaluations(&self) -> EvaluationCounts {
@@ -60,7 +62,7 @@ where
         }
     }
 
-    fn begin(&mut self, kept: Kept) -> bool {
+    fn begin(&mut self, kept: Kept) {
         let memory = &mut *self.memory;
         (self.last, self.sweeps, self.since) = (f64::NAN, 0, 0);
         memory.failure = None;
@@ -85,20 +87,23 @@ where
         if self.memory.stale || self.memory.factored != Some(self.step.size) {
             self.factor();
         }
-        // There are none.
+    }
+
+    /// They are corrected at once: neither is a function of the other.
+    fn both<C: Class>() -> bool {
         true
     }
 
-    /// Both halves are corrected at once: neither is a function of the other.
-    fn progress<C: Class>(change: &Change) -> f64 {
-        change.residual()
+    /// Every change is looked at: a sweep costs far more than that, and may be noise soon.
+    fn scales(&self) -> [f64; 2] {
+        [f64::INFINITY; 2]
     }
 
-    fn non_finite(&self) -> Option<(Quantity, usize)> {
+    fn non_finite(&mut self) -> Option<(Quantity, usize)> {
         self.memory.non_finite()
     }
 
-    fn non_finite_force(&self) -> Option<usize> {
+    fn non_finite_force(&mut self) -> Option<usize> {
         first_non_finite_of(&self.memory.force)
     }
 

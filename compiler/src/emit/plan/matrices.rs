@@ -21,10 +21,10 @@ impl Lanes {
     /// For the larger number of evaluations of a kind.
     fn new(graph: &StepGraph<'_>) -> Self {
         let most = graph.forces.len().max(graph.velocities.len());
-        let (name, width) = if most <= 4 {
-            ("F64x4", 4)
-        } else {
-            ("F64x8", 8)
+        let (name, width) = match most {
+            0..=2 => ("F64x2", 2),
+            3..=4 => ("F64x4", 4),
+            _ => ("F64x8", 8),
         };
         let groups = most.div_ceil(width);
         Lanes {
