@@ -57,18 +57,22 @@ where
 /// # symplectic::SeparableHamiltonian::velocity(&kepler, 0.0, &Vector2::new(1.0, 2.0), &mut velocity);
 /// # assert_eq!(velocity, Vector2::new(1.0, 2.0));
 /// ```
-pub const fn acceleration<V, G>(
-    acceleration: G,
-) -> SeparableClosures<V, impl Fn(V::Scalar, &V, &mut V) + Copy, G>
+pub const fn acceleration<V, G>(acceleration: G) -> SeparableClosures<V, Momentum, G>
 where
     V: Vector,
     G: Fn(V::Scalar, &V, &mut V),
 {
-    separable(
-        |_time, p: &V, velocity: &mut V| copy(velocity, p),
-        acceleration,
-    )
+    SeparableClosures {
+        velocity: Momentum,
+        force: acceleration,
+        energy: NoEnergy,
+        vector: PhantomData,
+    }
 }
+
+/// In place of the velocity of a system in which it is the momentum.
+#[derive(Clone, Copy, Debug)]
+pub struct Momentum;
 
 /// A system with any Hamiltonian of two closures, `|time, q, p, velocity| …` and `|time, q, p, force| …`, that write
 /// their result into the last argument.
@@ -166,13 +170,15 @@ impl<V: Vector, F, G> HamiltonianClosures<V, F, G> {
 impl<V, F, G, E> SeparableHamiltonian<V> for SeparableClosures<V, F, G, E>
 where
     V: Vector,
-    F: Fn(V::Scalar, &V, &mut V),
+    F: Velocity<V>,
     G: Fn(V::Scalar, &V, &mut V),
     E: Energy<V>,
 {
+    const UNIT_MASSES: bool = F::UNIT_MASSES;
+
     #[inline(always)]
     fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V) {
-        (self.velocity)(time, p, velocity);
+        self.velocity.write(time, p, velocity);
     }
 
     #[inline(always)]
@@ -234,8 +240,33 @@ impl<V, F, G, E> fmt::Debug for HamiltonianClosures<V, F, G, E> {
     }
 }
 
-mod energy {
-    use super::{NoEnergy, Vector};
+mod parts {
+    use super::{Momentum, NoEnergy, Vector, copy};
+
+    /// A closure for the velocity, or the momentum.
+    pub trait Velocity<V: Vector> {
+        const UNIT_MASSES: bool;
+
+        fn write(&self, time: V::Scalar, p: &V, velocity: &mut V);
+    }
+
+    impl<V: Vector> Velocity<V> for Momentum {
+        const UNIT_MASSES: bool = true;
+
+        #[inline(always)]
+        fn write(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
+            copy(velocity, p);
+        }
+    }
+
+    impl<V: Vector, F: Fn(V::Scalar, &V, &mut V)> Velocity<V> for F {
+        const UNIT_MASSES: bool = false;
+
+        #[inline(always)]
+        fn write(&self, time: V::Scalar, p: &V, velocity: &mut V) {
+            self(time, p, velocity);
+        }
+    }
 
     /// A closure for the energy, or none.
     pub trait Energy<V: Vector> {
@@ -254,4 +285,4 @@ mod energy {
         }
     }
 }
-use energy::Energy;
+use parts::{Energy, Velocity};

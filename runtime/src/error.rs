@@ -142,6 +142,20 @@ pub enum Error {
         linear: f64,
     },
 
+    /// A system says that the velocity is the momentum, and it is not.
+    #[error(
+        "component {component} of the velocity is {velocity} in size where the momentum is {momentum}: leave out \
+         `UNIT_MASSES = true`, or let `velocity` copy the momentum"
+    )]
+    NotUnitMasses {
+        /// The component, from 0.
+        component: usize,
+        /// The size of the velocity there.
+        velocity: f64,
+        /// The size of the momentum there.
+        momentum: f64,
+    },
+
     /// The system gives no energy, which the generating function is made of.
     #[error("the system gives no energy; implement `energy`, or add a closure by `with_energy`")]
     NoEnergy,

@@ -54,6 +54,9 @@ pub trait Hamiltonian<V: Vector> {
     /// What the derivatives depend on: [`General`](crate::General) or [`Separable`].
     type Class: Class;
 
+    /// Whether the velocity is the momentum, as with unit masses: see [`SeparableHamiltonian::UNIT_MASSES`].
+    const UNIT_MASSES: bool = false;
+
     /// Writes ∂H/∂p at `(time, q, p)` into `velocity`.
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V);
 
@@ -93,6 +96,31 @@ pub trait Hamiltonian<V: Vector> {
 /// }
 /// ```
 pub trait SeparableHamiltonian<V: Vector> {
+    /// Whether the velocity is the momentum to the last bit, `H = |p|²/2 + U(t, q)`. A step then takes the momentum for it and
+    /// does not ask for a velocity: long vectors are not copied. Where it is said and not so,
+    /// [`Error::NotUnitMasses`](crate::Error::NotUnitMasses) is what an integrator is made of.
+    ///
+    /// ```
+    /// use symplectic::nalgebra::DVector;
+    /// use symplectic::SeparableHamiltonian;
+    ///
+    /// /// Oscillators of frequency 1.
+    /// struct Oscillators;
+    ///
+    /// impl SeparableHamiltonian<DVector<f64>> for Oscillators {
+    ///     const UNIT_MASSES: bool = true;
+    ///
+    ///     fn velocity(&self, _time: f64, p: &DVector<f64>, velocity: &mut DVector<f64>) {
+    ///         velocity.copy_from(p);
+    ///     }
+    ///
+    ///     fn force(&self, _time: f64, q: &DVector<f64>, force: &mut DVector<f64>) {
+    ///         force.zip_apply(q, |force, q| *force = -q);
+    ///     }
+    /// }
+    /// ```
+    const UNIT_MASSES: bool = false;
+
     /// Writes ∂H/∂p at `(time, p)` into `velocity`.
     fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V);
 
@@ -107,6 +135,8 @@ pub trait SeparableHamiltonian<V: Vector> {
 
 impl<V: Vector, S: SeparableHamiltonian<V>> Hamiltonian<V> for S {
     type Class = Separable;
+
+    const UNIT_MASSES: bool = S::UNIT_MASSES;
 
     #[inline(always)]
     fn velocity(&self, time: V::Scalar, _q: &V, p: &V, velocity: &mut V) {

@@ -85,7 +85,8 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`].
+    /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`],
+    /// [`Error::NotUnitMasses`].
     pub fn new(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error> {
         Self::with_summation(method, system, state, step_size)
     }
@@ -202,6 +203,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     ) -> Result<Self, Error> {
         check_step_size(step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
+        check_masses(&system, &state)?;
         Ok(Self {
             system,
             clock: Clock::new(state.time, step_size),
@@ -592,6 +594,27 @@ pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {
     } else {
         Err(Error::StepSize { value })
     }
+}
+
+/// Checks that the velocity is the momentum where the system says so.
+fn check_masses<V: Vector, S: Hamiltonian<V>>(system: &S, state: &State<V>) -> Result<(), Error> {
+    if !S::UNIT_MASSES {
+        return Ok(());
+    }
+    let State { time, q, p } = state;
+    let mut velocity = p.zeros_like();
+    system.velocity(V::Scalar::from_f64(*time), q, p, &mut velocity);
+    let pairs = velocity.as_slice().iter().zip(p.as_slice());
+    for (component, (&velocity, &momentum)) in pairs.enumerate() {
+        if velocity != momentum {
+            return Err(Error::NotUnitMasses {
+                component,
+                velocity: velocity.magnitude(),
+                momentum: momentum.magnitude(),
+            });
+        }
+    }
+    Ok(())
 }
 
 pub(crate) fn check_state<V: Vector>(

@@ -9,7 +9,7 @@ use core::array;
 use num_traits::Zero;
 
 use crate::summation::{fast_two_sum, two_sum};
-use crate::{Coefficient, PartChange, Scalar, Summation, Vector};
+use crate::{Coefficient, Hamiltonian, PartChange, Scalar, Summation, Vector};
 
 /// Coefficients times the step size: the factors of evaluations.
 #[inline(always)]
@@ -159,6 +159,26 @@ pub fn advance<R: Summation, V: Vector>(
     }
 }
 
+/// The velocity of a drift: the momentum itself where [masses are one](Hamiltonian::UNIT_MASSES), else what is in `place`,
+/// which is evaluated unless it is `known`.
+#[inline(always)]
+pub fn velocity<'a, V: Vector, S: Hamiltonian<V>>(
+    system: &S,
+    time: V::Scalar,
+    q: &V,
+    p: &'a V,
+    place: &'a mut V,
+    known: bool,
+) -> &'a V {
+    if S::UNIT_MASSES {
+        return p;
+    }
+    if !known {
+        system.velocity(time, q, p, place);
+    }
+    place
+}
+
 /// `vectors_i = Σ_j matrix_ij vectors_j`, for those vectors the `indices` of which are given: starting values from the
 /// step before.
 #[inline(always)]
@@ -296,16 +316,19 @@ pub(crate) fn add<R: Summation, T: Scalar>(
         return (base + sum.0, low);
     }
     let (high, error) = two_sum(base, sum.0);
-    fast_two_sum(high, (sum.1 + low) + error)
+    let rest = sum.1.map_or(low, |rest| rest + low);
+    fast_two_sum(high, rest + error)
 }
 
-/// The sum of the first eight terms, at least one, and what it leaves out: pairs, and pairs of them, for additions that need
-/// not wait for one another.
+/// A sum, and what it leaves out, if anything.
+type Sum<T> = (T, Option<T>);
+
+/// The sum of the first eight terms, at least one: pairs, and pairs of them, for additions that need not wait for one another.
 #[inline(always)]
-fn eight<R: Summation, T: Scalar>(count: usize, term: &impl Fn(usize) -> T) -> (T, T) {
-    let mut sums: [(T, T); 8] = array::from_fn(|j| {
+fn eight<R: Summation, T: Scalar>(count: usize, term: &impl Fn(usize) -> T) -> Sum<T> {
+    let mut sums: [Sum<T>; 8] = array::from_fn(|j| {
         let term = if j < count { term(j) } else { T::zero() };
-        (term, T::zero())
+        (term, None)
     });
     for width in [4, 2, 1] {
         for j in 0..width {
@@ -317,13 +340,16 @@ fn eight<R: Summation, T: Scalar>(count: usize, term: &impl Fn(usize) -> T) -> (
     sums[0]
 }
 
-/// The sum of two sums, and what it leaves out.
+/// The sum of two sums.
 #[inline(always)]
-fn pair<R: Summation, T: Scalar>(a: (T, T), b: (T, T)) -> (T, T) {
-    if R::COMPENSATED {
-        let (sum, error) = two_sum(a.0, b.0);
-        (sum, error + (a.1 + b.1))
-    } else {
-        (a.0 + b.0, a.1)
+fn pair<R: Summation, T: Scalar>(a: Sum<T>, b: Sum<T>) -> Sum<T> {
+    if !R::COMPENSATED {
+        return (a.0 + b.0, None);
     }
+    let (sum, error) = two_sum(a.0, b.0);
+    let rests = match (a.1, b.1) {
+        (Some(a), Some(b)) => Some(a + b),
+        (rest, None) | (None, rest) => rest,
+    };
+    (sum, Some(rests.map_or(error, |rests| error + rests)))
 }

@@ -126,7 +126,8 @@ mod work;
 pub use change::{Change, PartChange};
 pub use class::{Class, General, Separable};
 pub use closures::{
-    HamiltonianClosures, NoEnergy, SeparableClosures, acceleration, hamiltonian, separable,
+    HamiltonianClosures, Momentum, NoEnergy, SeparableClosures, acceleration, hamiltonian,
+    separable,
 };
 pub use coefficient::{Coefficient, Coefficients};
 pub use composition::{Composition, CompositionMemory, Substep, Substeps};
@@ -144,8 +145,8 @@ pub use integrator::Integrator;
 pub use interpolation::{Inside, Interpolation};
 pub use invariant::Invariant;
 pub use kernel::{
-    advance, combine, copy, copy_to, factors, relax, scale, total, transform, weighted_total,
-    weights,
+    advance, combine, copy, copy_to, factors, relax, scale, total, transform, velocity,
+    weighted_total, weights,
 };
 pub use lanes::{F64x2, F64x4, F64x8, HamiltonianInLanes, Lanes};
 pub use long_splitting::{SeparableOnly, rows, staircase};

@@ -126,6 +126,7 @@ where
         if R::COMPENSATED {
             system.velocity(step.time, step.q, step.p_low, q);
         }
+        let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force);
         for k in 0..step.q.dimension().min(step.p.dimension()) {
             let (base, low) = (step.q.as_slice()[k], step.q_low.as_slice()[k]);
             let low = match R::COMPENSATED {
@@ -137,7 +138,7 @@ where
                 if stage == P::POSITIONS.count {
                     return h * velocity;
                 }
-                h * (tableau::<P>().rest[stage] * entry::<P, V>(&stages.velocity, stage, k))
+                h * (tableau::<P>().rest[stage] * entry::<P, V>(slopes, stage, k))
             };
             let (high, rest) = add::<R, f64>(base, low, P::POSITIONS.count + 1, term);
             q.as_mut_slice()[k] = high;
@@ -156,12 +157,12 @@ where
         let Some(polynomial) = P::MOMENTA.polynomial else {
             return;
         };
+        let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force);
         // The velocities at the stages: M⁻¹(p0 + Σ_j μ̃_ij w_j).
         for stage in 0..P::MOMENTA.count {
             let factor = at.size * P::MOMENTA.weights[stage] * at.factor(polynomial, stage);
             for (k, out) in q.as_mut_slice().iter_mut().enumerate() {
-                let part =
-                    |j: usize| P::MOMENTA.columns[j][stage] * entry::<P, V>(&stages.velocity, j, k);
+                let part = |j: usize| P::MOMENTA.columns[j][stage] * entry::<P, V>(slopes, j, k);
                 let sum: f64 = (0..P::POSITIONS.count).map(part).sum();
                 *out += factor * (entry::<P, V>(&stages.p, 0, k) + sum);
             }
@@ -173,6 +174,12 @@ where
 /// of the velocities are those of the increments of the momentum.
 struct Positions<'a, P: StageTableau, R, V: Vector, S> {
     lanes: ByLanes<'a, P, R, V, S>,
+}
+
+/// The velocities of the increments of the momentum, which are these themselves where masses are one.
+#[inline(always)]
+const fn slopes<'a, V: Vector, S: Hamiltonian<V>, G>(velocity: &'a G, force: &'a G) -> &'a G {
+    if S::UNIT_MASSES { force } else { velocity }
 }
 
 /// Whether the momenta of the stages of a plan are eliminated.
@@ -221,12 +228,16 @@ where
             }
         };
         let base = (step.q, step.q_low);
-        values::<P, V>(&sums, &mut stages.q, base, &stages.velocity, value)
+        let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force);
+        values::<P, V>(&sums, &mut stages.q, base, slopes, value)
     }
 
-    /// The velocities of the increments of the momentum.
+    /// The velocities of the increments of the momentum, unless they are these.
     #[inline(always)]
     fn velocities(&mut self) {
+        if <S as Hamiltonian<V>>::UNIT_MASSES {
+            return;
+        }
         let LaneStages {
             q, velocity, force, ..
         } = &mut *self.lanes.stages;

@@ -3,7 +3,6 @@
 use core::mem;
 
 use super::{Course, Integrator, MemoryOf, PlanOf};
-use crate::stage::is_finite;
 use crate::time::Clock;
 use crate::{
     Error, Hamiltonian, Kept, Method, Outcome, Plan, Solver, Span, StageStorage, Summation, Vector,
@@ -13,10 +12,13 @@ use crate::{
 /// Steps of vectors of this dimension that are taken in place before what comes out is looked at: what that costs does not
 /// show beside them, and where something is not finite, few of them are in vain.
 fn block(dimension: usize) -> u64 {
-    (1 << 16) / (dimension as u64).clamp(16, 1 << 10)
+    (1 << 18) / (dimension as u64).clamp(16, 1 << 10)
 }
 
-/// Bytes that may be moved for a block of steps.
+/// Bytes of a vector that may be in registers.
+const SHORT: usize = 1 << 6;
+
+/// Bytes that may be moved for a block of coupled steps.
 const LIGHT: usize = 1 << 14;
 
 impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
@@ -66,45 +68,48 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         if first == self.course.state.time || clock.later(steps - 1) == last && steps > 1 {
             return false;
         }
-        // The places are moved out of the memory of the integrator, so that short vectors are in registers from step to
-        // step. The state stays as it is, and nothing of what is left behind is used if the system panics.
+        // The state stays as it is, and nothing of what is left behind is used if the system panics.
         let before = mem::take(&mut self.course.kept);
-        let mut q = mem::replace(&mut self.course.next.0, V::blank());
-        let mut p = mem::replace(&mut self.course.next.1, V::blank());
-        let mut low = mem::replace(&mut self.course.next_low, (V::blank(), V::blank()));
-        let mut memory = mem::replace(&mut self.course.memory, StageStorage::like(&V::blank()));
-        copy(&mut q, &self.course.state.q);
-        copy(&mut p, &self.course.state.p);
+        let Course {
+            state,
+            low,
+            next,
+            next_low,
+            memory,
+            ..
+        } = &mut self.course;
+        copy(&mut next.0, &state.q);
+        copy(&mut next.1, &state.p);
         if R::COMPENSATED {
-            copy(&mut low.0, &self.course.low.0);
-            copy(&mut low.1, &self.course.low.1);
+            copy(&mut next_low.0, &low.0);
+            copy(&mut next_low.1, &low.1);
         }
-        for number in 0..steps {
-            // Nothing of this remains where the system does not look at the time.
-            let time = clock.later(number);
-            <PlanOf<M, S, V> as Plan>::take_in_place::<R, V, S, N>(
-                Span { time, size },
+        if size_of::<V>() <= SHORT {
+            // The places are moved out of the memory of the integrator, so that they are in registers from step to step.
+            let blank = || (V::blank(), V::blank());
+            let mut places = mem::replace(next, blank());
+            let mut places_low = mem::replace(next_low, blank());
+            let mut evaluations = mem::replace(memory, StageStorage::like(&V::blank()));
+            let (next, low) = (&mut places, &mut places_low);
+            Self::run(
                 &self.system,
-                &mut memory,
-                Outcome {
-                    q: &mut q,
-                    q_low: &mut low.0,
-                    p: &mut p,
-                    p_low: &mut low.1,
-                },
+                clock,
+                steps,
+                size,
+                next,
+                low,
+                &mut evaluations,
             );
+            (self.course.next, self.course.next_low) = (places, places_low);
+            self.course.memory = evaluations;
+        } else {
+            Self::run(&self.system, clock, steps, size, next, next_low, memory);
         }
-        let dimension = self.course.state.q.dimension();
-        let sound = memory.mismatch(dimension).is_none() && is_finite(&q) && is_finite(&p);
-        if !sound {
-            (self.course.next, self.course.next_low) = ((q, p), low);
+        if !self.course.is_sound() {
             self.course.memory = StageStorage::like(&self.course.state.q);
             return false;
         }
-        self.course.next.0 = mem::replace(&mut self.course.state.q, q);
-        self.course.next.1 = mem::replace(&mut self.course.state.p, p);
-        self.course.next_low = mem::replace(&mut self.course.low, low);
-        self.course.memory = memory;
+        self.course.swap::<R>();
         self.course.kept = Kept {
             stages: false,
             ..before
@@ -114,6 +119,31 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         self.course.last_size = size;
         self.course.statistics.count_explicit(steps, evaluations);
         true
+    }
+
+    /// Takes steps in the places of a state.
+    #[inline(always)]
+    fn run(
+        system: &S,
+        clock: &Clock,
+        steps: u64,
+        size: f64,
+        (q, p): &mut (V, V),
+        (q_low, p_low): &mut (V, V),
+        memory: &mut MemoryOf<M, S, V, N>,
+    ) {
+        for number in 0..steps {
+            // Nothing of this remains where the system does not look at the time.
+            let time = clock.later(number);
+            let state = Outcome {
+                q: &mut *q,
+                q_low: &mut *q_low,
+                p: &mut *p,
+                p_low: &mut *p_low,
+            };
+            let span = Span { time, size };
+            <PlanOf<M, S, V> as Plan>::take_in_place::<R, V, S, N>(span, system, memory, state);
+        }
     }
 
     /// Whether what steps change is little and all in one place: copies of it do not show beside a few steps.

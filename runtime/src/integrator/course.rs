@@ -99,20 +99,31 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
         };
         let (step, outcome, memory) = self.parts(size);
         self.work = P::take::<R, V, S, N>(&step, system, memory, kept, max_iterations, outcome)?;
-        let (q1, p1) = &self.next;
-        let dimension = self.state.q.dimension();
-        let sound = self.memory.mismatch(dimension).is_none() && is_finite(q1) && is_finite(p1);
-        if sound { Ok(()) } else { Err(None) }
+        if self.is_sound() { Ok(()) } else { Err(None) }
     }
 
-    /// Makes the step that [`attempt`](Self::attempt) has computed, to the time `time`, the present state.
+    /// Whether `next` is finite, and was made of evaluations of the right dimension.
     #[inline(always)]
-    pub(super) fn accept<R: Summation>(&mut self, size: f64, time: f64) {
+    pub(super) fn is_sound(&self) -> bool {
+        let (q1, p1) = &self.next;
+        let dimension = self.state.q.dimension();
+        self.memory.mismatch(dimension).is_none() && is_finite(q1) && is_finite(p1)
+    }
+
+    /// Exchanges the state and `next`.
+    #[inline(always)]
+    pub(super) fn swap<R: Summation>(&mut self) {
         mem::swap(&mut self.state.q, &mut self.next.0);
         mem::swap(&mut self.state.p, &mut self.next.1);
         if R::COMPENSATED {
             mem::swap(&mut self.low, &mut self.next_low);
         }
+    }
+
+    /// Makes the step that [`attempt`](Self::attempt) has computed, to the time `time`, the present state.
+    #[inline(always)]
+    pub(super) fn accept<R: Summation>(&mut self, size: f64, time: f64) {
+        self.swap::<R>();
         self.last_time = mem::replace(&mut self.state.time, time);
         self.statistics.count(self.work);
         self.last_size = size;

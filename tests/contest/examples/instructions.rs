@@ -84,6 +84,8 @@ fn instructions(case: &str, who: &str, steps: u64) -> Result<f64, Box<dyn Error>
 struct Oscillators;
 
 impl<V: Vector> SeparableHamiltonian<V> for Oscillators {
+    const UNIT_MASSES: bool = true;
+
     #[inline(always)]
     fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
         symplectic::copy(velocity, p);

@@ -24,6 +24,8 @@ pub const PARTICLES: usize = 1024;
 pub struct FputChain;
 
 impl<V: Vector> SeparableHamiltonian<V> for FputChain {
+    const UNIT_MASSES: bool = true;
+
     #[inline]
     fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
         symplectic::copy(velocity, p);

@@ -38,6 +38,8 @@ pub struct FputSprings {
 }
 
 impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for FputSprings {
+    const UNIT_MASSES: bool = true;
+
     #[inline]
     fn velocity(
         &self,

@@ -21,6 +21,8 @@ pub struct HarmonicOscillator {
 }
 
 impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for HarmonicOscillator {
+    const UNIT_MASSES: bool = true;
+
     #[inline]
     fn velocity(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
         *velocity = *p;

@@ -19,6 +19,8 @@ pub const NEEDS: Needs = Needs::NOTHING;
 pub struct HenonHeiles;
 
 impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for HenonHeiles {
+    const UNIT_MASSES: bool = true;
+
     #[inline]
     fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;

@@ -20,6 +20,8 @@ pub const NEEDS: Needs = Needs::NOTHING;
 pub struct Kepler;
 
 impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
+    const UNIT_MASSES: bool = true;
+
     #[inline]
     fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;

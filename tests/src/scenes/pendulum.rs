@@ -18,6 +18,8 @@ pub const NEEDS: Needs = Needs::NOTHING;
 pub struct Pendulum;
 
 impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for Pendulum {
+    const UNIT_MASSES: bool = true;
+
     #[inline]
     fn velocity(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
         *velocity = *p;

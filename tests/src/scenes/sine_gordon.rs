@@ -33,6 +33,8 @@ const DECAY: f64 = 0.892_574_205_256_839;
 pub struct SineGordon;
 
 impl<V: Vector> SeparableHamiltonian<V> for SineGordon {
+    const UNIT_MASSES: bool = true;
+
     #[inline]
     fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
         symplectic::copy(velocity, p);

@@ -23,6 +23,8 @@ pub struct SpringPendulum {
 }
 
 impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for SpringPendulum {
+    const UNIT_MASSES: bool = true;
+
     #[inline]
     fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::{Plan, class_name, evaluation_name, literal};
+use super::{Plan, class_name, literal};
 use crate::schedule::{Node, Phases, StepGraph};
 
 /// The evaluations of a splitting in their order.
@@ -70,17 +70,21 @@ impl<'g, 'a> Chain<'g, 'a> {
         let evaluation = self.graph.evaluation(node);
         let time = literal::coefficient(&evaluation.time);
         let weight = literal::coefficient(&evaluation.weight);
-        let function = evaluation_name(node);
         let stage = literal::count(super::index(node) + 1);
-        let (kind, argument, moved) = if is_force {
-            ("Force", quote!(q), quote!(p, p_low))
-        } else {
-            ("Velocity", quote!(p), quote!(q, q_low))
+        let known = match carried {
+            true => quote!(kept.evaluation),
+            false => quote!(false),
         };
-        let kind = literal::identifier(kind);
+        if !is_force {
+            return quote! {
+                let slope = ::symplectic::velocity(system, span.at(#time), &*q, &*p, velocity, #known);
+                witness.evaluation(::symplectic::Quantity::Velocity, #stage, &*p, slope);
+                ::symplectic::advance::<R, V>(q, q_low, span.size, #weight, slope);
+            };
+        }
         let evaluate = quote! {
-            system.#function(span.at(#time), &*q, &*p, #function);
-            witness.evaluation(::symplectic::Quantity::#kind, #stage, &*#argument, #function);
+            system.force(span.at(#time), &*q, &*p, force);
+            witness.evaluation(::symplectic::Quantity::Force, #stage, &*q, force);
         };
         let evaluate = match carried {
             true => quote!(if !kept.evaluation { #evaluate }),
@@ -88,7 +92,7 @@ impl<'g, 'a> Chain<'g, 'a> {
         };
         quote! {
             #evaluate
-            ::symplectic::advance::<R, V>(#moved, span.size, #weight, #function);
+            ::symplectic::advance::<R, V>(p, p_low, span.size, #weight, force);
         }
     }
 }
