@@ -134,7 +134,7 @@ fn a_composition_of_explicit_methods_is_explicit() {
     assert!(separable.contains("if !kept.evaluation {"), "{separable}");
     assert!(!separable.contains("relax") && !separable.contains("combine"));
     assert_eq!(separable.matches(".force(").count(), 4);
-    assert_eq!(separable.matches(".velocity(").count(), 3);
+    assert_eq!(separable.matches("::velocity(").count(), 3);
     // Each of them is applied once, with the sum of the weights where two steps meet.
     assert_eq!(separable.matches("::advance").count(), 7);
     assert!(factors(&code).iter().all(|&c| c != 0.0));

@@ -85,32 +85,107 @@ fn a_step_that_fails_among_many_is_found() -> Result<(), Error> {
             |_, q, force| force[0] = q[0].sqrt() - 1.0,
         )
     };
-    let start = State::new(0.0, Vector1::new(0.5), Vector1::new(-1.0));
-    let mut at_once = Integrator::new(StoermerVerlet, well(), start.clone(), 0.001)?;
-    let mut one_by_one = Integrator::new(StoermerVerlet, well(), start, 0.001)?;
-    let mut steps = 0;
-    let expected = loop {
-        match one_by_one.step() {
-            Ok(_) => steps += 1,
-            Err(error) => break error,
-        }
-    };
-    assert!(steps > 300);
-    let error = at_once.take_steps(10_000).expect_err("below zero");
-    assert_eq!(error, expected);
-    assert!(
-        matches!(error, Error::NonFinite { what: Quantity::Force, step, .. } if step == steps + 1)
-    );
-    assert_eq!(at_once.state(), one_by_one.state());
-    assert_eq!(at_once.steps(), one_by_one.steps());
+    fn check<M: Method, S: SeparableHamiltonian<Vector1<f64>>>(
+        method: M,
+        well: impl Fn() -> S,
+    ) -> Result<(), Error> {
+        let start = State::new(0.0, Vector1::new(0.5), Vector1::new(-1.0));
+        let mut at_once = Integrator::new(method, well(), start.clone(), 0.001)?;
+        let mut one_by_one = Integrator::new(method, well(), start, 0.001)?;
+        let mut steps = 0;
+        let expected = loop {
+            match one_by_one.step() {
+                Ok(_) => steps += 1,
+                Err(error) => break error,
+            }
+        };
+        assert!(steps > 300);
+        let error = at_once.take_steps(10_000).expect_err("below zero");
+        assert_eq!(error, expected);
+        assert!(
+            matches!(error, Error::NonFinite { what: Quantity::Force, step, .. } if step == steps + 1)
+        );
+        assert_eq!(at_once.state(), one_by_one.state());
+        assert_eq!(at_once.steps(), one_by_one.steps());
+        assert_eq!(at_once.iterations(), one_by_one.iterations());
 
-    // Halved steps do not help below zero, and are tried.
-    at_once.set_retry(Retry::Split { halvings: 2 });
-    assert_eq!(
-        at_once.take_steps(10_000).expect_err("still below"),
-        expected
-    );
+        // Halved steps do not help below zero, and are tried.
+        at_once.set_retry(Retry::Split { halvings: 2 });
+        assert_eq!(
+            at_once.take_steps(10_000).expect_err("still below"),
+            expected
+        );
+        Ok(())
+    }
+    check(StoermerVerlet, well)?;
+    check(Midpoint, well)
+}
+
+/// Steps that are taken in parts are so among many, too.
+#[test]
+fn steps_are_split_among_many() -> Result<(), Error> {
+    let kepler = || {
+        separable(
+            |_, p: &Vector2<f64>, velocity| *velocity = *p,
+            |_, q, force| *force = -q / q.norm().powi(3),
+        )
+    };
+    // From the apocentre; at the pericentre steps of 1/16 do not converge.
+    let momentum = (0.01_f64 / 1.99).sqrt();
+    let start = State::new(0.0, Vector2::new(1.99, 0.0), Vector2::new(0.0, momentum));
+    let integrator = || {
+        let mut integrator = Integrator::new(Midpoint, kepler(), start.clone(), 0.0625)?;
+        integrator.set_retry(Retry::Split { halvings: 8 });
+        Ok(integrator)
+    };
+    let (mut at_once, mut one_by_one) = (integrator()?, integrator()?);
+    at_once.take_steps(300)?;
+    for _ in 0..300 {
+        one_by_one.step()?;
+    }
+    assert!(at_once.statistics().rejected > 0);
+    assert_eq!(at_once.statistics(), one_by_one.statistics());
+    assert_eq!(at_once.state(), one_by_one.state());
     Ok(())
+}
+
+/// The velocity of a system with unit masses is not asked for, and the steps are the same.
+#[test]
+fn unit_masses_are_no_other_system() -> Result<(), Error> {
+    struct Unit<const VELOCITY: i32>;
+
+    impl<const VELOCITY: i32> SeparableHamiltonian<Vector2<f64>> for Unit<VELOCITY> {
+        const UNIT_MASSES: bool = true;
+
+        fn velocity(&self, _time: f64, p: &Vector2<f64>, velocity: &mut Vector2<f64>) {
+            *velocity = *p * f64::from(VELOCITY);
+        }
+
+        fn force(&self, time: f64, q: &Vector2<f64>, force: &mut Vector2<f64>) {
+            SeparableHamiltonian::force(&Driven, time, q, force);
+        }
+    }
+
+    fn check<M: Method>(method: M) -> Result<(), Error> {
+        let start = State::new(0.5, Vector2::new(0.3, -0.2), Vector2::new(0.1, 1.0));
+        let mut known = Integrator::new(method, Unit::<1>, start.clone(), 0.01)?;
+        let mut asked = Integrator::new(method, Driven, start.clone(), 0.01)?;
+        assert_eq!(known.take_steps(1000)?, asked.take_steps(1000)?);
+        assert_eq!(known.statistics(), asked.statistics());
+
+        let wrong = Integrator::new(method, Unit::<2>, start, 0.01).map(|_| ());
+        let expected = Error::NotUnitMasses {
+            component: 0,
+            velocity: 0.2,
+            momentum: 0.1,
+        };
+        assert_eq!(wrong, Err(expected));
+        Ok(())
+    }
+    check(StoermerVerlet)?;
+    check(SymplecticEuler)?;
+    check(TripleJump)?;
+    check(Midpoint)
 }
 
 #[test]
@@ -142,8 +217,31 @@ fn a_result_resized_in_the_middle_is_an_error() -> Result<(), Error> {
 #[test]
 fn steps_too_small_for_the_time_are_refused() -> Result<(), Error> {
     let start = State::new(1e16, Vector1::new(1.0), Vector1::new(0.0));
-    let mut integrator = Integrator::new(StoermerVerlet, Driven, start, 0.5)?;
-    let error = integrator.take_steps(1000).expect_err("no time passes");
-    assert!(matches!(error, Error::TimeResolution { .. }), "{error:?}");
+    let mut explicit = Integrator::new(StoermerVerlet, Driven, start.clone(), 0.5)?;
+    let mut coupled = Integrator::new(Midpoint, Driven, start, 0.5)?;
+    let errors = [
+        explicit.take_steps(1000).map(|_| ()),
+        coupled.take_steps(1000).map(|_| ()),
+    ];
+    for error in errors {
+        assert!(
+            matches!(error, Err(Error::TimeResolution { .. })),
+            "{error:?}"
+        );
+    }
+    // And where they stop to change it on the way.
+    let start = State::new(2_f64.powi(53) - 5.0, Vector1::new(1.0), Vector1::new(0.0));
+    let mut explicit = Integrator::new(StoermerVerlet, Driven, start.clone(), 0.5)?;
+    let mut coupled = Integrator::new(Midpoint, Driven, start, 0.5)?;
+    let errors = [
+        explicit.take_steps(1000).map(|_| ()),
+        coupled.take_steps(1000).map(|_| ()),
+    ];
+    for error in errors {
+        assert!(
+            matches!(error, Err(Error::TimeResolution { .. })),
+            "{error:?}"
+        );
+    }
     Ok(())
 }

@@ -898,21 +898,22 @@ const _: () = {
                 ),
                 force,
             );
-            system
-                .velocity(
-                    span
-                        .at(
-                            ::symplectic::Coefficient::new(
-                                0.6756035959798288,
-                                4.21370887772588e-17,
-                                0.67560357,
-                            ),
+            let slope = ::symplectic::velocity(
+                system,
+                span
+                    .at(
+                        ::symplectic::Coefficient::new(
+                            0.6756035959798288,
+                            4.21370887772588e-17,
+                            0.67560357,
                         ),
-                    &*q,
-                    &*p,
-                    velocity,
-                );
-            witness.evaluation(::symplectic::Quantity::Velocity, 1, &*p, velocity);
+                    ),
+                &*q,
+                &*p,
+                velocity,
+                false,
+            );
+            witness.evaluation(::symplectic::Quantity::Velocity, 1, &*p, slope);
             ::symplectic::advance::<
                 R,
                 V,
@@ -925,7 +926,7 @@ const _: () = {
                     8.42741775545176e-17,
                     1.3512071,
                 ),
-                velocity,
+                slope,
             );
             system
                 .force(
@@ -956,14 +957,15 @@ const _: () = {
                 ),
                 force,
             );
-            system
-                .velocity(
-                    span.at(::symplectic::Coefficient::exact(0.5)),
-                    &*q,
-                    &*p,
-                    velocity,
-                );
-            witness.evaluation(::symplectic::Quantity::Velocity, 2, &*p, velocity);
+            let slope = ::symplectic::velocity(
+                system,
+                span.at(::symplectic::Coefficient::exact(0.5)),
+                &*q,
+                &*p,
+                velocity,
+                false,
+            );
+            witness.evaluation(::symplectic::Quantity::Velocity, 2, &*p, slope);
             ::symplectic::advance::<
                 R,
                 V,
@@ -976,7 +978,7 @@ const _: () = {
                     5.349624981599612e-17,
                     (-1.7024144),
                 ),
-                velocity,
+                slope,
             );
             system
                 .force(
@@ -1007,21 +1009,22 @@ const _: () = {
                 ),
                 force,
             );
-            system
-                .velocity(
-                    span
-                        .at(
-                            ::symplectic::Coefficient::new(
-                                0.32439640402017117,
-                                1.337406245399903e-17,
-                                0.3243964,
-                            ),
+            let slope = ::symplectic::velocity(
+                system,
+                span
+                    .at(
+                        ::symplectic::Coefficient::new(
+                            0.32439640402017117,
+                            1.337406245399903e-17,
+                            0.3243964,
                         ),
-                    &*q,
-                    &*p,
-                    velocity,
-                );
-            witness.evaluation(::symplectic::Quantity::Velocity, 3, &*p, velocity);
+                    ),
+                &*q,
+                &*p,
+                velocity,
+                false,
+            );
+            witness.evaluation(::symplectic::Quantity::Velocity, 3, &*p, slope);
             ::symplectic::advance::<
                 R,
                 V,
@@ -1034,7 +1037,7 @@ const _: () = {
                     8.42741775545176e-17,
                     1.3512071,
                 ),
-                velocity,
+                slope,
             );
             system
                 .force(span.at(::symplectic::Coefficient::exact(1.0)), &*q, &*p, force);

@@ -471,35 +471,17 @@ const _: () = {
         }
     }
     impl ::symplectic::StageTableau for Gauss2General {
-        type Lanes = ::symplectic::F64x4;
+        type Lanes = ::symplectic::F64x2;
         type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
         const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
             count: 2,
-            columns: &[
-                &[0.5, 1.0773502691896257, 1.0773502691896257, 1.0773502691896257],
-                &[(-0.07735026918962573), 0.5, 0.5, 0.5],
-            ],
-            times: &[
-                0.2113248654051871,
-                0.7886751345948129,
-                0.7886751345948129,
-                0.7886751345948129,
-            ],
-            weights: &[0.5, 0.5, 0.5, 0.5],
+            columns: &[&[0.5, 1.0773502691896257], &[(-0.07735026918962573), 0.5]],
+            times: &[0.2113248654051871, 0.7886751345948129],
+            weights: &[0.5, 0.5],
             extrapolation: &[
-                &[
-                    (-0.7320508075688773),
-                    (-1.7320508075688772),
-                    (-1.7320508075688772),
-                    (-1.7320508075688772),
-                ],
-                &[
-                    1.7320508075688772,
-                    2.732050807568877,
-                    2.732050807568877,
-                    2.732050807568877,
-                ],
+                &[(-0.7320508075688773), (-1.7320508075688772)],
+                &[1.7320508075688772, 2.732050807568877],
             ],
             polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
                 legendre: &[&[(-1.7320508075688772), 1.7320508075688772]],
@@ -865,38 +847,18 @@ const _: () = {
         }
     }
     impl ::symplectic::StageTableau for Gauss2Separable {
-        type Lanes = ::symplectic::F64x4;
+        type Lanes = ::symplectic::F64x2;
         type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
         const POSITIONS: ::symplectic::HalfTableau = <Gauss2General as ::symplectic::StageTableau>::POSITIONS;
         const MOMENTA: ::symplectic::HalfTableau = <Gauss2General as ::symplectic::StageTableau>::POSITIONS;
         const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::Some(::symplectic::SecondOrderTableau {
-            nodes: &[
-                0.21132486540518713,
-                0.7886751345948129,
-                0.7886751345948129,
-                0.7886751345948129,
-            ],
+            nodes: &[0.21132486540518713, 0.7886751345948129],
             columns: &[
-                &[
-                    0.08333333333333326,
-                    0.5386751345948129,
-                    0.5386751345948129,
-                    0.5386751345948129,
-                ],
-                &[
-                    (-0.038675134594812866),
-                    0.08333333333333326,
-                    0.08333333333333326,
-                    0.08333333333333326,
-                ],
+                &[0.08333333333333326, 0.5386751345948129],
+                &[(-0.038675134594812866), 0.08333333333333326],
             ],
-            rest: &[
-                0.7886751345948129,
-                0.21132486540518713,
-                0.21132486540518713,
-                0.21132486540518713,
-            ],
+            rest: &[0.7886751345948129, 0.21132486540518713],
         });
         const DECOUPLING: ::core::option::Option<::symplectic::Decoupling> = ::core::option::Option::Some(::symplectic::Decoupling {
             blocks: &[(0.041666666666666664, 0.07216878364870322)],

@@ -44,8 +44,11 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             }
             let coupled = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE.is_none();
             if ready && coupled && self.is_light() {
-                left -= self.advance_apart(block, size, clock)?;
-                continue;
+                let taken = self.advance_apart(block, size, clock)?;
+                left -= taken;
+                if taken > 0 {
+                    continue;
+                }
             }
             // One step to have an evaluation to go on from, or those of the block one by one.
             for _ in 0..if ready { block } else { 1 } {
@@ -152,7 +155,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         components == size_of::<V>() && size_of::<Course<V, MemoryOf<M, S, V, N>>>() <= LIGHT
     }
 
-    /// Takes up to so many steps; returns how many were taken.
+    /// Takes up to so many steps; returns how many were taken, none where the first does not change the time.
     ///
     /// What they change is moved out of the memory of the integrator, so that it is in registers from step to step. If the
     /// system panics, the state is that before.
