@@ -270,7 +270,7 @@ where
     pub(crate) fn positions(&mut self) -> LanePart<P::Lanes> {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.q, step.q_low);
-        let sums = Sums::of::<P>(&P::POSITIONS, step.size);
+        let sums = sums::<P>(&P::POSITIONS, step.size);
         values::<P, V>(&sums, &mut stages.q, base, &stages.velocity, sum::<R, P>)
     }
 
@@ -279,7 +279,7 @@ where
     pub(crate) fn momenta(&mut self) -> LanePart<P::Lanes> {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.p, step.p_low);
-        let sums = Sums::of::<P>(&P::MOMENTA, step.size);
+        let sums = sums::<P>(&P::MOMENTA, step.size);
         values::<P, V>(&sums, &mut stages.p, base, &stages.force, sum::<R, P>)
     }
 
@@ -362,19 +362,34 @@ pub(crate) fn entry<P: StageTableau, V: Vector>(
 }
 
 /// What the stages are sums of: a matrix by its columns, and a factor of them.
-pub(crate) struct Sums {
-    pub(crate) columns: &'static [&'static [f64]],
-    pub(crate) factor: Option<f64>,
+pub(crate) struct Sums<C> {
+    count: usize,
+    column: C,
+    factor: Option<f64>,
 }
 
-impl Sums {
-    /// Those of one half of the stages.
+impl<C: Fn(usize) -> &'static [f64]> Sums<C> {
+    /// Those with so many columns, which have an entry for each lane.
     #[inline(always)]
-    fn of<P: StageTableau>(half: &HalfTableau, h: f64) -> Self {
+    pub(crate) const fn new(count: usize, column: C) -> Self {
         Self {
-            columns: half.columns,
-            factor: (!P::INCREMENTS).then_some(h),
+            count,
+            column,
+            factor: None,
         }
+    }
+}
+
+/// The sums of one half of the stages.
+#[inline(always)]
+fn sums<P: StageTableau>(
+    half: &HalfTableau,
+    h: f64,
+) -> Sums<impl Fn(usize) -> &'static [f64] + use<P>> {
+    let columns = half.columns;
+    Sums {
+        factor: (!P::INCREMENTS).then_some(h),
+        ..Sums::new(columns.len(), move |j: usize| columns[j])
     }
 }
 
@@ -382,7 +397,7 @@ impl Sums {
 /// component, of the base with what it leaves out, and of the sum.
 #[inline(always)]
 pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
-    sums: &Sums,
+    sums: &Sums<impl Fn(usize) -> &'static [f64]>,
     out: &mut P::Groups<Laned<V, P>>,
     (base, low): (&V, &V),
     terms: &P::Groups<Laned<V, P>>,
@@ -484,13 +499,13 @@ fn sum<R: Summation, P: StageTableau>(
 /// `factor Σ_j columns_j terms_j` in one component, for the stages of one group; the factor, if any, is in the products.
 #[inline(always)]
 fn combination<P: StageTableau, V: Vector>(
-    sums: &Sums,
+    sums: &Sums<impl Fn(usize) -> &'static [f64]>,
     group: usize,
     terms: &P::Groups<Laned<V, P>>,
     component: usize,
 ) -> P::Lanes {
-    sum_of_products(sums.columns.len(), |j| {
-        let column: P::Lanes = lanes(sums.columns[j], group);
+    sum_of_products(sums.count, |j| {
+        let column: P::Lanes = lanes((sums.column)(j), group);
         let column = match sums.factor {
             Some(factor) => column * P::Lanes::from_f64(factor),
             None => column,
@@ -507,10 +522,8 @@ pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
     increments: &mut P::Groups<Laned<V, P>>,
 ) {
     let n = shortest::<P, V>(increments, increments);
-    let sums = Sums {
-        columns: half.extrapolation,
-        factor: None,
-    };
+    let columns = half.extrapolation;
+    let sums = Sums::new(columns.len(), |j: usize| columns[j]);
     let mut new = P::groups(|_| P::Lanes::from_f64(0.0));
     for k in 0..n {
         for (group, new) in new.as_mut().iter_mut().enumerate() {

@@ -134,13 +134,21 @@ where
                 false => low,
             };
             let velocity = entry::<P, V>(&stages.p, 0, k);
-            let term = |stage: usize| {
-                if stage == P::POSITIONS.count {
-                    return h * velocity;
-                }
-                h * (tableau::<P>().rest[stage] * entry::<P, V>(slopes, stage, k))
+            let part = |stage: usize| tableau::<P>().rest[stage] * entry::<P, V>(slopes, stage, k);
+            let count = P::POSITIONS.count;
+            let (high, rest) = match R::COMPENSATED {
+                true => add::<R, f64>(base, low, count + 1, |stage| {
+                    h * if stage == count {
+                        velocity
+                    } else {
+                        part(stage)
+                    }
+                }),
+                false => (
+                    h.fused(add::<R, f64>(velocity, 0.0, count, part).0, base),
+                    low,
+                ),
             };
-            let (high, rest) = add::<R, f64>(base, low, P::POSITIONS.count + 1, term);
             q.as_mut_slice()[k] = high;
             if R::COMPENSATED {
                 q_low.as_mut_slice()[k] = rest;
@@ -201,6 +209,45 @@ const fn tableau<P: StageTableau>() -> SecondOrderTableau {
     }
 }
 
+/// The most stages of which starting values are made at once.
+const MOST: usize = 16;
+
+/// `ν E` for the extrapolation `E` of increments from one step to the next, by its columns: a product of doubles, for it is
+/// only where iterations start.
+struct Start<P>(PhantomData<P>);
+
+impl<P: StageTableau> Start<P> {
+    const COLUMNS: &'static [[f64; MOST]; MOST] = &Self::columns();
+
+    /// Whether there are starting values from the step before.
+    const IS: bool = !P::POSITIONS.extrapolation.is_empty();
+
+    /// Whether they are made at once.
+    const AT_ONCE: bool = Self::IS && tableau::<P>().nodes.len() <= MOST;
+
+    const fn columns() -> [[f64; MOST]; MOST] {
+        let mut product = [[0.0; MOST]; MOST];
+        if !Self::AT_ONCE {
+            return product;
+        }
+        let (nu, extrapolation) = (tableau::<P>().columns, P::POSITIONS.extrapolation);
+        let mut k = 0;
+        while k < extrapolation.len() {
+            let mut j = 0;
+            while j < nu.len() {
+                let mut i = 0;
+                while i < nu[j].len() {
+                    product[k][i] += nu[j][i] * extrapolation[k][j];
+                    i += 1;
+                }
+                j += 1;
+            }
+            k += 1;
+        }
+        product
+    }
+}
+
 impl<P, R, V, S> Positions<'_, P, R, V, S>
 where
     P: StageTableau,
@@ -211,11 +258,14 @@ where
     /// New positions; returns how much they changed.
     #[inline(always)]
     fn positions(&mut self) -> LanePart<P::Lanes> {
+        let columns = tableau::<P>().columns;
+        self.sums(&Sums::new(columns.len(), |j: usize| columns[j]))
+    }
+
+    /// The positions that are these sums of the velocities of increments; returns how much they changed.
+    #[inline(always)]
+    fn sums(&mut self, sums: &Sums<impl Fn(usize) -> &'static [f64]>) -> LanePart<P::Lanes> {
         let (step, stages) = (self.lanes.step, &mut *self.lanes.stages);
-        let sums = Sums {
-            columns: tableau::<P>().columns,
-            factor: None,
-        };
         let h = P::Lanes::from_f64(step.size);
         let start = stages.p.as_ref();
         let value = |(group, k): (usize, usize), (base, low): (P::Lanes, P::Lanes), sum| {
@@ -229,7 +279,7 @@ where
         };
         let base = (step.q, step.q_low);
         let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force);
-        values::<P, V>(&sums, &mut stages.q, base, slopes, value)
+        values::<P, V>(sums, &mut stages.q, base, slopes, value)
     }
 
     /// The velocities of the increments of the momentum, unless they are these.
@@ -252,13 +302,16 @@ where
     #[inline(always)]
     fn start(&mut self) {
         let step = self.lanes.step;
-        let LaneStages { q, p, velocity, .. } = &mut *self.lanes.stages;
+        let LaneStages { q, p, .. } = &mut *self.lanes.stages;
         fill::<P, V>(p, step.p);
-        let groups = q.as_ref().iter().zip(p.as_mut()).zip(velocity.as_mut());
-        for ((q, p), velocity) in groups {
+        if <S as Hamiltonian<V>>::UNIT_MASSES {
+            return;
+        }
+        for (p, q) in p.as_mut().iter_mut().zip(q.as_mut()) {
             let time = P::Lanes::from_f64(step.time);
-            P::Lanes::velocity::<V, S>(self.lanes.system, time, q, p, velocity);
-            p.as_mut_slice().copy_from_slice(velocity.as_slice());
+            // It does not look at the position, and the place of this is free.
+            P::Lanes::velocity::<V, S>(self.lanes.system, time, p, p, q);
+            p.as_mut_slice().copy_from_slice(q.as_slice());
         }
     }
 }
@@ -277,8 +330,8 @@ where
     #[inline(always)]
     fn evaluations(&self) -> EvaluationCounts {
         EvaluationCounts {
-            begin: P::POSITIONS.count as u32 + 1,
-            start: 0,
+            begin: 1,
+            start: P::POSITIONS.count as u32,
             sweep: 2 * P::POSITIONS.count as u32,
             finish: 0,
             carried: 0,
@@ -292,14 +345,19 @@ where
 
     #[inline(always)]
     fn begin(&mut self, kept: Kept) {
-        if kept.stages && !P::POSITIONS.extrapolation.is_empty() {
+        self.start();
+        if kept.stages && Start::<P>::AT_ONCE {
+            let count = P::POSITIONS.extrapolation.len();
+            self.sums(&Sums::new(count, |k: usize| &Start::<P>::COLUMNS[k]));
+            return;
+        }
+        if kept.stages && Start::<P>::IS {
             extrapolate::<P, V>(&P::POSITIONS, &mut self.lanes.stages.force);
         } else {
             for group in self.lanes.stages.force.as_mut() {
                 group.as_mut_slice().fill(P::Lanes::from_f64(0.0));
             }
         }
-        self.start();
         self.velocities();
         self.positions();
     }

@@ -35,20 +35,20 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     ) -> Result<(), Error> {
         let mut left = count;
         while left > 0 {
+            let coupled = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE.is_none();
+            if coupled && left > 1 && self.is_light() {
+                let taken = self.advance_apart(left, size, clock, end)?;
+                left -= taken;
+                if taken > 0 {
+                    continue;
+                }
+            }
             // The last step is taken by itself: the state before it stays at hand.
             let block = (left - 1).min(block(self.course.state.q.dimension()));
             let ready = self.course.kept.evaluation && block > 0;
             if ready && self.advance_in_place(block, size, clock) {
                 left -= block;
                 continue;
-            }
-            let coupled = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE.is_none();
-            if ready && coupled && self.is_light() {
-                let taken = self.advance_apart(block, size, clock)?;
-                left -= taken;
-                if taken > 0 {
-                    continue;
-                }
             }
             // One step to have an evaluation to go on from, or those of the block one by one.
             for _ in 0..if ready { block } else { 1 } {
@@ -155,18 +155,28 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         components == size_of::<V>() && size_of::<Course<V, MemoryOf<M, S, V, N>>>() <= LIGHT
     }
 
-    /// Takes up to so many steps; returns how many were taken, none where the first does not change the time.
+    /// Takes steps until one fails; returns how many were taken, none where the first does not change the time. The last of
+    /// them goes to the time `end`, if it is given.
     ///
     /// What they change is moved out of the memory of the integrator, so that it is in registers from step to step. If the
     /// system panics, the state is that before.
     #[inline]
-    fn advance_apart(&mut self, steps: u64, size: f64, clock: &mut Clock) -> Result<u64, Error> {
+    fn advance_apart(
+        &mut self,
+        steps: u64,
+        size: f64,
+        clock: &mut Clock,
+        end: Option<f64>,
+    ) -> Result<u64, Error> {
         let before = self.course.anew();
         let mut course = mem::replace(&mut self.course, before);
         let mut failed = None;
         let mut taken = 0;
         while taken < steps && failed.is_none() {
-            let time = clock.next();
+            let time = match end {
+                Some(end) if taken + 1 == steps => end,
+                _ => clock.next(),
+            };
             if time == course.state.time {
                 break;
             }
