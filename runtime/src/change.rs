@@ -70,20 +70,11 @@ impl PartChange {
         self.scale = larger(self.scale, larger(base.magnitude(), new.magnitude()));
     }
 
-    /// Notes a change of this size, of a value that was made of `base` and became `new`; all of them are absolute values. What
-    /// is not a number may be lost.
+    /// Notes a change of this size among values of this size.
     #[inline(always)]
-    pub(crate) const fn note(&mut self, moved: f64, base: f64, new: f64) {
-        self.difference = above(self.difference, moved);
-        self.scale = above(self.scale, above(base, new));
-    }
-
-    /// Notes another part of a change, whose sizes add up to `sum`: NaN where one of them is.
-    #[inline(always)]
-    pub(crate) fn join(&mut self, part: &Self, sum: f64) {
-        let difference = if sum.is_nan() { sum } else { part.difference };
+    pub(crate) fn join(&mut self, difference: f64, scale: f64) {
         self.difference = larger(self.difference, difference);
-        self.scale = larger(self.scale, part.scale);
+        self.scale = larger(self.scale, scale);
     }
 
     /// The largest |new − old| divided by the largest of all |base| and |new|.
@@ -104,10 +95,4 @@ impl PartChange {
 #[inline(always)]
 fn larger(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }
-}
-
-/// The larger of two numbers.
-#[inline(always)]
-const fn above(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
 }

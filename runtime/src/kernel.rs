@@ -4,7 +4,7 @@
 //! here, are combined up to the shortest one; the integrator then reports
 //! [`Error::EvaluationDimension`](crate::Error::EvaluationDimension).
 
-use core::array;
+use core::{array, mem};
 
 use num_traits::Zero;
 
@@ -72,31 +72,117 @@ pub fn relax<R: Summation, V: Vector, const N: usize>(
         &low.as_slice()[..n],
         terms.map(|term| &term.as_slice()[..n]),
     );
-    // Eight components at a time have accumulators of their own: code without a branch, for as many lanes as there are.
-    let mut parts = [PartChange::default(); LANES];
-    let mut sums = [0.0; LANES];
-    let blocks = n / LANES * LANES;
-    for start in (0..blocks).step_by(LANES) {
-        for lane in 0..LANES {
-            let i = start + lane;
-            let new = value::<R, _, N>(base[i], low[i], &factors, &terms, i);
-            let moved = (new - out[i]).magnitude();
-            parts[lane].note(moved, base[i].magnitude(), new.magnitude());
-            sums[lane] += moved;
-            out[i] = new;
-        }
-    }
     let mut local = *change;
-    for (part, sum) in parts.iter().zip(sums) {
-        local.join(part, sum);
+    let whole = n / LANES;
+    let blocks = |slice| whole_blocks(slice, whole);
+    let (base_blocks, low_blocks, term_blocks) = (blocks(base), blocks(low), terms.map(blocks));
+    let out_blocks = &mut out.as_chunks_mut::<LANES>().0[..whole];
+    // Blocks have accumulators of their own for each component: code without a branch, for as many lanes as there are.
+    let mut noted = Blocks::default();
+    for block in 0..whole {
+        let (base, low) = (base_blocks[block], low_blocks[block]);
+        let term = |j: usize| term_blocks[j][block];
+        let new = values::<R, _, N>(base, low, &factors, term);
+        let old = mem::replace(&mut out_blocks[block], new);
+        noted.note(base, old, new);
     }
-    for i in blocks..n {
+    if whole > 0 {
+        noted.join(&mut local);
+    }
+    for i in whole * LANES..n {
         let new = value::<R, _, N>(base[i], low[i], &factors, &terms, i);
         local.record(base[i], out[i], new);
         out[i] = new;
     }
     // A local copy stays in registers; behind the reference it would be stored for every component.
     *change = local;
+}
+
+/// What blocks of components note of how they moved, one after the other, each component apart.
+#[derive(Default)]
+struct Blocks {
+    difference: [f64; LANES],
+    base: [f64; LANES],
+    new: [f64; LANES],
+    /// All differences together: NaN if one is, which the largest may lose.
+    sum: [f64; LANES],
+}
+
+impl Blocks {
+    #[inline(always)]
+    fn note<T: Scalar>(&mut self, base: [T; LANES], old: [T; LANES], new: [T; LANES]) {
+        let moved: [f64; LANES] = array::from_fn(|lane| (new[lane] - old[lane]).magnitude());
+        raise(&mut self.difference, moved);
+        raise(&mut self.base, base.map(T::magnitude));
+        raise(&mut self.new, new.map(T::magnitude));
+        for (sum, moved) in self.sum.iter_mut().zip(moved) {
+            *sum += moved;
+        }
+    }
+
+    #[inline(always)]
+    fn join(&self, change: &mut PartChange) {
+        for lane in 0..LANES {
+            let sum = self.sum[lane];
+            let difference = if sum.is_nan() {
+                sum
+            } else {
+                self.difference[lane]
+            };
+            change.join(difference, self.base[lane]);
+            change.join(difference, self.new[lane]);
+        }
+    }
+}
+
+/// The larger of two numbers, component by component.
+#[inline(always)]
+fn raise(largest: &mut [f64; LANES], values: [f64; LANES]) {
+    for (largest, value) in largest.iter_mut().zip(values) {
+        *largest = if *largest > value { *largest } else { value };
+    }
+}
+
+/// So many blocks of a slice.
+#[inline(always)]
+fn whole_blocks<T>(slice: &[T], count: usize) -> &[[T; LANES]] {
+    &slice.as_chunks::<LANES>().0[..count]
+}
+
+/// A block of components of a stage: each is [`value`].
+#[inline(always)]
+fn values<R: Summation, T: Scalar, const N: usize>(
+    base: [T; LANES],
+    low: [T; LANES],
+    factors: &[T; N],
+    term: impl Fn(usize) -> [T; LANES],
+) -> [T; LANES] {
+    if N == 0 {
+        return base;
+    }
+    let mut sums = [[T::zero(); LANES]; 2];
+    for j in 0..N {
+        let term = term(j);
+        let sum = &mut sums[j % 2];
+        for lane in 0..LANES {
+            sum[lane] = match j {
+                0 | 1 => factors[j] * term[lane],
+                _ => factors[j].fused(term[lane], sum[lane]),
+            };
+        }
+    }
+    let mut values = base;
+    for lane in 0..LANES {
+        let mut sum = sums[0][lane];
+        if N > 1 {
+            sum += sums[1][lane];
+        }
+        if R::COMPENSATED {
+            sum += low[lane];
+        }
+        values[lane] += sum;
+    }
+    values
 }
 
 /// Components that are combined side by side.
@@ -211,13 +297,14 @@ pub fn transform<V: Vector, const N: usize>(
         return;
     };
     let mut slices = vectors.map(V::as_mut_slice);
+    // Where a time of this step is one of the step before, all entries but one are zero.
+    let sparse = matrix.map(|row| row.contains(&0.0));
     let n = slices.iter().map(|slice| slice.len()).min().unwrap_or(0);
     for i in 0..n {
         let old: [V::Scalar; N] = array::from_fn(|j| slices[j][i]);
-        for (row, slice) in matrix.iter().zip(&mut slices) {
+        for ((row, sparse), slice) in matrix.iter().zip(sparse).zip(&mut slices) {
             let factor = |j: usize| V::Scalar::from_f64(row[j]);
-            // Where a time of this step is one of the step before, all entries but one are zero.
-            slice[i] = if row.contains(&0.0) {
+            slice[i] = if sparse {
                 let mut terms = (0..N).filter(|&j| row[j] != 0.0);
                 let first = terms.next().map(|j| factor(j) * old[j]);
                 terms.fold(first.unwrap_or_else(V::Scalar::zero), |sum, j| {
