@@ -16,7 +16,7 @@ use crate::{
 /// largest position and the largest momentum: in either half for a separable system, in both for a general one
 /// (see [`Class::settling`]). For a general one whose evaluations are noisier than that, it is enough that the
 /// change has shrunk a thousandfold, has not shrunk further in ten sweeps, and one half is down to rounding
-/// errors.
+/// errors; these are counted from the tenth on while the change is above 4096 units of the start.
 ///
 /// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for the stagnation: it
 /// ends with a change that is at most 64 units of [`Scalar::EPSILON`] if the next one, should it shrink by the same factor,
@@ -32,8 +32,8 @@ const ROUNDING: f64 = 64.0;
 /// Sweeps without progress after which a change that has shrunk by [`CONTRACTION`] counts as noise.
 const PATIENCE: u32 = 10;
 
-/// Changes above this many units of EPSILON of the start are not looked at further in the first sweeps: from them on the next
-/// one can be the last only as rounding.
+/// Changes above this many units of EPSILON of the start are not looked at further in the first sweeps: neither are they
+/// the last, nor is the next one by its size alone.
 const FAR: f64 = ROUNDING * ROUNDING;
 
 /// What tells an iteration that came down to its noise from one that never got anywhere.
@@ -301,23 +301,12 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         if change.q.is_undefined() || change.p.is_undefined() {
             // In the first sweep the system has been evaluated at the start and next to it: that the state is
             // out of bounds is likelier than that the iteration is. Later it has run away.
-            if let Some(last) = last {
-                return Err(Failure::NoConvergence {
+            return Err(match last {
+                None => non_finite(sweeps, &change),
+                Some(last) => Failure::NoConvergence {
                     residual: progress(&last.change()),
                     iterations: iteration,
-                });
-            }
-            let part = if change.q.is_undefined() {
-                Quantity::Position
-            } else {
-                Quantity::Momentum
-            };
-            let force = sweeps.non_finite_force();
-            let culprit = force.map(|stage| (Quantity::Force, stage));
-            let culprit = culprit.or_else(|| sweeps.non_finite());
-            return Err(Failure::NonFinite {
-                what: culprit.map_or(part, |(what, _)| what),
-                stage: culprit.map(|(_, stage)| stage),
+                },
             });
         }
         // Comparisons, for it is a number: `min` and `max` look whether it is.
@@ -326,11 +315,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         } else {
             (smallest, idle + 1)
         };
-        largest = if residual > largest {
-            residual
-        } else {
-            largest
-        };
+        largest = larger(residual, largest);
         let exact = residual == 0.0;
         let rounded = idle > 0 && C::settling(&change) <= rounding;
         let noisy = || {
@@ -351,6 +336,24 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         residual: before.map_or(f64::INFINITY, |last| progress(&last.change())),
         iterations: max_iterations,
     })
+}
+
+/// What is to blame for a first sweep that is not finite.
+// A function of its own, which the stages were passed to, would keep them out of registers.
+#[inline(always)]
+fn non_finite(sweeps: &mut impl Sweeps, change: &Change) -> Failure {
+    let part = if change.q.is_undefined() {
+        Quantity::Position
+    } else {
+        Quantity::Momentum
+    };
+    let force = sweeps.non_finite_force();
+    let culprit = force.map(|stage| (Quantity::Force, stage));
+    let culprit = culprit.or_else(|| sweeps.non_finite());
+    Failure::NonFinite {
+        what: culprit.map_or(part, |(what, _)| what),
+        stage: culprit.map(|(_, stage)| stage),
+    }
 }
 
 /// The larger of two numbers.

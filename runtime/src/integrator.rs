@@ -242,10 +242,10 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     }
 
     /// Takes so many steps and returns the state after them: as often [`step`](Self::step), to the last bit, and faster where
-    /// the method is a splitting.
+    /// the method is a splitting or vectors are short.
     ///
     /// A splitting takes them in place, and whether its states are finite is seen after some hundred of them; where one
-    /// is not, they are taken once more, one by one.
+    /// is not, they are taken once more, one by one. Coupled stages of short vectors stay in registers from step to step.
     ///
     /// # Errors
     ///
