@@ -258,7 +258,7 @@ pub fn advance<R: Summation, V: Vector>(
     let evaluation = &evaluation.as_slice()[..n];
     for i in 0..n {
         if R::COMPENSATED {
-            (out[i], low[i]) = add::<R, _>(out[i], low[i], 1, |_| factor * evaluation[i]);
+            (out[i], low[i]) = add_sum(out[i], low[i], (factor * evaluation[i], None));
         } else {
             out[i] = factor.fused(evaluation[i], out[i]);
         }
@@ -422,6 +422,12 @@ pub(crate) fn add<R: Summation, T: Scalar>(
     if !R::COMPENSATED {
         return (base + sum.0, low);
     }
+    add_sum(base, low, sum)
+}
+
+/// `base + low + sum`, as the nearest number and the rest.
+#[inline(always)]
+fn add_sum<T: Scalar>(base: T, low: T, sum: Sum<T>) -> (T, T) {
     let (high, error) = two_sum(base, sum.0);
     let rest = sum.1.map_or(low, |rest| rest + low);
     fast_two_sum(high, rest + error)

@@ -78,7 +78,6 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             low,
             next,
             next_low,
-            memory,
             ..
         } = &mut self.course;
         copy(&mut next.0, &state.q);
@@ -88,25 +87,9 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             copy(&mut next_low.1, &low.1);
         }
         if size_of::<V>() <= SHORT {
-            // The places are moved out of the memory of the integrator, so that they are in registers from step to step.
-            let blank = || (V::blank(), V::blank());
-            let mut places = mem::replace(next, blank());
-            let mut places_low = mem::replace(next_low, blank());
-            let mut evaluations = mem::replace(memory, StageStorage::like(&V::blank()));
-            let (next, low) = (&mut places, &mut places_low);
-            Self::run(
-                &self.system,
-                clock,
-                steps,
-                size,
-                next,
-                low,
-                &mut evaluations,
-            );
-            (self.course.next, self.course.next_low) = (places, places_low);
-            self.course.memory = evaluations;
+            self.run_apart(clock, steps, size);
         } else {
-            Self::run(&self.system, clock, steps, size, next, next_low, memory);
+            self.run_here(clock, steps, size);
         }
         if !self.course.is_sound() {
             self.course.memory = StageStorage::like(&self.course.state.q);
@@ -122,6 +105,38 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         self.course.last_size = size;
         self.course.statistics.count_explicit(steps, evaluations);
         true
+    }
+
+    /// Takes steps in the places of `next`.
+    #[inline]
+    fn run_here(&mut self, clock: &Clock, steps: u64, size: f64) {
+        let Course {
+            next,
+            next_low,
+            memory,
+            ..
+        } = &mut self.course;
+        Self::run(&self.system, clock, steps, size, next, next_low, memory);
+    }
+
+    /// Takes steps in these places moved out of the memory of the integrator, so that they are in registers from step to step.
+    #[inline]
+    fn run_apart(&mut self, clock: &Clock, steps: u64, size: f64) {
+        let blank = || (V::blank(), V::blank());
+        let mut next = mem::replace(&mut self.course.next, blank());
+        let mut low = mem::replace(&mut self.course.next_low, blank());
+        let mut memory = mem::replace(&mut self.course.memory, StageStorage::like(&V::blank()));
+        Self::run(
+            &self.system,
+            clock,
+            steps,
+            size,
+            &mut next,
+            &mut low,
+            &mut memory,
+        );
+        (self.course.next, self.course.next_low) = (next, low);
+        self.course.memory = memory;
     }
 
     /// Takes steps in the places of a state.
