@@ -201,11 +201,12 @@ where
     }
 }
 
-/// The coefficients of a Gauss method.
+/// The coefficients of a method.
 macro_rules! rule {
     ($method:ident) => {
         $crate::baseline::gauss::Rule {
             a: ::symplectic_tests::methods::$method::A,
+            a_tilde: ::symplectic_tests::methods::$method::A_TILDE,
             b: ::symplectic_tests::methods::$method::B,
             c: ::symplectic_tests::methods::$method::C,
         }

@@ -28,6 +28,7 @@ use wide::f64x8;
 /// Gauss with eight stages, for the integrators by hand.
 const GAUSS: Rule<8> = Rule {
     a: Gauss8::A,
+    a_tilde: Gauss8::A_TILDE,
     b: Gauss8::B,
     c: Gauss8::C,
 };

@@ -1,15 +1,17 @@
-//! Gauss methods with one stage a lane: fixed-point iteration from the previous step's stage polynomial, plain sums.
+//! Gauss and Lobatto methods with one stage a lane: fixed-point iteration from the previous step's stage polynomial, plain sums.
 
 use std::array;
 
 use super::lanes::Lanes;
 use super::systems::{General, Separable};
 
-/// The coefficients of a method with `S` stages, as `tableau!` emits them.
+/// The coefficients of a symplectic method with `S` stages, as `tableau!` emits them.
 #[derive(Clone, Copy, Debug)]
 pub struct Rule<const S: usize> {
-    /// The matrix a.
+    /// The matrix a, of the positions.
     pub a: [[f64; S]; S],
+    /// The matrix ã, of the momenta: a again for Gauss.
+    pub a_tilde: [[f64; S]; S],
     /// The weights b.
     pub b: [f64; S],
     /// The nodes c.
@@ -17,9 +19,9 @@ pub struct Rule<const S: usize> {
 }
 
 impl<const S: usize> Rule<S> {
-    /// `a²`, the matrix of the second-order form.
+    /// `a ã`, the matrix of the second-order form.
     pub(super) fn square(&self) -> [[f64; S]; S] {
-        product(&self.a, &self.a)
+        product(&self.a, &self.a_tilde)
     }
 
     /// `ℓ_j(1 + c_i)`: the polynomial through values at the nodes of one step, at the nodes of the next.
@@ -70,7 +72,7 @@ pub(super) fn transform<L: Lanes, const S: usize>(columns: &[L; S], x: L) -> L {
 }
 
 /// The second-order form, for separable systems with quadratic kinetic energy:
-/// `Q_i = q0 + h c_i M⁻¹p0 + h² Σ_j (a²)_ij M⁻¹force_j`.
+/// `Q_i = q0 + h c_i M⁻¹p0 + h² Σ_j (a ã)_ij M⁻¹force_j`.
 #[derive(Clone, Copy, Debug)]
 pub struct SecondOrder<L, const S: usize> {
     pub(super) step_size: f64,
@@ -153,18 +155,20 @@ impl<L: Lanes, const S: usize> SecondOrder<L, S> {
 /// The first-order form, for any Hamiltonian.
 #[derive(Clone, Copy, Debug)]
 pub struct FirstOrder<L, const S: usize> {
-    pub(super) stages: [L; S],
-    pub(super) extrapolated: [L; S],
+    /// Of the positions and of the momenta.
+    pub(super) stages: [[L; S]; 2],
+    pub(super) extrapolated: [[L; S]; 2],
     weights: L,
 }
 
 impl<L: Lanes, const S: usize> FirstOrder<L, S> {
     /// The method with steps of `step_size`.
     pub fn new(rule: &Rule<S>, step_size: f64) -> Self {
-        let extrapolated = product(&rule.a, &rule.extrapolation());
+        let halves = [&rule.a, &rule.a_tilde];
         Self {
-            stages: columns(&rule.a, |_| step_size),
-            extrapolated: columns(&extrapolated, |_| step_size),
+            stages: halves.map(|a| columns(a, |_| step_size)),
+            extrapolated: halves
+                .map(|a| columns(&product(a, &rule.extrapolation()), |_| step_size)),
             weights: row(&rule.b, step_size),
         }
     }
@@ -194,16 +198,16 @@ impl<L: Lanes, const S: usize> FirstOrder<L, S> {
         let mut sweeps = 0;
         for _ in 0..steps {
             let mut at = (
-                Self::stages(matrix, q, &velocity),
-                Self::stages(matrix, p, &force),
+                Self::stages(&matrix[0], q, &velocity),
+                Self::stages(&matrix[1], p, &force),
             );
             matrix = &self.extrapolated;
             loop {
                 (velocity, force) = system.slopes(&at.0, &at.1);
                 sweeps += 1;
                 let next = (
-                    Self::stages(&self.stages, q, &velocity),
-                    Self::stages(&self.stages, p, &force),
+                    Self::stages(&self.stages[0], q, &velocity),
+                    Self::stages(&self.stages[1], p, &force),
                 );
                 let mut change = L::splat(0.0);
                 for k in 0..N {

@@ -1,5 +1,5 @@
-//! Gauss methods with one stage a lane in the form that keeps the energy without drift: coefficients
-//! `μ_ij = a_ij/b_j` with `μ_ij + μ_ji = 1` exactly, iteration until the stages stop changing by less, increments and
+//! Gauss and Lobatto methods with one stage a lane in the form that keeps the energy without drift: coefficients
+//! `μ_ij = a_ij/b_j` with `μ_ij + μ̃_ji = 1` exactly, iteration until the stages stop changing by less, increments and
 //! state as sums of two doubles (Hairer, McLachlan & Razakarivony, 2008; Antoñana, Makazaga & Murua, 2017).
 
 use std::array;
@@ -54,26 +54,29 @@ fn shrinks<L: Lanes>(change: L, least: &mut L) -> bool {
     shrinks
 }
 
-/// `μ_ij = a_ij/b_j`, the larger of two that add up to 1 rounded, the smaller one the exact rest.
-fn mu<const S: usize>(rule: &Rule<S>) -> [[f64; S]; S] {
-    array::from_fn(|i| {
-        array::from_fn(|j| {
-            let (here, there) = (rule.a[i][j] / rule.b[j], rule.a[j][i] / rule.b[i]);
-            if i == j {
+/// `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b_j`: of two that add up to 1 the larger one rounded, the smaller one the exact rest.
+fn mu<const S: usize>(rule: &Rule<S>) -> [[[f64; S]; S]; 2] {
+    let mut mu = [[[0.0; S]; S]; 2];
+    for i in 0..S {
+        for j in 0..S {
+            let (here, there) = (rule.a[i][j] / rule.b[j], rule.a_tilde[j][i] / rule.b[i]);
+            let here = if i == j && here == there {
                 0.5
             } else if here > there {
                 here
             } else {
                 1.0 - there
-            }
-        })
-    })
+            };
+            (mu[0][i][j], mu[1][j][i]) = (here, 1.0 - here);
+        }
+    }
+    mu
 }
 
 /// The method for separable systems with quadratic kinetic energy.
 #[derive(Clone, Copy, Debug)]
 pub struct NoDrift<L, const S: usize> {
-    mu: [L; S],
+    mu: [[L; S]; 2],
     weights: L,
     /// Where the iteration starts, and how it goes while the changes are large.
     rough: SecondOrder<L, S>,
@@ -83,7 +86,7 @@ impl<L: Lanes, const S: usize> NoDrift<L, S> {
     /// The method with steps of `step_size`.
     pub fn new(rule: &Rule<S>, step_size: f64) -> Self {
         Self {
-            mu: columns(&mu(rule), |_| 1.0),
+            mu: mu(rule).map(|mu| columns(&mu, |_| 1.0)),
             weights: row(&rule.b, step_size),
             rough: SecondOrder::new(rule, step_size),
         }
@@ -133,9 +136,9 @@ impl<L: Lanes, const S: usize> NoDrift<L, S> {
             loop {
                 force = system.force(&stages);
                 kicks = weigh(force);
-                drifts = weigh(system.velocity(&p.stages(&self.mu, &kicks)));
+                drifts = weigh(system.velocity(&p.stages(&self.mu[1], &kicks)));
                 sweeps += 1;
-                let next = q.stages(&self.mu, &drifts);
+                let next = q.stages(&self.mu[0], &drifts);
                 let change = largest_change(&next, &stages);
                 if !shrinks(change, &mut least) {
                     break;
@@ -162,7 +165,7 @@ fn largest_change<L: Lanes, const N: usize>(a: &[L; N], b: &[L; N]) -> L {
 /// The method for any Hamiltonian.
 #[derive(Clone, Copy, Debug)]
 pub struct NoDriftGeneral<L, const S: usize> {
-    mu: [L; S],
+    mu: [[L; S]; 2],
     weights: L,
     rough: FirstOrder<L, S>,
 }
@@ -171,7 +174,7 @@ impl<L: Lanes, const S: usize> NoDriftGeneral<L, S> {
     /// The method with steps of `step_size`.
     pub fn new(rule: &Rule<S>, step_size: f64) -> Self {
         Self {
-            mu: columns(&mu(rule), |_| 1.0),
+            mu: mu(rule).map(|mu| columns(&mu, |_| 1.0)),
             weights: row(&rule.b, step_size),
             rough: FirstOrder::new(rule, step_size),
         }
@@ -191,8 +194,8 @@ impl<L: Lanes, const S: usize> NoDriftGeneral<L, S> {
         let mut sweeps = 0;
         for _ in 0..steps {
             let mut at = (
-                FirstOrder::<L, S>::stages(matrix, &q.high, &velocity),
-                FirstOrder::<L, S>::stages(matrix, &p.high, &force),
+                FirstOrder::<L, S>::stages(&matrix[0], &q.high, &velocity),
+                FirstOrder::<L, S>::stages(&matrix[1], &p.high, &force),
             );
             matrix = &self.rough.extrapolated;
             let mut least = L::splat(f64::INFINITY);
@@ -202,7 +205,10 @@ impl<L: Lanes, const S: usize> NoDriftGeneral<L, S> {
                 (velocity, force) = system.slopes(&at.0, &at.1);
                 sweeps += 1;
                 (drifts, kicks) = (weigh(velocity), weigh(force));
-                let next = (q.stages(&self.mu, &drifts), p.stages(&self.mu, &kicks));
+                let next = (
+                    q.stages(&self.mu[0], &drifts),
+                    p.stages(&self.mu[1], &kicks),
+                );
                 let change = largest_change(&next.0, &at.0).max(largest_change(&next.1, &at.1));
                 if !shrinks(change, &mut least) {
                     break;

@@ -11,7 +11,7 @@ use crate::baseline::lanes::Lanes;
 use crate::baseline::no_drift::{Double, NoDrift, NoDriftGeneral};
 use crate::baseline::systems;
 use symplectic_tests::methods::{
-    BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4, Gauss6, Gauss8, VelocityVerlet,
+    BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4, Gauss6, Gauss8, Lobatto3, VelocityVerlet,
 };
 
 /// Implicit and explicit methods on a separable problem.
@@ -26,6 +26,7 @@ pub(super) fn separable<S, B, const N: usize>(
     problem.gauss::<f64x8, _, 6>(pairs, ("Gauss 6", Gauss6), &rule!(Gauss6), 0.6);
     problem.gauss::<f64x4, _, 4>(pairs, ("Gauss 4", Gauss4), &rule!(Gauss4), 0.3);
     problem.gauss::<f64x2, _, 2>(pairs, ("Gauss 2", Gauss2), &rule!(Gauss2), 0.1);
+    problem.gauss::<f64x4, _, 3>(pairs, ("Lobatto 3", Lobatto3), &rule!(Lobatto3), 0.1);
     problem.splitting::<explicit::Verlet, _>(pairs, ("Verlet", VelocityVerlet), 0.02);
     problem.splitting::<explicit::ForestRuth, _>(pairs, ("Forest–Ruth", ForestRuth), 0.05);
     let blanes_moan = ("Blanes–Moan SRKN14a", BlanesMoanSrkn14a);
@@ -44,6 +45,7 @@ pub(super) fn general<S, B, const N: usize>(
     problem.coupled::<f64x8, _, 6>(pairs, ("Gauss 6", Gauss6), &rule!(Gauss6), 0.6);
     problem.coupled::<f64x4, _, 4>(pairs, ("Gauss 4", Gauss4), &rule!(Gauss4), 0.3);
     problem.coupled::<f64x2, _, 2>(pairs, ("Gauss 2", Gauss2), &rule!(Gauss2), 0.1);
+    problem.coupled::<f64x4, _, 3>(pairs, ("Lobatto 3", Lobatto3), &rule!(Lobatto3), 0.1);
 }
 
 impl<S, B, const N: usize> Problem<S, B, SVector<f64, N>>
