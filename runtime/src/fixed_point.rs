@@ -153,10 +153,7 @@ impl Movement for Change {
 pub(crate) fn scales<V: Vector>(step: &Step<'_, V>) -> [f64; 2] {
     [step.q, step.p].map(|vector| {
         let sizes = vector.as_slice().iter().map(|x| x.magnitude());
-        sizes.fold(
-            0.0,
-            |largest, size| if size > largest { size } else { largest },
-        )
+        sizes.fold(0.0, larger)
     })
 }
 

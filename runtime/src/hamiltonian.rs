@@ -96,8 +96,8 @@ pub trait Hamiltonian<V: Vector> {
 /// }
 /// ```
 pub trait SeparableHamiltonian<V: Vector> {
-    /// Whether the velocity is the momentum to the last bit, `H = |p|²/2 + U(t, q)`. A step then takes the momentum for it and
-    /// does not ask for a velocity: long vectors are not copied. Where it is said and not so,
+    /// Whether the velocity is the momentum to the last bit, `H = |p|²/2 + U(t, q)`. The drifts of a splitting, and the sweeps
+    /// of [`SecondOrderInLanes`](crate::SecondOrderInLanes), then take the momentum for it: long vectors are not copied. Where it is said and not so,
     /// [`Error::NotUnitMasses`](crate::Error::NotUnitMasses) is what an integrator is made of.
     ///
     /// ```

@@ -4,7 +4,8 @@ use core::marker::PhantomData;
 use core::mem;
 
 use crate::fixed_point::{Movement, Sweeps, scales, settle};
-use crate::kernel::{add, sum_of_products};
+use crate::kernel::sum_of_products;
+use crate::summation::add;
 use crate::{
     Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, HamiltonianInLanes, Inside,
     Kept, Lanes, Outcome, PartChange, Quantity, Scalar, Solver, StageStorage, StageTableau, Step,

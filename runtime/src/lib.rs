@@ -102,6 +102,7 @@ mod newton;
 mod output;
 mod partial;
 mod progress;
+mod relax;
 #[cfg(feature = "report")]
 pub mod report;
 mod retry;
@@ -145,8 +146,8 @@ pub use integrator::Integrator;
 pub use interpolation::{Inside, Interpolation};
 pub use invariant::Invariant;
 pub use kernel::{
-    advance, combine, copy, copy_to, factors, relax, scale, total, transform, velocity,
-    weighted_total, weights,
+    advance, combine, copy, copy_to, factors, scale, total, transform, velocity, weighted_total,
+    weights,
 };
 pub use lanes::{F64x2, F64x4, F64x8, HamiltonianInLanes, Lanes};
 pub use long_splitting::{SeparableOnly, rows, staircase};
@@ -162,6 +163,7 @@ pub use newton::{
 pub use newton::{DualNumbers, HamiltonianInDuals};
 pub use num_traits;
 pub use progress::Progress;
+pub use relax::relax;
 pub use retry::Retry;
 pub use scalar::Scalar;
 pub use second_order::SecondOrderInLanes;

@@ -7,7 +7,7 @@ use crate::in_lanes::{
     ByLanes, LaneMovement, LanePart, LaneStages, Sums, entry, extend, extrapolate, fill, lanes,
     total, values,
 };
-use crate::kernel::add;
+use crate::summation::add;
 use crate::{
     Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes, Inside,
     Kept, Lanes, Outcome, Quantity, Scalar, SecondOrderTableau, Solver, StageTableau, Step,

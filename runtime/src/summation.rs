@@ -1,5 +1,7 @@
 //! How increments are added to the state.
 
+use core::array;
+
 use crate::Scalar;
 
 mod sealed {
@@ -50,6 +52,70 @@ pub(crate) fn two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
 pub(crate) fn fast_two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     let sum = a + b;
     (sum, b - (sum - a))
+}
+
+/// `base + low + Σ_j term(j)`, of so many terms, as the nearest number and the rest.
+#[inline(always)]
+pub(crate) fn add<R: Summation, T: Scalar>(
+    base: T,
+    low: T,
+    count: usize,
+    term: impl Fn(usize) -> T,
+) -> (T, T) {
+    if count == 0 {
+        return (base, low);
+    }
+    let mut sum = eight::<R, T>(count, &term);
+    for block in 1..count.div_ceil(8) {
+        let terms = |j| term(8 * block + j);
+        sum = pair::<R, T>(sum, eight::<R, T>(count - 8 * block, &terms));
+    }
+    if !R::COMPENSATED {
+        return (base + sum.0, low);
+    }
+    add_sum(base, low, sum)
+}
+
+/// `base + low + sum`, as the nearest number and the rest.
+#[inline(always)]
+pub(crate) fn add_sum<T: Scalar>(base: T, low: T, sum: Sum<T>) -> (T, T) {
+    let (high, error) = two_sum(base, sum.0);
+    let rest = sum.1.map_or(low, |rest| rest + low);
+    fast_two_sum(high, rest + error)
+}
+
+/// A sum, and what it leaves out, if anything.
+pub(crate) type Sum<T> = (T, Option<T>);
+
+/// The sum of the first eight terms, at least one: pairs, and pairs of them, for additions that need not wait for one another.
+#[inline(always)]
+fn eight<R: Summation, T: Scalar>(count: usize, term: &impl Fn(usize) -> T) -> Sum<T> {
+    let mut sums: [Sum<T>; 8] = array::from_fn(|j| {
+        let term = if j < count { term(j) } else { T::zero() };
+        (term, None)
+    });
+    for width in [4, 2, 1] {
+        for j in 0..width {
+            if j + width < count {
+                sums[j] = pair::<R, T>(sums[j], sums[j + width]);
+            }
+        }
+    }
+    sums[0]
+}
+
+/// The sum of two sums.
+#[inline(always)]
+fn pair<R: Summation, T: Scalar>(a: Sum<T>, b: Sum<T>) -> Sum<T> {
+    if !R::COMPENSATED {
+        return (a.0 + b.0, None);
+    }
+    let (sum, error) = two_sum(a.0, b.0);
+    let rests = match (a.1, b.1) {
+        (Some(a), Some(b)) => Some(a + b),
+        (rest, None) | (None, rest) => rest,
+    };
+    (sum, Some(rests.map_or(error, |rests| error + rests)))
 }
 
 #[cfg(test)]

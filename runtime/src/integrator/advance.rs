@@ -73,7 +73,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         };
         let mut fault = FirstFault::new(attempt.dimension);
         if failure.is_none() {
-            let (step, outcome, memory) = self.course.parts(size);
+            let (step, outcome, memory) = self.course.lend(size);
             <PlanOf<M, S, V> as Plan>::observe::<R, V, S, N, FirstFault>(
                 &step,
                 &self.system,

@@ -97,7 +97,7 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
             stages: self.kept.stages && size == self.last_size,
             ..self.kept
         };
-        let (step, outcome, memory) = self.parts(size);
+        let (step, outcome, memory) = self.lend(size);
         self.work = P::take::<R, V, S, N>(&step, system, memory, kept, max_iterations, outcome)?;
         if self.is_sound() { Ok(()) } else { Err(None) }
     }
@@ -141,7 +141,7 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
 
     /// A step of size `size` from the present state, places for its result, and the memory.
     #[inline(always)]
-    pub(super) const fn parts(&mut self, size: f64) -> (Step<'_, V>, Outcome<'_, V>, &mut T) {
+    pub(super) const fn lend(&mut self, size: f64) -> (Step<'_, V>, Outcome<'_, V>, &mut T) {
         let step = Step {
             time: self.state.time,
             size,

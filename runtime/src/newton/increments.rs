@@ -7,8 +7,8 @@ use num_traits::Zero;
 use super::linear::{Coupling, LinearSolver};
 use super::memory::{NewtonMemory, rows};
 use crate::fixed_point::Sweeps;
-use crate::kernel::add;
 use crate::stage::first_non_finite_of;
+use crate::summation::add;
 use crate::{
     Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, Kept, Outcome, PartChange,
     Quantity, Scalar, StageStorage, StageTableau, Step, Summation, Vector,
