@@ -11,11 +11,11 @@ use crate::stage::is_finite;
 use crate::time::{Clock, uniform};
 use crate::{
     Class, Compensated, Error, FixedPoint, Hamiltonian, HamiltonianInLanes, InLanes, Inside,
-    Interpolation, Kept, Method, Plain, Plan, Quantity, Retry, Scalar, SecondOrderInLanes, Solver,
-    State, States, Statistics, Summation, Vector,
+    Interpolation, Method, Plain, Plan, Quantity, Retry, Scalar, SecondOrderInLanes, Solver, State,
+    States, Statistics, Summation, Vector,
 };
 #[cfg(feature = "alloc")]
-use crate::{GeneratingFunction, Step, generating_function::generating};
+use crate::{GeneratingFunction, Kept, Step, generating_function::generating};
 
 mod advance;
 mod blocks;
