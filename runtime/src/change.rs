@@ -34,6 +34,18 @@ impl Change {
     pub fn residual(&self) -> f64 {
         larger(self.q.relative(), self.p.relative())
     }
+
+    /// Whether the relative change of the positions or that of the momenta is NaN.
+    #[inline(always)]
+    pub(crate) const fn is_undefined(&self) -> bool {
+        self.q.is_undefined() || self.p.is_undefined()
+    }
+
+    /// The largest position and the largest momentum.
+    #[inline(always)]
+    pub(crate) const fn scales(&self) -> [f64; 2] {
+        [self.q.scale, self.p.scale]
+    }
 }
 
 /// How much the positions, or the momenta, of all stages changed in one sweep.
@@ -55,10 +67,16 @@ impl PartChange {
         self.difference.is_nan() || self.difference.is_infinite() && self.scale.is_infinite()
     }
 
-    /// Whether the change is above a bound, and a number.
+    /// The largest |new − old|.
     #[inline(always)]
-    pub(crate) fn exceeds(&self, bound: f64) -> bool {
-        self.difference > bound
+    pub(crate) const fn difference(&self) -> f64 {
+        self.difference
+    }
+
+    /// The largest of all |base| and |new|.
+    #[inline(always)]
+    pub(crate) const fn scale(&self) -> f64 {
+        self.scale
     }
 
     /// Notes that a component of a stage value, `base` plus an increment, went from `old` to `new`.
@@ -80,14 +98,16 @@ impl PartChange {
     /// The largest |new − old| divided by the largest of all |base| and |new|.
     ///
     /// Nothing recorded, or everything zero: 0. Changed to zero everywhere: 1. Something not finite: NaN.
+    #[inline(always)]
     pub fn relative(&self) -> f64 {
-        if self.difference.is_nan() || self.scale != 0.0 {
-            self.difference / self.scale
-        } else if self.difference == 0.0 {
-            0.0
-        } else {
+        // Without a branch: both are zero, or one of them, or neither.
+        let alone = if self.difference == 0.0 {
             1.0
-        }
+        } else {
+            self.difference
+        };
+        let scale = if self.scale == 0.0 { alone } else { self.scale };
+        self.difference / scale
     }
 }
 

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 use core::mem;
 
-use crate::fixed_point::{Movement, Sweeps, scales, settle};
+use crate::iteration::{Movement, Sweeps, settle};
 use crate::kernel::sum_of_products;
 use crate::summation::add;
 use crate::{
@@ -41,15 +41,22 @@ impl<V: Vector, P: StageTableau> LaneStages<V, P> {
     #[inline(always)]
     fn seen<T>(&mut self, look: impl Fn(&Self) -> T) -> T {
         let blank = || P::groups(|_| Laned::<V, P>::blank());
-        let elsewhere = Self {
+        let stages = Self {
             q: mem::replace(&mut self.q, blank()),
             p: mem::replace(&mut self.p, blank()),
             velocity: mem::replace(&mut self.velocity, blank()),
             force: mem::replace(&mut self.force, blank()),
         };
-        let seen = look(&elsewhere);
-        *self = elsewhere;
+        let (stages, seen) = stages.elsewhere(look);
+        *self = stages;
         seen
+    }
+
+    /// What `look` sees in the stages, which come back.
+    #[inline(never)]
+    fn elsewhere<T>(self, look: impl Fn(&Self) -> T) -> (Self, T) {
+        let seen = look(&self);
+        (self, seen)
     }
 }
 
@@ -217,8 +224,8 @@ where
     }
 
     #[inline(always)]
-    fn scales(&self) -> [f64; 2] {
-        scales(self.step)
+    fn time(&self) -> f64 {
+        self.step.time
     }
 
     #[inline(always)]
@@ -464,8 +471,18 @@ impl<L: Lanes> Movement for LaneMovement<L> {
     }
 
     #[inline(always)]
+    fn is_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
+        self.q.is_within(q) && (!both || self.p.is_within(p))
+    }
+
+    #[inline(always)]
     fn exceeds(&self, [q, p]: [f64; 2], both: bool) -> bool {
         self.q.exceeds(q) || both && self.p.exceeds(p)
+    }
+
+    #[inline(always)]
+    fn is_as_large(&self, [q, p]: [f64; 2], both: bool) -> bool {
+        self.q.is_as_large(q) && (!both || self.p.is_as_large(p))
     }
 }
 
@@ -479,8 +496,18 @@ impl<L: Lanes> LanePart<L> {
     }
 
     #[inline(always)]
+    fn is_within(&self, bound: f64) -> bool {
+        !self.difference.any_above(bound) && !self.sum.any_nan()
+    }
+
+    #[inline(always)]
     fn exceeds(&self, bound: f64) -> bool {
         self.difference.any_above(bound) && !self.sum.any_nan()
+    }
+
+    #[inline(always)]
+    fn is_as_large(&self, scale: f64) -> bool {
+        self.scale.largest() >= 0.5 * scale
     }
 }
 

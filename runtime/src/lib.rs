@@ -93,6 +93,7 @@ mod in_lanes;
 mod integrator;
 mod interpolation;
 mod invariant;
+mod iteration;
 mod kernel;
 mod lanes;
 mod long_splitting;

@@ -2,11 +2,11 @@
 
 use core::marker::PhantomData;
 
-use crate::fixed_point::{Sweeps, settle};
 use crate::in_lanes::{
     ByLanes, LaneMovement, LanePart, LaneStages, Sums, entry, extend, extrapolate, fill, lanes,
     total, values,
 };
+use crate::iteration::{Sweeps, settle};
 use crate::summation::add;
 use crate::{
     Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes, Inside,
@@ -339,8 +339,8 @@ where
     }
 
     #[inline(always)]
-    fn scales(&self) -> [f64; 2] {
-        self.lanes.scales()
+    fn time(&self) -> f64 {
+        self.lanes.time()
     }
 
     #[inline(always)]

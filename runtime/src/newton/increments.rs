@@ -6,7 +6,7 @@ use num_traits::Zero;
 
 use super::linear::{Coupling, LinearSolver};
 use super::memory::{NewtonMemory, rows};
-use crate::fixed_point::Sweeps;
+use crate::iteration::Sweeps;
 use crate::stage::first_non_finite_of;
 use crate::summation::add;
 use crate::{
@@ -52,6 +52,9 @@ where
 
     const HASTY: bool = !R::COMPENSATED;
 
+    /// A sweep costs far more than that, and may be noise soon.
+    const LOOKS_AFAR: bool = true;
+
     fn evaluations(&self) -> EvaluationCounts {
         EvaluationCounts {
             begin: 0,
@@ -60,6 +63,10 @@ where
             finish: 0,
             carried: 0,
         }
+    }
+
+    fn time(&self) -> f64 {
+        self.step.time
     }
 
     fn begin(&mut self, kept: Kept) {
@@ -92,11 +99,6 @@ where
     /// They are corrected at once: neither is a function of the other.
     fn both<C: Class>() -> bool {
         true
-    }
-
-    /// Every change is looked at: a sweep costs far more than that, and may be noise soon.
-    fn scales(&self) -> [f64; 2] {
-        [f64::INFINITY; 2]
     }
 
     fn non_finite(&mut self) -> Option<(Quantity, usize)> {

@@ -19,7 +19,7 @@ pub use linear::{Banded, Coupling, Dense, LinearSolver, Matrices, Parts};
 pub use memory::NewtonMemory;
 pub use policy::{FixedPointThenNewton, FixedPointThenNewtonMemory};
 
-use crate::fixed_point::settle;
+use crate::iteration::settle;
 use crate::{
     Failure, Hamiltonian, Inside, Integrator, Kept, Method, Outcome, Solver, StageTableau, Step,
     StoredEvaluations, Summation, Vector, Work,

@@ -1,0 +1,438 @@
+//! Sweep after sweep over coupled stages, until they have settled.
+
+use crate::{
+    Change, Class, EvaluationCounts, Failure, Kept, PartChange, Quantity, Scalar, Separable, Work,
+};
+
+/// Changes up to this many units of EPSILON can be rounding errors: one sweep rounds s products, s sums and the
+/// evaluations, s ≤ 20 in practice. The change also has to have stopped shrinking, so that an iteration which still
+/// gains digits below the threshold goes on.
+const ROUNDING: f64 = 64.0;
+
+/// Sweeps without progress after which a change that has shrunk by [`CONTRACTION`] counts as noise.
+const PATIENCE: u32 = 10;
+
+/// Changes above this many units of EPSILON of the start are not looked at further in the first sweeps: neither are they
+/// the last, nor is the next one by its size alone.
+const FAR: f64 = ROUNDING * ROUNDING;
+
+/// What tells an iteration that came down to its noise from one that never got anywhere.
+const CONTRACTION: f64 = 1.0 / 1024.0;
+
+/// Stages that are iterated.
+pub(crate) trait Sweeps {
+    /// How a sweep moves them.
+    type Movement: Movement;
+
+    /// Whether a change that is down to rounding errors is the last where the next one would be down to a unit of EPSILON.
+    const HASTY: bool;
+
+    /// Whether changes that are far from rounding errors are looked at.
+    const LOOKS_AFAR: bool = false;
+
+    /// How many evaluations they make.
+    fn evaluations(&self) -> EvaluationCounts;
+
+    /// Whether the momenta too show that the iteration goes on: not where they are a function of the positions before.
+    #[inline(always)]
+    fn both<C: Class>() -> bool {
+        !C::SEPARABLE
+    }
+
+    /// When the step starts.
+    fn time(&self) -> f64;
+
+    /// Starting values; evaluations that are made once.
+    fn begin(&mut self, kept: Kept);
+
+    /// The first evaluation that is not finite although its argument is.
+    fn non_finite(&mut self) -> Option<(Quantity, usize)>;
+
+    /// The first stage, from 1, whose force is not finite: forces come first in a sweep.
+    fn non_finite_force(&mut self) -> Option<usize>;
+
+    /// One sweep over all of them.
+    fn sweep(&mut self) -> Self::Movement;
+}
+
+/// How a sweep moved the stages.
+pub(crate) trait Movement: Copy {
+    /// By how much altogether.
+    fn change(&self) -> Change;
+
+    /// Whether it is a number, and by how much the positions moved, and the momenta where they count, not above these bounds.
+    fn is_within(&self, bounds: [f64; 2], both: bool) -> bool;
+
+    /// Whether it is a number, and by how much the positions moved, or the momenta where they count, above its bound.
+    fn exceeds(&self, bounds: [f64; 2], both: bool) -> bool;
+
+    /// Whether the positions, and the momenta where they count, are at least half as large as this.
+    fn is_as_large(&self, scales: [f64; 2], both: bool) -> bool;
+}
+
+impl Movement for Change {
+    #[inline(always)]
+    fn change(&self) -> Change {
+        *self
+    }
+
+    #[inline(always)]
+    fn is_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
+        self.q.difference() <= q && (!both || self.p.difference() <= p)
+    }
+
+    #[inline(always)]
+    fn exceeds(&self, [q, p]: [f64; 2], both: bool) -> bool {
+        self.q.difference() > q || both && self.p.difference() > p
+    }
+
+    #[inline(always)]
+    fn is_as_large(&self, [q, p]: [f64; 2], both: bool) -> bool {
+        self.q.scale() >= 0.5 * q && (!both || self.p.scale() >= 0.5 * p)
+    }
+}
+
+/// Iterates until the stages have settled; returns what that took.
+#[inline(always)]
+pub(crate) fn settle<C: Class, T: Scalar>(
+    sweeps: &mut impl Sweeps,
+    kept: Kept,
+    max_iterations: u32,
+) -> Result<Work, Failure> {
+    let mut work = Work::default();
+    let mut kept = kept;
+    loop {
+        let solved = solve::<C, T>(sweeps, kept, max_iterations, &mut work);
+        if solved.is_ok() || !kept.stages {
+            return solved.map(|()| work);
+        }
+        // What the step before was like may say nothing about this one: once more without it.
+        kept.stages = false;
+    }
+}
+
+/// Finds the coupled stages, and adds to `work` what that took.
+#[inline(always)]
+fn solve<C: Class, T: Scalar>(
+    sweeps: &mut impl Sweeps,
+    kept: Kept,
+    max_iterations: u32,
+    work: &mut Work,
+) -> Result<(), Failure> {
+    sweeps.begin(kept);
+    let counts = sweeps.evaluations();
+    let made = counts.at_begin(kept);
+    work.evaluations += made;
+    // With stages that are kept the first sweep shows it, and the attempt without them is looked at.
+    if made > 0
+        && !kept.stages
+        && let Some((what, stage)) = sweeps.non_finite()
+    {
+        return Err(Failure::NonFinite {
+            what,
+            stage: Some(stage),
+        });
+    }
+    let solved = iterate::<C, T, _>(sweeps, max_iterations);
+    let iterations = match solved {
+        Ok(iterations) | Err(Failure::NoConvergence { iterations, .. }) => iterations,
+        Err(Failure::NonFinite { .. } | Failure::SingularMatrix) => 1,
+    };
+    work.iterations += iterations;
+    work.evaluations += iterations * counts.sweep;
+    solved.map(|_| ())
+}
+
+/// Sweeps until stagnation; returns the number of sweeps.
+///
+/// A change that grows ends nothing: where the stages are many and their coupling is far from normal, it can
+/// grow for many sweeps and vanish after all. A true divergence ends at the bound or overflows.
+#[inline(always)]
+fn iterate<C: Class, T: Scalar, W: Sweeps>(
+    sweeps: &mut W,
+    max_iterations: u32,
+) -> Result<u32, Failure> {
+    let both = W::both::<C>();
+    let relative = |change: &Change| match both {
+        true => change.residual(),
+        false => change.q.relative(),
+    };
+    // What shrinks from sweep to sweep: without a division where it is one half.
+    let size = |change: &Change| match both {
+        true => change.residual(),
+        false => change.q.difference(),
+    };
+    let units = |count: f64, [q, p]: [f64; 2]| [count * T::EPSILON * q, count * T::EPSILON * p];
+    let mut last = Change::default();
+    let (mut scales, mut far, mut enough) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+    let (mut smallest, mut largest) = (f64::INFINITY, 0.0);
+    let mut idle = 0;
+    let mut once_more = false;
+    for iteration in 1..=max_iterations {
+        let movement = sweeps.sweep();
+        if once_more {
+            return Ok(iteration);
+        }
+        if iteration == 1 {
+            last = movement.change();
+            if last.is_undefined() {
+                return Err(non_finite(sweeps, &last));
+            }
+            largest = size(&last);
+            scales = last.scales();
+            far = units(FAR, scales);
+            // There is none before it that would tell how fast they shrink.
+            enough = units(1.0, scales);
+        }
+        // Comparisons with what is known before the sweep: the processor need not wait for the largest of all lanes.
+        if W::HASTY && movement.is_within(enough, both) && movement.is_as_large(scales, both) {
+            return Ok(iteration);
+        }
+        let early = iteration < PATIENCE && iteration < max_iterations;
+        if !W::LOOKS_AFAR && early && movement.exceeds(far, both) {
+            enough = units(ROUNDING, scales);
+            continue;
+        }
+        let change = movement.change();
+        if change.is_undefined() {
+            // It has run away.
+            return Err(Failure::NoConvergence {
+                residual: relative(&last),
+                iterations: iteration,
+            });
+        }
+        last = change;
+        let size = size(&change);
+        // Comparisons, for it is a number: `min` and `max` look whether it is.
+        (smallest, idle) = if size < smallest {
+            (size, 0)
+        } else {
+            (smallest, idle + 1)
+        };
+        largest = larger(size, largest);
+        let is_rounding = || C::settling(&change) <= ROUNDING * T::EPSILON;
+        let is_noise = || {
+            smallest <= CONTRACTION * largest
+                && Separable::settling(&change) <= ROUNDING * T::EPSILON
+        };
+        if size == 0.0 {
+            return Ok(iteration);
+        }
+        if idle > 0 && is_rounding() || idle >= PATIENCE && is_noise() {
+            if W::HASTY || iteration == max_iterations || !coin(sweeps.time()) {
+                return Ok(iteration);
+            }
+            once_more = true;
+        }
+        scales = change.scales();
+        enough = [change.q, change.p].map(|part| enough_after::<T>(&part));
+    }
+    Err(Failure::NoConvergence {
+        residual: relative(&last),
+        iterations: max_iterations,
+    })
+}
+
+/// The change after which none is more than a unit of EPSILON, should it and the next one shrink by the factor by which this
+/// one has: `next²/this` is the one after it.
+#[inline(always)]
+fn enough_after<T: Scalar>(this: &PartChange) -> f64 {
+    let unit = T::EPSILON * this.scale();
+    let next = Scalar::sqrt(T::EPSILON * this.difference()) * Scalar::sqrt(this.scale());
+    let next = larger(next, unit);
+    let most = ROUNDING * unit;
+    if next < most { next } else { most }
+}
+
+/// A bit of the time that is as good as random, and the same on every run.
+///
+/// Where stages stagnate without standing still, rounding lets them jump to and fro, from sweep to sweep, between two values.
+/// At which of the two the iteration ends goes with the side from which it came, and starting values come from the same side
+/// at every step: the energy would drift, for Hénon–Heiles and Gauss 8 by 1e-22 a step.
+#[inline]
+const fn coin(time: f64) -> bool {
+    // All bits of the time go into every bit (Appleby, MurmurHash3, the last mixing).
+    let mut bits = time.to_bits();
+    bits = (bits ^ bits >> 33).wrapping_mul(0xff51_afd7_ed55_8ccd);
+    bits = (bits ^ bits >> 33).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+    (bits ^ bits >> 33) & 1 == 1
+}
+
+/// What is to blame for a first sweep that is not finite.
+// A function of its own, which the stages were passed to, would keep them out of registers.
+#[inline(always)]
+fn non_finite(sweeps: &mut impl Sweeps, change: &Change) -> Failure {
+    let part = if change.q.is_undefined() {
+        Quantity::Position
+    } else {
+        Quantity::Momentum
+    };
+    let force = sweeps.non_finite_force();
+    let culprit = force.map(|stage| (Quantity::Force, stage));
+    let culprit = culprit.or_else(|| sweeps.non_finite());
+    Failure::NonFinite {
+        what: culprit.map_or(part, |(what, _)| what),
+        stage: culprit.map(|(_, stage)| stage),
+    }
+}
+
+/// The larger of two numbers.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::General;
+
+    /// Stages whose changes are given, in units of EPSILON of the values.
+    struct Scripted<'a, const HASTY: bool> {
+        changes: &'a [[f64; 2]],
+        /// Of the values in each sweep; the last one in all that follow.
+        scales: &'a [f64],
+        made: usize,
+        time: f64,
+    }
+
+    impl<const HASTY: bool> Sweeps for Scripted<'_, HASTY> {
+        type Movement = Change;
+
+        const HASTY: bool = HASTY;
+
+        fn evaluations(&self) -> EvaluationCounts {
+            EvaluationCounts {
+                begin: 0,
+                start: 0,
+                sweep: 1,
+                finish: 0,
+                carried: 0,
+            }
+        }
+
+        fn time(&self) -> f64 {
+            self.time
+        }
+
+        fn begin(&mut self, _kept: Kept) {}
+
+        fn non_finite(&mut self) -> Option<(Quantity, usize)> {
+            None
+        }
+
+        fn non_finite_force(&mut self) -> Option<usize> {
+            None
+        }
+
+        fn sweep(&mut self) -> Change {
+            let scale = self.scales[self.made.min(self.scales.len() - 1)];
+            let [q, p] = self.changes[self.made]
+                .map(|units| PartChange::new(units * f64::EPSILON * scale, scale));
+            self.made += 1;
+            Change { q, p }
+        }
+    }
+
+    /// The sweeps of an iteration with these changes that begins at a time with this coin.
+    fn sweeps<C: Class, const HASTY: bool>(
+        changes: &[[f64; 2]],
+        scales: &[f64],
+        coin: bool,
+    ) -> Result<u32, Failure> {
+        let mut time = 1.0;
+        while super::coin(time) != coin {
+            time += 1.0;
+        }
+        let mut script = Scripted::<HASTY> {
+            changes,
+            scales,
+            made: 0,
+            time,
+        };
+        iterate::<C, f64, _>(&mut script, changes.len() as u32)
+    }
+
+    /// The same changes of both halves.
+    fn alike<const N: usize>(changes: [f64; N]) -> [[f64; 2]; N] {
+        changes.map(|units| [units, units])
+    }
+
+    #[test]
+    fn what_stagnates_has_one_sweep_more_at_half_of_all_times() {
+        let changes = alike([1e12, 1e6, 10.0, 1.0, 1.0, 1.0, 1.0]);
+        assert_eq!(sweeps::<Separable, false>(&changes, &[1.0], false), Ok(5));
+        assert_eq!(sweeps::<Separable, false>(&changes, &[1.0], true), Ok(6));
+        // Not where the bound is reached.
+        let bounded = sweeps::<Separable, false>(&changes[..5], &[1.0], true);
+        assert_eq!(bounded, Ok(5));
+        // What stands still has not: nothing would change.
+        let changes = alike([1e12, 1e6, 10.0, 0.0, 0.0, 0.0]);
+        assert_eq!(sweeps::<Separable, false>(&changes, &[1.0], true), Ok(4));
+    }
+
+    #[test]
+    fn the_coin_falls_as_often_on_either_side_whatever_the_steps_are() {
+        for size in [0.125, 0.1, 488.0, 1e-7, 1.0 / 3.0, -0.39] {
+            for start in [0.0, 1e3, 2.5e6] {
+                let coin = |step: u32| coin(start + f64::from(step) * size);
+                let heads = (0..10_000).filter(|&step| coin(step)).count();
+                let pairs = (0..10_000).filter(|&step| coin(step) == coin(step + 1));
+                let pairs = pairs.count();
+                // Four standard deviations of as many independent ones.
+                assert!(heads.abs_diff(5_000) <= 200, "{size} {start}: {heads}");
+                assert!(pairs.abs_diff(5_000) <= 200, "{size} {start}: {pairs}");
+            }
+        }
+    }
+
+    #[test]
+    fn changes_far_from_rounding_are_not_looked_at_in_the_first_sweeps() {
+        // It would be noise at the third sweep: 2^-10 of the first, and not shrinking, but not rounding errors.
+        let far = 5e3;
+        let changes = alike([1e12, far, far, far, far, far, far, far, far, 1.0, 1.0]);
+        assert_eq!(sweeps::<Separable, false>(&changes, &[1.0], false), Ok(11));
+        // A bound that comes first is not missed by it.
+        let shown = sweeps::<Separable, false>(&changes[..5], &[1.0], false);
+        let Err(Failure::NoConvergence {
+            residual,
+            iterations: 5,
+        }) = shown
+        else {
+            panic!("{shown:?}");
+        };
+        assert_eq!(residual, far * f64::EPSILON);
+    }
+
+    #[test]
+    fn a_hasty_iteration_ends_where_the_next_change_would_be_a_unit() {
+        // 30²/1000 is below one, 50²/1000 is not.
+        let near = alike([1e12, 1e9, 1000.0, 30.0, 1.0, 1.0]);
+        assert_eq!(sweeps::<Separable, true>(&near, &[1.0], true), Ok(4));
+        let far = alike([1e12, 1e9, 1000.0, 50.0, 1.0, 1.0]);
+        assert_eq!(sweeps::<Separable, true>(&far, &[1.0], true), Ok(5));
+    }
+
+    #[test]
+    fn a_hasty_iteration_waits_for_the_slower_half() {
+        let changes = [
+            [1e12, 1e12],
+            [1e3, 1e10],
+            [1.0, 1e8],
+            [0.5, 1e3],
+            [0.5, 10.0],
+            [0.5, 0.5],
+        ];
+        assert_eq!(sweeps::<General, true>(&changes, &[1.0], true), Ok(5));
+        // The momenta of a separable system are a function of the positions.
+        assert_eq!(sweeps::<Separable, true>(&changes, &[1.0], true), Ok(3));
+    }
+
+    #[test]
+    fn values_that_were_large_once_leave_no_bound_that_is_too_wide() {
+        // The changes go with values that shrink from 10⁶ to 1: 50 units of 10⁶ are many of 1.
+        let scales = [1e6, 1.0];
+        let changes = alike([1e12, 5e7, 1e4, 1.0, 0.5]);
+        assert_eq!(sweeps::<Separable, true>(&changes, &scales, true), Ok(4));
+    }
+}
