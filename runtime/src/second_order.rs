@@ -270,7 +270,12 @@ where
         let start = stages.p.as_ref();
         let value = |(group, k): (usize, usize), (base, low): (P::Lanes, P::Lanes), sum| {
             let node: P::Lanes = lanes(tableau::<P>().nodes, group);
-            let drift = node * start[group].as_slice()[k];
+            // The momentum itself is shorter than the same in all lanes, which long vectors would read in every sweep.
+            let velocity = match <S as Hamiltonian<V>>::UNIT_MASSES {
+                true => P::Lanes::from_f64(step.p.as_slice()[k]),
+                false => start[group].as_slice()[k],
+            };
+            let drift = node * velocity;
             match R::COMPENSATED {
                 true => base + (h * (drift + sum) + low),
                 // All but the sum is the same in every sweep.
