@@ -477,7 +477,7 @@ impl<L: Lanes> Movement for LaneMovement<L> {
 
     #[inline(always)]
     fn exceeds(&self, [q, p]: [f64; 2], both: bool) -> bool {
-        self.q.exceeds(q) || both && self.p.exceeds(p)
+        self.q.exceeds(q) && (!both || self.p.exceeds(p))
     }
 
     #[inline(always)]

@@ -63,7 +63,7 @@ pub(crate) trait Movement: Copy {
     /// Whether it is a number, and by how much the positions moved, and the momenta where they count, not above these bounds.
     fn is_within(&self, bounds: [f64; 2], both: bool) -> bool;
 
-    /// Whether it is a number, and by how much the positions moved, or the momenta where they count, above its bound.
+    /// Whether it is a number, and by how much the positions moved, and the momenta where they count, above these bounds.
     fn exceeds(&self, bounds: [f64; 2], both: bool) -> bool;
 
     /// Whether the positions, and the momenta where they count, are at least half as large as this.
@@ -83,7 +83,7 @@ impl Movement for Change {
 
     #[inline(always)]
     fn exceeds(&self, [q, p]: [f64; 2], both: bool) -> bool {
-        self.q.difference() > q || both && self.p.difference() > p
+        self.q.difference() > q && (!both || self.p.difference() > p)
     }
 
     #[inline(always)]
@@ -426,6 +426,23 @@ mod tests {
         assert_eq!(sweeps::<General, true>(&changes, &[1.0], true), Ok(5));
         // The momenta of a separable system are a function of the positions.
         assert_eq!(sweeps::<Separable, true>(&changes, &[1.0], true), Ok(3));
+    }
+
+    #[test]
+    fn a_half_that_is_near_is_looked_at_beside_one_that_is_far() {
+        let changes = [
+            [1e12, 1e12],
+            [100.0, 1e6],
+            [50.0, 10.0],
+            [25.0, 1.0],
+            [12.0, 0.5],
+            [6.0, 0.5],
+            [3.0, 0.5],
+            [1.5, 0.5],
+            [0.5, 0.5],
+        ];
+        // 6²/12 and 3²/6 are above one, 1.5²/3 is not.
+        assert_eq!(sweeps::<General, true>(&changes, &[1.0], true), Ok(8));
     }
 
     #[test]
