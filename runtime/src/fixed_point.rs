@@ -20,9 +20,9 @@ use crate::{
 /// errors; these are counted from the tenth on while the change is above 4096 units of the first stages.
 ///
 /// Where it has settled with a change that is not zero, rounding makes stages jump to and fro between two values, and the side
-/// that the starting values come from says at which of them it ends: a drift too, the smaller one of 1e-22 of the energy a step
-/// that was left (measured; Hénon–Heiles, Gauss 8). At half of these steps, by a bit of their time that is as good as random,
-/// there is one sweep more.
+/// that the starting values come from says at which of them it ends. The energy would drift by that too, though by 1e-21 of it
+/// a step (measured; Hénon–Heiles, Gauss 8). At half of these steps, by a bit of their time that is as good as random, there
+/// is one sweep more.
 ///
 /// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for the stagnation: it
 /// ends with a change that is at most 64 units of [`Scalar::EPSILON`] if the next one, should it shrink by the same factor,

@@ -12,8 +12,8 @@ const ROUNDING: f64 = 64.0;
 /// Sweeps without progress after which a change that has shrunk by [`CONTRACTION`] counts as noise.
 const PATIENCE: u32 = 10;
 
-/// Changes above this many units of EPSILON of the start are not looked at further in the first sweeps: neither are they
-/// the last, nor is the next one by its size alone.
+/// Changes above this many units of EPSILON of the first stages are not looked at further in the first sweeps: neither are
+/// they the last, nor is the next one by its size alone.
 const FAR: f64 = ROUNDING * ROUNDING;
 
 /// What tells an iteration that came down to its noise from one that never got anywhere.
@@ -248,7 +248,7 @@ fn enough_after<T: Scalar>(this: &PartChange) -> f64 {
 ///
 /// Where stages stagnate without standing still, rounding lets them jump to and fro, from sweep to sweep, between two values.
 /// At which of the two the iteration ends goes with the side from which it came, and starting values come from the same side
-/// at every step: the energy would drift, for Hénon–Heiles and Gauss 8 by 1e-22 a step.
+/// at every step: the energy would drift, for Hénon–Heiles and Gauss 8 by 1e-21 of it a step.
 #[inline]
 const fn coin(time: f64) -> bool {
     // All bits of the time go into every bit (Appleby, MurmurHash3, the last mixing).
