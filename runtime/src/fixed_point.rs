@@ -13,9 +13,9 @@ use crate::{
 ///
 /// The iteration runs until it stagnates, for a tolerance above the rounding errors would let the energy drift
 /// (Hairer, McLachlan & Razakarivony, 2008). It has settled when a sweep changes nothing, or when the change has
-/// stopped shrinking and is down to rounding errors, at most 64 units of [`Scalar::EPSILON`] relative to the
+/// stopped shrinking and is down to rounding errors, at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) relative to the
 /// largest position and the largest momentum: in either half for a separable system, in both for a general one
-/// (see [`Class::settling`]). For a general one whose evaluations are noisier than that, it is enough that the
+/// (see [`Class::settling`](crate::Class::settling)). For a general one whose evaluations are noisier than that, it is enough that the
 /// change has shrunk a thousandfold, has not shrunk further in ten sweeps, and one half is down to rounding
 /// errors; these are counted from the tenth on while the change is above 4096 units of the first stages.
 ///
@@ -25,7 +25,7 @@ use crate::{
 /// is one sweep more.
 ///
 /// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for the stagnation: it
-/// ends with a change that is at most 64 units of [`Scalar::EPSILON`] if the next one, should it shrink by the same factor,
+/// ends with a change that is at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) if the next one, should it shrink by the same factor,
 /// would be at most one.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint;
