@@ -163,7 +163,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         false => change.q.difference(),
     };
     let units = |count: f64, [q, p]: [f64; 2]| [count * T::EPSILON * q, count * T::EPSILON * p];
-    let mut last = Change::default();
+    let (mut last, mut looked) = (Change::default(), 0);
     let (mut scales, mut far, mut enough) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0);
     let mut idle = 0;
@@ -174,7 +174,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
             return Ok(iteration);
         }
         if iteration == 1 {
-            last = movement.change();
+            (last, looked) = (movement.change(), iteration);
             if last.is_undefined() {
                 return Err(non_finite(sweeps, &last));
             }
@@ -195,13 +195,17 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         }
         let change = movement.change();
         if change.is_undefined() {
-            // It has run away.
+            // It has run away: the change before is shown, if it was looked at.
+            let residual = match looked + 1 == iteration {
+                true => relative(&last),
+                false => f64::INFINITY,
+            };
             return Err(Failure::NoConvergence {
-                residual: relative(&last),
+                residual,
                 iterations: iteration,
             });
         }
-        last = change;
+        (last, looked) = (change, iteration);
         let size = size(&change);
         // Comparisons, for it is a number: `min` and `max` look whether it is.
         (smallest, idle) = if size < smallest {
@@ -402,6 +406,19 @@ mod tests {
             panic!("{shown:?}");
         };
         assert_eq!(residual, far * f64::EPSILON);
+    }
+
+    #[test]
+    fn what_runs_away_shows_the_change_before_if_it_was_looked_at() {
+        let residual =
+            |changes: &[[f64; 2]]| match sweeps::<Separable, false>(changes, &[1.0], false) {
+                Err(Failure::NoConvergence { residual, .. }) => residual,
+                other => panic!("{other:?}"),
+            };
+        let near = alike([1e12, 1e3, f64::NAN, 0.0]);
+        assert_eq!(residual(&near), 1e3 * f64::EPSILON);
+        let far = alike([1e12, 1e14, 1e18, f64::NAN, 0.0]);
+        assert_eq!(residual(&far), f64::INFINITY);
     }
 
     #[test]
