@@ -18,7 +18,8 @@ pub enum Error {
         step_size: f64,
         /// Number of the step, from 1.
         step: u64,
-        /// Relative change of the stages in the last sweep in which it was finite.
+        /// Relative change of the stages in the last sweep in which it was finite; infinite where it grew so fast that it was
+        /// not looked at.
         residual: f64,
         /// Sweeps made.
         iterations: u32,
