@@ -22,7 +22,7 @@ use crate::{
 /// Where it has settled with a change that is not zero, rounding makes stages jump to and fro between two values, and the side
 /// that the starting values come from says at which of them it ends. The energy would drift by that too, though by 1e-21 of it
 /// a step (measured; Hénon–Heiles, Gauss 8). At half of these steps, by a bit of their time that is as good as random, there
-/// is one sweep more.
+/// is one sweep more, unless there were ten.
 ///
 /// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for the stagnation: it
 /// ends with a change that is at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) if the next one, should it shrink by the same factor,

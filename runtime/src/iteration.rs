@@ -223,7 +223,8 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
             return Ok(iteration);
         }
         if idle > 0 && is_rounding() || idle >= PATIENCE && is_noise() {
-            if W::HASTY || iteration == max_iterations || !coin(sweeps.time()) {
+            // What took many sweeps converges so slowly that another one is not about rounding.
+            if W::HASTY || !early || !coin(sweeps.time()) {
                 return Ok(iteration);
             }
             once_more = true;
