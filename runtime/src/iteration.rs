@@ -12,9 +12,16 @@ const ROUNDING: f64 = 64.0;
 /// Sweeps without progress after which a change that has shrunk by [`CONTRACTION`] counts as noise.
 const PATIENCE: u32 = 10;
 
+/// The part of its sweeps for which an iteration has to be without progress: where it converges slowly and turns as it does,
+/// changes grow now and then long before it has settled.
+const STAGNATION: u32 = 16;
+
 /// Changes above this many units of EPSILON of the first stages are not looked at further in the first sweeps: neither are
 /// they the last, nor is the next one by its size alone.
 const FAR: f64 = ROUNDING * ROUNDING;
+
+/// Noise up to this many units of EPSILON is noise still where it was at most [`ROUNDING`] before.
+const AMPLIFIED: f64 = 4.0 * ROUNDING;
 
 /// What tells an iteration that came down to its noise from one that never got anywhere.
 const CONTRACTION: f64 = 1.0 / 1024.0;
@@ -215,14 +222,17 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         };
         largest = larger(size, largest);
         let is_rounding = || C::settling(&change) <= ROUNDING * T::EPSILON;
+        // What rounding does may be amplified by all sweeps after the one whose change was the smallest.
         let is_noise = || {
+            let settling = Separable::settling(&change);
             smallest <= CONTRACTION * largest
-                && Separable::settling(&change) <= ROUNDING * T::EPSILON
+                && settling * smallest <= ROUNDING * T::EPSILON * size
+                && settling <= AMPLIFIED * T::EPSILON
         };
         if size == 0.0 {
             return Ok(iteration);
         }
-        if idle > 0 && is_rounding() || idle >= PATIENCE && is_noise() {
+        if idle > iteration / STAGNATION && is_rounding() || idle >= PATIENCE && is_noise() {
             // What took many sweeps converges so slowly that another one is not about rounding.
             if W::HASTY || !early || !coin(sweeps.time()) {
                 return Ok(iteration);
@@ -291,6 +301,7 @@ fn larger(a: f64, b: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::General;
+    use alloc::vec::Vec;
 
     /// Stages whose changes are given, in units of EPSILON of the values.
     struct Scripted<'a, const HASTY: bool> {
@@ -407,6 +418,33 @@ mod tests {
             panic!("{shown:?}");
         };
         assert_eq!(residual, far * f64::EPSILON);
+    }
+
+    #[test]
+    fn a_slow_iteration_that_grows_for_a_sweep_goes_on() {
+        // Four fifths a sweep, but every other change is half of what it were: from the 46th it is down to 64 units.
+        let mut changes: Vec<[f64; 2]> = (0..64)
+            .map(|sweep| 1e6 * 0.8_f64.powi(sweep) / f64::from(1 + sweep % 2))
+            .map(|units| [units, units])
+            .collect();
+        changes.extend([[1.0, 1.0]; 10]);
+        assert_eq!(sweeps::<Separable, false>(&changes, &[1.0], false), Ok(69));
+    }
+
+    #[test]
+    fn noise_may_be_amplified_after_it_was_rounding() {
+        let dip = [1e12, 1e9, 1e6, 1e3, 50.0];
+        let changes = |after: f64| {
+            let mut changes = alike(dip).to_vec();
+            changes.extend([[after, after]; 30]);
+            sweeps::<Separable, false>(&changes, &[1.0], false)
+        };
+        assert_eq!(changes(60.0), Ok(6));
+        // Ten sweeps without progress.
+        assert_eq!(changes(200.0), Ok(15));
+        let Err(Failure::NoConvergence { iterations: 35, .. }) = changes(300.0) else {
+            panic!("{:?}", changes(300.0));
+        };
     }
 
     #[test]
