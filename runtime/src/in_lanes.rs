@@ -72,13 +72,13 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for LaneStages<V,
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
-        let first = |half: &HalfTableau, values: &P::Groups<_>, evaluations: &P::Groups<_>| {
+        let first = |half: &HalfTableau, values: &[_], evaluations: &[_]| {
             (0..half.count).find(|&stage| {
                 is_lane_finite::<V, P>(values, stage) && !is_lane_finite::<V, P>(evaluations, stage)
             })
         };
-        let force = first(&P::POSITIONS, &self.q, &self.force);
-        let velocity = first(&P::MOMENTA, &self.p, &self.velocity);
+        let force = first(&P::POSITIONS, self.q.as_ref(), self.force.as_ref());
+        let velocity = first(&P::MOMENTA, self.p.as_ref(), self.velocity.as_ref());
         match (force, velocity) {
             (Some(i), Some(j)) if j < i => Some((Quantity::Velocity, j + 1)),
             (Some(i), _) => Some((Quantity::Force, i + 1)),
@@ -88,7 +88,7 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for LaneStages<V,
 
     fn non_finite_force(&self) -> Option<usize> {
         let mut stages = 0..P::POSITIONS.count;
-        let first = stages.find(|&stage| !is_lane_finite::<V, P>(&self.force, stage));
+        let first = stages.find(|&stage| !is_lane_finite::<V, P>(self.force.as_ref(), stage));
         first.map(|index| index + 1)
     }
 
@@ -108,11 +108,8 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for LaneStages<V,
 }
 
 /// Whether a vector is finite in the lane of a stage.
-fn is_lane_finite<V: Vector, P: StageTableau>(
-    groups: &P::Groups<Laned<V, P>>,
-    stage: usize,
-) -> bool {
-    let group = &groups.as_ref()[stage / P::Lanes::WIDTH];
+fn is_lane_finite<V: Vector, P: StageTableau>(groups: &[Laned<V, P>], stage: usize) -> bool {
+    let group = &groups[stage / P::Lanes::WIDTH];
     let lane = stage % P::Lanes::WIDTH;
     let mut components = group.as_slice().iter();
     components.all(|component| component.to_array().as_ref()[lane].is_finite())
@@ -150,14 +147,14 @@ where
         total::<R, P, V>(
             (q, q_low),
             (step.q, step.q_low),
-            &stages.velocity,
+            stages.velocity.as_ref(),
             &P::MOMENTA,
             step.size,
         );
         total::<R, P, V>(
             (p, p_low),
             (step.p, step.p_low),
-            &stages.force,
+            stages.force.as_ref(),
             &P::POSITIONS,
             step.size,
         );
@@ -165,8 +162,8 @@ where
     }
 
     fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside, q: &mut V, p: &mut V) {
-        extend::<P, V>(&P::MOMENTA, at, &stages.velocity, q);
-        extend::<P, V>(&P::POSITIONS, at, &stages.force, p);
+        extend::<P, V>(&P::MOMENTA, at, stages.velocity.as_ref(), q);
+        extend::<P, V>(&P::POSITIONS, at, stages.force.as_ref(), p);
     }
 }
 
@@ -174,7 +171,7 @@ where
 pub(crate) fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
     half: &HalfTableau,
     at: Inside,
-    terms: &P::Groups<Laned<V, P>>,
+    terms: &[Laned<V, P>],
     out: &mut V,
 ) {
     let Some(polynomial) = half.polynomial else {
@@ -233,14 +230,14 @@ where
         let extrapolates = !P::MOMENTA.extrapolation.is_empty()
             && (P::Class::SEPARABLE || !P::POSITIONS.extrapolation.is_empty());
         if kept.stages && extrapolates {
-            extrapolate::<P, V>(&P::MOMENTA, &mut self.stages.velocity);
+            extrapolate::<P, V>(&P::MOMENTA, self.stages.velocity.as_mut());
             if !P::Class::SEPARABLE {
-                extrapolate::<P, V>(&P::POSITIONS, &mut self.stages.force);
+                extrapolate::<P, V>(&P::POSITIONS, self.stages.force.as_mut());
                 self.momenta();
             }
         } else {
-            fill::<P, V>(&mut self.stages.q, self.step.q);
-            fill::<P, V>(&mut self.stages.p, self.step.p);
+            fill::<P, V>(self.stages.q.as_mut(), self.step.q);
+            fill::<P, V>(self.stages.p.as_mut(), self.step.p);
             self.velocities();
         }
         self.positions();
@@ -279,7 +276,8 @@ where
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.q, step.q_low);
         let sums = sums::<P>(&P::POSITIONS, step.size);
-        values::<P, V>(&sums, &mut stages.q, base, &stages.velocity, sum::<R, P>)
+        let terms = stages.velocity.as_ref();
+        values::<P, V>(&sums, stages.q.as_mut(), base, terms, sum::<R, P>)
     }
 
     /// New momenta; returns how much they changed.
@@ -288,17 +286,18 @@ where
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.p, step.p_low);
         let sums = sums::<P>(&P::MOMENTA, step.size);
-        values::<P, V>(&sums, &mut stages.p, base, &stages.force, sum::<R, P>)
+        let terms = stages.force.as_ref();
+        values::<P, V>(&sums, stages.p.as_mut(), base, terms, sum::<R, P>)
     }
 
     /// Evaluates all forces.
     #[inline(always)]
     pub(crate) fn forces(&mut self) {
         let LaneStages { q, p, force, .. } = &mut *self.stages;
-        let groups = q.as_ref().iter().zip(p.as_ref()).zip(force.as_mut());
-        for (group, ((q, p), force)) in groups.enumerate() {
+        let (q, p) = (q.as_ref(), p.as_ref());
+        for (group, force) in force.as_mut().iter_mut().enumerate() {
             let time = times::<P, V>(&P::POSITIONS, self.step, group);
-            P::Lanes::force::<V, S>(self.system, time, q, p, force);
+            P::Lanes::force::<V, S>(self.system, time, &q[group], &p[group], force);
             scale::<P, V>(&P::POSITIONS, self.step.size, group, force);
         }
     }
@@ -307,14 +306,17 @@ where
     #[inline(always)]
     pub(crate) fn velocities(&mut self) {
         let LaneStages { q, p, velocity, .. } = &mut *self.stages;
-        let groups = q.as_ref().iter().zip(p.as_ref()).zip(velocity.as_mut());
-        for (group, ((q, p), velocity)) in groups.enumerate() {
+        let (q, p) = (q.as_ref(), p.as_ref());
+        for (group, velocity) in velocity.as_mut().iter_mut().enumerate() {
             let time = times::<P, V>(&P::MOMENTA, self.step, group);
-            P::Lanes::velocity::<V, S>(self.system, time, q, p, velocity);
+            P::Lanes::velocity::<V, S>(self.system, time, &q[group], &p[group], velocity);
             scale::<P, V>(&P::MOMENTA, self.step.size, group, velocity);
         }
     }
 }
+
+// These functions are given slices, not arrays of groups: where LLVM knows the length of what a reference points to, it
+// widens loads of single lanes beyond the group, and the processor has to wait until both groups are in memory.
 
 /// The lanes of one group in a list over the stages.
 #[inline(always)]
@@ -348,24 +350,26 @@ fn scale<P: StageTableau, V: Vector>(
 
 /// Copies a vector to all lanes.
 #[inline(always)]
-pub(crate) fn fill<P: StageTableau, V: Vector<Scalar = f64>>(
-    groups: &mut P::Groups<Laned<V, P>>,
-    from: &V,
-) {
-    for group in groups.as_mut() {
-        let components = group.as_mut_slice().iter_mut().zip(from.as_slice());
-        components.for_each(|(lanes, &component)| *lanes = P::Lanes::from_f64(component));
+pub(crate) fn fill<P: StageTableau, V: Vector<Scalar = f64>>(groups: &mut [Laned<V, P>], from: &V) {
+    let from = from.as_slice();
+    for group in groups {
+        let group = group.as_mut_slice();
+        let n = group.len().min(from.len());
+        let (group, from) = (&mut group[..n], &from[..n]);
+        for k in 0..n {
+            group[k] = P::Lanes::from_f64(from[k]);
+        }
     }
 }
 
 /// The double of one stage in one component.
 #[inline(always)]
 pub(crate) fn entry<P: StageTableau, V: Vector>(
-    groups: &P::Groups<Laned<V, P>>,
+    groups: &[Laned<V, P>],
     stage: usize,
     component: usize,
 ) -> f64 {
-    let group = &groups.as_ref()[stage / P::Lanes::WIDTH];
+    let group = &groups[stage / P::Lanes::WIDTH];
     group.as_slice()[component].to_array().as_ref()[stage % P::Lanes::WIDTH]
 }
 
@@ -406,12 +410,13 @@ fn sums<P: StageTableau>(
 #[inline(always)]
 pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     sums: &Sums<impl Fn(usize) -> &'static [f64]>,
-    out: &mut P::Groups<Laned<V, P>>,
+    out: &mut [Laned<V, P>],
     (base, low): (&V, &V),
-    terms: &P::Groups<Laned<V, P>>,
+    terms: &[Laned<V, P>],
     value: impl Fn((usize, usize), (P::Lanes, P::Lanes), P::Lanes) -> P::Lanes,
 ) -> LanePart<P::Lanes> {
-    let n = shortest::<P, V>(out, terms)
+    let n = shortest(out)
+        .min(shortest(terms))
         .min(base.dimension())
         .min(low.dimension());
     let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
@@ -421,7 +426,7 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     for k in 0..n {
         let start = P::Lanes::from_f64(base[k]);
         scale = scale.larger(start.abs());
-        for (group, out) in out.as_mut().iter_mut().enumerate() {
+        for (group, out) in out.iter_mut().enumerate() {
             let sum_of_terms = combination::<P, V>(sums, group, terms, k);
             let new = value(
                 (group, k),
@@ -529,7 +534,7 @@ fn sum<R: Summation, P: StageTableau>(
 fn combination<P: StageTableau, V: Vector>(
     sums: &Sums<impl Fn(usize) -> &'static [f64]>,
     group: usize,
-    terms: &P::Groups<Laned<V, P>>,
+    terms: &[Laned<V, P>],
     component: usize,
 ) -> P::Lanes {
     sum_of_products(sums.count, |j| {
@@ -547,9 +552,9 @@ fn combination<P: StageTableau, V: Vector>(
 #[inline(always)]
 pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
     half: &HalfTableau,
-    increments: &mut P::Groups<Laned<V, P>>,
+    increments: &mut [Laned<V, P>],
 ) {
-    let n = shortest::<P, V>(increments, increments);
+    let n = shortest(increments);
     let columns = half.extrapolation;
     let sums = Sums::new(columns.len(), |j: usize| columns[j]);
     let mut new = P::groups(|_| P::Lanes::from_f64(0.0));
@@ -557,8 +562,8 @@ pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
         for (group, new) in new.as_mut().iter_mut().enumerate() {
             *new = combination::<P, V>(&sums, group, increments, k);
         }
-        for (group, new) in increments.as_mut().iter_mut().zip(new.as_ref()) {
-            group.as_mut_slice()[k] = *new;
+        for (group, new) in new.as_ref().iter().enumerate() {
+            increments[group].as_mut_slice()[k] = *new;
         }
     }
 }
@@ -568,11 +573,11 @@ pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
 pub(crate) fn total<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
     (out, out_low): (&mut V, &mut V),
     (base, low): (&V, &V),
-    terms: &P::Groups<Laned<V, P>>,
+    terms: &[Laned<V, P>],
     half: &HalfTableau,
     h: f64,
 ) {
-    let n = shortest::<P, V>(terms, terms).min(base.dimension());
+    let n = shortest(terms).min(base.dimension());
     for k in 0..n {
         let term = |stage: usize| {
             let entry = entry::<P, V>(terms, stage, k);
@@ -591,16 +596,12 @@ pub(crate) fn total<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
     }
 }
 
-/// The smallest dimension of the vectors in two lists.
+/// The smallest dimension of some vectors.
 #[inline(always)]
-fn shortest<P: StageTableau, V: Vector>(
-    first: &P::Groups<Laned<V, P>>,
-    second: &P::Groups<Laned<V, P>>,
-) -> usize {
-    let dimensions = first
-        .as_ref()
-        .iter()
-        .chain(second.as_ref())
-        .map(|group| group.as_slice().len());
-    dimensions.fold(usize::MAX, usize::min)
+fn shortest<V: Vector>(groups: &[V]) -> usize {
+    let mut shortest = usize::MAX;
+    for group in groups {
+        shortest = shortest.min(group.as_slice().len());
+    }
+    shortest
 }

@@ -240,7 +240,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
             once_more = true;
         }
         scales = change.scales();
-        enough = [change.q, change.p].map(|part| enough_after::<T>(&part));
+        enough = [enough_after::<T>(&change.q), enough_after::<T>(&change.p)];
     }
     Err(Failure::NoConvergence {
         residual: relative(&last),
@@ -282,13 +282,15 @@ fn non_finite(sweeps: &mut impl Sweeps, change: &Change) -> Failure {
     } else {
         Quantity::Momentum
     };
-    let force = sweeps.non_finite_force();
-    let culprit = force.map(|stage| (Quantity::Force, stage));
-    let culprit = culprit.or_else(|| sweeps.non_finite());
-    Failure::NonFinite {
-        what: culprit.map_or(part, |(what, _)| what),
-        stage: culprit.map(|(_, stage)| stage),
-    }
+    let culprit = match sweeps.non_finite_force() {
+        Some(stage) => Some((Quantity::Force, stage)),
+        None => sweeps.non_finite(),
+    };
+    let (what, stage) = match culprit {
+        Some((what, stage)) => (what, Some(stage)),
+        None => (part, None),
+    };
+    Failure::NonFinite { what, stage }
 }
 
 /// The larger of two numbers.

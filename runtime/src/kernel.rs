@@ -4,23 +4,22 @@
 //! here, are combined up to the shortest one; the integrator then reports
 //! [`Error::EvaluationDimension`](crate::Error::EvaluationDimension).
 
-use core::array;
-
 use num_traits::Zero;
 
+use crate::array::array;
 use crate::summation::{add, add_sum};
 use crate::{Coefficient, Hamiltonian, Scalar, Summation, Vector};
 
 /// Coefficients times the step size: the factors of evaluations.
 #[inline(always)]
 pub fn weights<T: Scalar, const N: usize>(h: f64, coefficients: [Coefficient; N]) -> [T; N] {
-    coefficients.map(|c| T::weight(h, c))
+    array(T::zero(), |j| T::weight(h, coefficients[j]))
 }
 
 /// Coefficients as they are: the factors of increments.
 #[inline(always)]
 pub fn factors<T: Scalar, const N: usize>(coefficients: [Coefficient; N]) -> [T; N] {
-    coefficients.map(T::from_coefficient)
+    array(T::zero(), |j| T::from_coefficient(coefficients[j]))
 }
 
 /// `out = base + Σ_j factors_j terms_j`, for a base that is the sum of `base` and `low`.
@@ -47,10 +46,7 @@ pub fn combine<R: Summation, V: Vector, const N: usize>(
 ) {
     let n = shortest([&*out, base, low]).min(shortest(terms));
     let (out, base) = (&mut out.as_mut_slice()[..n], &base.as_slice()[..n]);
-    let (low, terms) = (
-        &low.as_slice()[..n],
-        terms.map(|term| &term.as_slice()[..n]),
-    );
+    let (low, terms) = (&low.as_slice()[..n], starts(terms, n));
     for i in 0..n {
         out[i] = value::<R, _, N>(base[i], low[i], &factors, &terms, i);
     }
@@ -86,7 +82,7 @@ pub fn total<R: Summation, V: Vector, const N: usize>(
     increments: [&V; N],
 ) {
     let n = shortest([&*out, &*out_low, base, low]).min(shortest(increments));
-    let terms = increments.map(|term| &term.as_slice()[..n]);
+    let terms = starts(increments, n);
     totals::<R, V, N>((out, out_low), (base, low), n, |i, j| terms[j][i]);
 }
 
@@ -101,7 +97,7 @@ pub fn weighted_total<R: Summation, V: Vector, const N: usize>(
     terms: [&V; N],
 ) {
     let n = shortest([&*out, &*out_low, base, low]).min(shortest(terms));
-    let terms = terms.map(|term| &term.as_slice()[..n]);
+    let terms = starts(terms, n);
     totals::<R, V, N>((out, out_low), (base, low), n, |i, j| {
         factors[j] * terms[j][i]
     });
@@ -169,7 +165,7 @@ pub fn transform<V: Vector, const N: usize>(
     let sparse = matrix.map(|row| row.contains(&0.0));
     let n = slices.iter().map(|slice| slice.len()).min().unwrap_or(0);
     for i in 0..n {
-        let old: [V::Scalar; N] = array::from_fn(|j| slices[j][i]);
+        let old: [V::Scalar; N] = array(V::Scalar::zero(), |j| slices[j][i]);
         for ((row, sparse), slice) in matrix.iter().zip(sparse).zip(&mut slices) {
             let factor = |j: usize| V::Scalar::from_f64(row[j]);
             slice[i] = if sparse {
@@ -188,8 +184,9 @@ pub fn transform<V: Vector, const N: usize>(
 /// Copies one vector to another, component by component: `clone_from` of a dynamic vector may allocate.
 #[inline(always)]
 pub fn copy<V: Vector>(out: &mut V, from: &V) {
-    let components = out.as_mut_slice().iter_mut().zip(from.as_slice());
-    components.for_each(|(out, from)| *out = *from);
+    let (out, from) = (out.as_mut_slice(), from.as_slice());
+    let n = out.len().min(from.len());
+    out[..n].copy_from_slice(&from[..n]);
 }
 
 /// Copies one vector of an array to others.
@@ -205,8 +202,17 @@ pub fn copy_to<V: Vector, const N: usize>(vectors: &mut [V], from: usize, to: [u
 /// The shortest length, so that one comparison bounds every index of a loop.
 #[inline(always)]
 pub(crate) fn shortest<V: Vector, const N: usize>(vectors: [&V; N]) -> usize {
-    let lengths = vectors.map(|vector| vector.as_slice().len());
-    lengths.into_iter().fold(usize::MAX, usize::min)
+    let mut shortest = usize::MAX;
+    for vector in vectors {
+        shortest = shortest.min(vector.as_slice().len());
+    }
+    shortest
+}
+
+/// The first `n` components of each.
+#[inline(always)]
+pub(crate) fn starts<V: Vector, const N: usize>(vectors: [&V; N], n: usize) -> [&[V::Scalar]; N] {
+    array(&[][..], |j| &vectors[j].as_slice()[..n])
 }
 
 /// One component of a stage.

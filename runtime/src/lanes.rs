@@ -1,11 +1,11 @@
 //! Doubles side by side, as one scalar.
 
-use core::array;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use num_traits::{One, Zero};
 
+use crate::array::array;
 use crate::{Hamiltonian, Scalar, Vector};
 
 /// A few doubles side by side, in one register of the processor where it has so wide ones.
@@ -98,8 +98,8 @@ trait Largest {
 impl Largest for [f64; 8] {
     #[inline(always)]
     fn largest(self) -> f64 {
-        let lower = wide::f64x4::new(array::from_fn(|lane| self[lane]));
-        let upper = wide::f64x4::new(array::from_fn(|lane| self[lane + 4]));
+        let lower = wide::f64x4::new(array(0.0, |lane| self[lane]));
+        let upper = wide::f64x4::new(array(0.0, |lane| self[lane + 4]));
         lower.fast_max(upper).to_array().largest()
     }
 }
@@ -259,7 +259,7 @@ macro_rules! lanes {
 
             #[inline(always)]
             fn from_fn(lane: impl FnMut(usize) -> f64) -> Self {
-                Self(<$inner>::new(array::from_fn(lane)))
+                Self(<$inner>::new(array(0.0, lane)))
             }
 
             #[inline(always)]

@@ -74,6 +74,7 @@ extern crate alloc;
 #[macro_use]
 extern crate std;
 
+mod array;
 mod change;
 mod class;
 mod closures;

@@ -1,8 +1,9 @@
 //! New values of stages that are solved for, and how much they changed.
 
-use core::{array, mem};
+use core::mem;
 
-use crate::kernel::{shortest, value};
+use crate::array::array;
+use crate::kernel::{shortest, starts, value};
 use crate::{PartChange, Scalar, Summation, Vector};
 
 /// Components that are combined side by side.
@@ -20,14 +21,12 @@ pub fn relax<R: Summation, V: Vector, const N: usize>(
 ) {
     let n = shortest([&*out, base, low]).min(shortest(terms));
     let (out, base) = (&mut out.as_mut_slice()[..n], &base.as_slice()[..n]);
-    let (low, terms) = (
-        &low.as_slice()[..n],
-        terms.map(|term| &term.as_slice()[..n]),
-    );
+    let (low, terms) = (&low.as_slice()[..n], starts(terms, n));
     let mut local = *change;
     let whole = n / LANES;
     let blocks = |slice| whole_blocks(slice, whole);
-    let (base_blocks, low_blocks, term_blocks) = (blocks(base), blocks(low), terms.map(blocks));
+    let (base_blocks, low_blocks) = (blocks(base), blocks(low));
+    let term_blocks: [_; N] = array(&[][..], |j| blocks(terms[j]));
     let out_blocks = &mut out.as_chunks_mut::<LANES>().0[..whole];
     // Blocks have accumulators of their own for each component: code without a branch, for as many lanes as there are.
     let mut noted = Blocks::default();
@@ -63,12 +62,12 @@ struct Blocks {
 impl Blocks {
     #[inline(always)]
     fn note<T: Scalar>(&mut self, base: [T; LANES], old: [T; LANES], new: [T; LANES]) {
-        let moved: [f64; LANES] = array::from_fn(|lane| (new[lane] - old[lane]).magnitude());
+        let moved: [f64; LANES] = array(0.0, |lane| (new[lane] - old[lane]).magnitude());
         raise(&mut self.difference, moved);
-        raise(&mut self.base, base.map(T::magnitude));
-        raise(&mut self.new, new.map(T::magnitude));
-        for (sum, moved) in self.sum.iter_mut().zip(moved) {
-            *sum += moved;
+        raise(&mut self.base, array(0.0, |lane| base[lane].magnitude()));
+        raise(&mut self.new, array(0.0, |lane| new[lane].magnitude()));
+        for (lane, moved) in moved.iter().enumerate() {
+            self.sum[lane] += moved;
         }
     }
 
@@ -90,7 +89,8 @@ impl Blocks {
 /// The larger of two numbers, component by component.
 #[inline(always)]
 fn raise(largest: &mut [f64; LANES], values: [f64; LANES]) {
-    for (largest, value) in largest.iter_mut().zip(values) {
+    for (lane, &value) in values.iter().enumerate() {
+        let largest = &mut largest[lane];
         *largest = if *largest > value { *largest } else { value };
     }
 }

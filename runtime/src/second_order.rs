@@ -117,7 +117,7 @@ where
         total::<R, P, V>(
             (p, p_low),
             (step.p, step.p_low),
-            &stages.force,
+            stages.force.as_ref(),
             &P::POSITIONS,
             step.size,
         );
@@ -133,8 +133,10 @@ where
                 true => low + h * q.as_slice()[k],
                 false => low,
             };
-            let velocity = entry::<P, V>(&stages.p, 0, k);
-            let part = |stage: usize| tableau::<P>().rest[stage] * entry::<P, V>(slopes, stage, k);
+            let velocity = entry::<P, V>(stages.p.as_ref(), 0, k);
+            let part = |stage: usize| {
+                tableau::<P>().rest[stage] * entry::<P, V>(slopes.as_ref(), stage, k)
+            };
             let count = P::POSITIONS.count;
             let (high, rest) = match R::COMPENSATED {
                 true => add::<R, f64>(base, low, count + 1, |stage| {
@@ -161,7 +163,7 @@ where
         if !eliminates::<P>() {
             return <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
         }
-        extend::<P, V>(&P::POSITIONS, at, &stages.force, p);
+        extend::<P, V>(&P::POSITIONS, at, stages.force.as_ref(), p);
         let Some(polynomial) = P::MOMENTA.polynomial else {
             return;
         };
@@ -170,9 +172,10 @@ where
         for stage in 0..P::MOMENTA.count {
             let factor = at.size * P::MOMENTA.weights[stage] * at.factor(polynomial, stage);
             for (k, out) in q.as_mut_slice().iter_mut().enumerate() {
-                let part = |j: usize| P::MOMENTA.columns[j][stage] * entry::<P, V>(slopes, j, k);
+                let part =
+                    |j: usize| P::MOMENTA.columns[j][stage] * entry::<P, V>(slopes.as_ref(), j, k);
                 let sum: f64 = (0..P::POSITIONS.count).map(part).sum();
-                *out += factor * (entry::<P, V>(&stages.p, 0, k) + sum);
+                *out += factor * (entry::<P, V>(stages.p.as_ref(), 0, k) + sum);
             }
         }
     }
@@ -284,7 +287,7 @@ where
         };
         let base = (step.q, step.q_low);
         let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force);
-        values::<P, V>(sums, &mut stages.q, base, slopes, value)
+        values::<P, V>(sums, stages.q.as_mut(), base, slopes.as_ref(), value)
     }
 
     /// The velocities of the increments of the momentum, unless they are these.
@@ -296,9 +299,10 @@ where
         let LaneStages {
             q, velocity, force, ..
         } = &mut *self.lanes.stages;
-        let groups = q.as_ref().iter().zip(force.as_ref()).zip(velocity.as_mut());
-        for ((q, force), velocity) in groups {
+        let (q, force) = (q.as_ref(), force.as_ref());
+        for (group, velocity) in velocity.as_mut().iter_mut().enumerate() {
             let time = P::Lanes::from_f64(self.lanes.step.time);
+            let (q, force) = (&q[group], &force[group]);
             P::Lanes::velocity::<V, S>(self.lanes.system, time, q, force, velocity);
         }
     }
@@ -308,11 +312,12 @@ where
     fn start(&mut self) {
         let step = self.lanes.step;
         let LaneStages { q, p, .. } = &mut *self.lanes.stages;
-        fill::<P, V>(p, step.p);
+        fill::<P, V>(p.as_mut(), step.p);
         if <S as Hamiltonian<V>>::UNIT_MASSES {
             return;
         }
-        for (p, q) in p.as_mut().iter_mut().zip(q.as_mut()) {
+        for (group, p) in p.as_mut().iter_mut().enumerate() {
+            let q = &mut q.as_mut()[group];
             let time = P::Lanes::from_f64(step.time);
             // It does not look at the position, and the place of this is free.
             P::Lanes::velocity::<V, S>(self.lanes.system, time, p, p, q);
@@ -357,10 +362,12 @@ where
             return;
         }
         if kept.stages && Start::<P>::IS {
-            extrapolate::<P, V>(&P::POSITIONS, &mut self.lanes.stages.force);
+            extrapolate::<P, V>(&P::POSITIONS, self.lanes.stages.force.as_mut());
         } else {
             for group in self.lanes.stages.force.as_mut() {
-                group.as_mut_slice().fill(P::Lanes::from_f64(0.0));
+                for component in group.as_mut_slice() {
+                    *component = P::Lanes::from_f64(0.0);
+                }
             }
         }
         self.velocities();

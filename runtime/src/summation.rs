@@ -1,7 +1,5 @@
 //! How increments are added to the state.
 
-use core::array;
-
 use crate::Scalar;
 
 mod sealed {
@@ -90,18 +88,43 @@ pub(crate) type Sum<T> = (T, Option<T>);
 /// The sum of the first eight terms, at least one: pairs, and pairs of them, for additions that need not wait for one another.
 #[inline(always)]
 fn eight<R: Summation, T: Scalar>(count: usize, term: &impl Fn(usize) -> T) -> Sum<T> {
-    let mut sums: [Sum<T>; 8] = array::from_fn(|j| {
-        let term = if j < count { term(j) } else { T::zero() };
-        (term, None)
-    });
-    for width in [4, 2, 1] {
-        for j in 0..width {
-            if j + width < count {
-                sums[j] = pair::<R, T>(sums[j], sums[j + width]);
-            }
-        }
+    let second = if 1 < count {
+        Some(four::<R, T>(1, count, term))
+    } else {
+        None
+    };
+    joined::<R, T>(four::<R, T>(0, count, term), second)
+}
+
+/// The sum of every other term of eight.
+#[inline(always)]
+fn four<R: Summation, T: Scalar>(first: usize, count: usize, term: &impl Fn(usize) -> T) -> Sum<T> {
+    let second = if first + 2 < count {
+        Some(two::<R, T>(first + 2, count, term))
+    } else {
+        None
+    };
+    joined::<R, T>(two::<R, T>(first, count, term), second)
+}
+
+/// The sum of every fourth term of eight.
+#[inline(always)]
+fn two<R: Summation, T: Scalar>(first: usize, count: usize, term: &impl Fn(usize) -> T) -> Sum<T> {
+    let second = if first + 4 < count {
+        Some((term(first + 4), None))
+    } else {
+        None
+    };
+    joined::<R, T>((term(first), None), second)
+}
+
+/// The sum of a sum and another one, if there is one.
+#[inline(always)]
+fn joined<R: Summation, T: Scalar>(first: Sum<T>, second: Option<Sum<T>>) -> Sum<T> {
+    match second {
+        Some(second) => pair::<R, T>(first, second),
+        None => first,
     }
-    sums[0]
 }
 
 /// The sum of two sums.

@@ -77,7 +77,7 @@ impl<T: Scalar, const N: usize> Vector for SVector<T, N> {
 
     #[inline]
     fn blank() -> Self {
-        SVector::from_element(T::zero())
+        SVector::from([T::zero(); N])
     }
 
     #[inline]
@@ -87,7 +87,7 @@ impl<T: Scalar, const N: usize> Vector for SVector<T, N> {
 
     #[inline]
     fn zeros_with<U: Scalar>(&self) -> SVector<U, N> {
-        SVector::from_element(U::zero())
+        SVector::from([U::zero(); N])
     }
 }
 

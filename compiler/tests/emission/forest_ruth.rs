@@ -832,9 +832,9 @@ const _: () = {
         const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
         #[inline(always)]
         fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
-            make: impl ::core::ops::FnMut(usize) -> T,
+            mut make: impl ::core::ops::FnMut(usize) -> T,
         ) -> [T; 1] {
-            ::core::array::from_fn(make)
+            [make(0)]
         }
         #[inline(always)]
         fn stored<V: ::symplectic::Vector>(

@@ -497,9 +497,9 @@ const _: () = {
         });
         #[inline(always)]
         fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
-            make: impl ::core::ops::FnMut(usize) -> T,
+            mut make: impl ::core::ops::FnMut(usize) -> T,
         ) -> [T; 1] {
-            ::core::array::from_fn(make)
+            [make(0)]
         }
         #[inline(always)]
         fn stored<V: ::symplectic::Vector>(
@@ -867,9 +867,9 @@ const _: () = {
         });
         #[inline(always)]
         fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
-            make: impl ::core::ops::FnMut(usize) -> T,
+            mut make: impl ::core::ops::FnMut(usize) -> T,
         ) -> [T; 1] {
-            ::core::array::from_fn(make)
+            [make(0)]
         }
         #[inline(always)]
         fn stored<V: ::symplectic::Vector>(

@@ -16,7 +16,7 @@ fn block(dimension: usize) -> u64 {
 }
 
 /// Bytes of a vector that may be in registers.
-const SHORT: usize = 1 << 6;
+pub(super) const SHORT: usize = 1 << 6;
 
 /// Bytes that may be moved for a block of coupled steps.
 const LIGHT: usize = 1 << 14;

@@ -2,6 +2,7 @@
 
 use core::mem;
 
+use super::blocks::SHORT;
 use crate::stage::is_finite;
 use crate::{
     Failure, Hamiltonian, Kept, Outcome, Plan, Solver, StageStorage, State, Statistics, Step,
@@ -113,10 +114,11 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
     /// Exchanges the state and `next`.
     #[inline(always)]
     pub(super) fn swap<R: Summation>(&mut self) {
-        mem::swap(&mut self.state.q, &mut self.next.0);
-        mem::swap(&mut self.state.p, &mut self.next.1);
+        swap(&mut self.state.q, &mut self.next.0);
+        swap(&mut self.state.p, &mut self.next.1);
         if R::COMPENSATED {
-            mem::swap(&mut self.low, &mut self.next_low);
+            swap(&mut self.low.0, &mut self.next_low.0);
+            swap(&mut self.low.1, &mut self.next_low.1);
         }
     }
 
@@ -157,5 +159,16 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
             p_low: &mut self.next_low.1,
         };
         (step, outcome, &mut self.memory)
+    }
+}
+
+/// Exchanges two vectors, short ones without [`mem::swap`]: it may be a call, which keeps them out of registers.
+#[inline(always)]
+fn swap<V: Vector>(a: &mut V, b: &mut V) {
+    if size_of::<V>() <= SHORT {
+        let first = mem::replace(a, V::blank());
+        *a = mem::replace(b, first);
+    } else {
+        mem::swap(a, b);
     }
 }

@@ -120,6 +120,7 @@ impl Matrices<'_, '_, '_, '_> {
             quote!(&[#(#indices),*])
         };
         let [carried_forces, carried_velocities] = [Node::Force(0), Node::Velocity(0)].map(carried);
+        let numbers = (0..lanes.groups).map(Literal::usize_unsuffixed);
         let groups = Literal::usize_unsuffixed(lanes.groups);
         let lanes = literal::identifier(lanes.name);
         let increments = self.increments();
@@ -136,9 +137,9 @@ impl Matrices<'_, '_, '_, '_> {
 
                 #[inline(always)]
                 fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
-                    make: impl ::core::ops::FnMut(usize) -> T,
+                    mut make: impl ::core::ops::FnMut(usize) -> T,
                 ) -> [T; #groups] {
-                    ::core::array::from_fn(make)
+                    [#(make(#numbers)),*]
                 }
 
                 #[inline(always)]
