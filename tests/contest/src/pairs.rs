@@ -11,8 +11,8 @@ use symplectic_tests::scenes::{
     double_pendulum, fput_springs, henon_heiles, kepler, nonseparable, outer_solar_system,
 };
 
-/// A run, to be made as often as is liked: the components of the state at its end, q and then p.
-pub type Run = Box<dyn Fn() -> Result<Vec<f64>, Error>>;
+/// A run of so many steps, to be made as often as is liked: the components of the state at its end, q and then p.
+pub type Run = Box<dyn Fn(u64) -> Result<Vec<f64>, Error>>;
 
 /// One method on one problem, twice.
 pub struct Pair {
@@ -26,8 +26,10 @@ pub struct Pair {
     pub same_arithmetic: bool,
     /// The step size.
     pub step_size: f64,
-    /// Steps of a run.
+    /// Steps of a whole run, for times.
     pub steps: u64,
+    /// Steps after which the states are compared: rounding errors grow, exponentially where there is chaos.
+    pub compared: u64,
     /// By the library.
     pub library: Run,
     /// By hand.
@@ -40,13 +42,16 @@ impl Pair {
         format!("{} | {} | {}", self.problem, self.method, self.sums)
     }
 
-    /// The largest difference of a component at the end, in units of the largest position or momentum.
+    /// The largest difference of a component where the states are compared, in units of the largest position or momentum.
     ///
     /// # Errors
     ///
     /// Those of the runs.
     pub fn difference(&self) -> Result<f64, Error> {
-        let (found, expected) = ((self.library)()?, (self.baseline)()?);
+        let (found, expected) = (
+            (self.library)(self.compared)?,
+            (self.baseline)(self.compared)?,
+        );
         let dimension = found.len() / 2;
         let mut difference = 0.0;
         for half in [0..dimension, dimension..2 * dimension] {
@@ -72,7 +77,9 @@ struct Problem<S, B, V> {
     start: State<V>,
     /// For Gauss with eight stages; the others have fractions of it.
     step_size: f64,
+    /// Those of [`Pair`].
     steps: u64,
+    compared: u64,
     /// What no stage of the iteration by hand may move by in the end; rounding errors are smaller.
     tolerance: f64,
 }
@@ -88,7 +95,9 @@ pub fn pairs() -> Vec<Pair> {
             by_hand: systems::Kepler,
             start: kepler::start(0.6),
             step_size: 0.195,
-            steps: 128,
+            // To t = 125.
+            steps: 641,
+            compared: 128,
             tolerance: 1e-14,
         },
     );
@@ -100,7 +109,9 @@ pub fn pairs() -> Vec<Pair> {
             by_hand: systems::OuterSolarSystem,
             start: outer_solar_system::start(),
             step_size: 488.0,
-            steps: 20,
+            // 500 000 days.
+            steps: 1025,
+            compared: 20,
             tolerance: 1e-12,
         },
     );
@@ -112,7 +123,9 @@ pub fn pairs() -> Vec<Pair> {
             by_hand: systems::HenonHeiles,
             start: henon_heiles::start(),
             step_size: 0.39,
-            steps: 100,
+            // To t = 10⁴.
+            steps: 25641,
+            compared: 100,
             tolerance: 1e-14,
         },
     );
@@ -128,7 +141,9 @@ pub fn pairs() -> Vec<Pair> {
             },
             start: fput_springs::start(fput_springs::OMEGA),
             step_size: 0.04,
-            steps: 100,
+            // To t = 200.
+            steps: 5000,
+            compared: 100,
             tolerance: 1e-14,
         },
     );
@@ -140,7 +155,9 @@ pub fn pairs() -> Vec<Pair> {
             by_hand: systems::DoublePendulum,
             start: double_pendulum::start(),
             step_size: 0.1,
-            steps: 100,
+            // To t = 100.
+            steps: 1000,
+            compared: 100,
             tolerance: 1e-13,
         },
     );
@@ -152,7 +169,9 @@ pub fn pairs() -> Vec<Pair> {
             by_hand: systems::Nonseparable,
             start: nonseparable::start(),
             step_size: 0.1,
-            steps: 100,
+            // To t = 100.
+            steps: 1000,
+            compared: 100,
             tolerance: 1e-14,
         },
     );
@@ -165,17 +184,16 @@ where
     S: Hamiltonian<V> + Copy + 'static,
     V: Vector<Scalar = f64>,
 {
-    /// A pair for `steps` steps of `step_size`.
+    /// A pair for steps of `step_size`.
     fn pair<M: Method, R: Summation, N: Solver<V, S>>(
         &self,
         method: (&'static str, M),
         step_size: f64,
-        steps: u64,
         solved: Solved<M, S, V, R, N>,
-        baseline: impl Fn() -> Vec<f64> + 'static,
+        baseline: impl Fn(u64) -> Vec<f64> + 'static,
     ) -> Pair {
         let (system, start) = (self.system, self.start.clone());
-        let library = move || {
+        let library = move |steps| {
             let start = start.clone();
             let mut integrator = solved(Integrator::with_summation(
                 method.1, system, start, step_size,
@@ -194,9 +212,10 @@ where
             },
             same_arithmetic: false,
             step_size,
-            steps,
+            steps: self.steps,
+            compared: self.compared,
             library: Box::new(library),
-            baseline: Box::new(move || Ok(baseline())),
+            baseline: Box::new(move |steps| Ok(baseline(steps))),
         }
     }
 }

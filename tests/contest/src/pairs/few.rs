@@ -60,16 +60,16 @@ where
         rule: &Rule<STAGES>,
         fraction: f64,
     ) {
-        let (h, steps, tolerance) = (fraction * self.step_size, self.steps, self.tolerance);
+        let (h, tolerance) = (fraction * self.step_size, self.tolerance);
         let (system, (q, p)) = (self.by_hand, arrays(&self.start));
         let by_hand = SecondOrder::<L, STAGES>::new(rule, h);
-        pairs.push(self.in_lanes::<M, Plain>(method, h, steps, move || {
+        pairs.push(self.in_lanes::<M, Plain>(method, h, move |steps| {
             let (mut q, mut p) = (q, p);
             by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
             [q, p].concat()
         }));
         let by_hand = NoDrift::<L, STAGES>::new(rule, h);
-        pairs.push(self.in_lanes::<M, Compensated>(method, h, steps, move || {
+        pairs.push(self.in_lanes::<M, Compensated>(method, h, move |steps| {
             let (mut q, mut p) = (Double::new(q), Double::new(p));
             by_hand.run(&system, (&mut q, &mut p), 1e4 * tolerance, steps);
             [q.high, p.high].concat()
@@ -81,16 +81,15 @@ where
         &self,
         method: (&'static str, M),
         step_size: f64,
-        steps: u64,
-        baseline: impl Fn() -> Vec<f64> + 'static,
+        baseline: impl Fn(u64) -> Vec<f64> + 'static,
     ) -> Pair {
         let first = Integrator::new(method.1, self.system, self.start.clone(), step_size);
         if first.and_then(Integrator::in_second_order_lanes).is_ok() {
             let solved = Integrator::<_, _, _, R>::in_second_order_lanes;
-            self.pair(method, step_size, steps, solved, baseline)
+            self.pair(method, step_size, solved, baseline)
         } else {
             let solved = |integrator: Integrator<_, _, _, R>| Ok(integrator.in_lanes());
-            self.pair(method, step_size, steps, solved, baseline)
+            self.pair(method, step_size, solved, baseline)
         }
     }
 
@@ -100,14 +99,13 @@ where
         method: (&'static str, M),
         fraction: f64,
     ) {
-        let (h, steps) = (fraction * self.step_size, self.steps);
+        let h = fraction * self.step_size;
         let (system, (q, p)) = (self.by_hand, arrays(&self.start));
         let plain = self.pair(
             method,
             h,
-            steps,
             Ok::<Integrator<_, _, _, Plain>, _>,
-            move || {
+            move |steps| {
                 let (mut q, mut p) = (q, p);
                 explicit::run::<K, B, N>(&system, (&mut q, &mut p), h, steps);
                 [q, p].concat()
@@ -116,9 +114,8 @@ where
         let compensated = self.pair(
             method,
             h,
-            steps,
             Ok::<Integrator<_, _, _, Compensated>, _>,
-            move || {
+            move |steps| {
                 let (mut q, mut p) = (Double::new(q), Double::new(p));
                 explicit::run_compensated::<K, B, N>(&system, (&mut q, &mut p), h, steps);
                 [q.high, p.high].concat()
@@ -143,15 +140,14 @@ where
         rule: &Rule<STAGES>,
         fraction: f64,
     ) {
-        let (h, steps, tolerance) = (fraction * self.step_size, self.steps, self.tolerance);
+        let (h, tolerance) = (fraction * self.step_size, self.tolerance);
         let (system, (q, p)) = (self.by_hand, arrays(&self.start));
         let by_hand = FirstOrder::<L, STAGES>::new(rule, h);
         pairs.push(self.pair(
             method,
             h,
-            steps,
             |i: Integrator<_, _, _, Plain>| Ok(i.in_lanes()),
-            move || {
+            move |steps| {
                 let (mut q, mut p) = (q, p);
                 by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
                 [q, p].concat()
@@ -161,9 +157,8 @@ where
         pairs.push(self.pair(
             method,
             h,
-            steps,
             |i: Integrator<_, _, _, Compensated>| Ok(i.in_lanes()),
-            move || {
+            move |steps| {
                 let (mut q, mut p) = (Double::new(q), Double::new(p));
                 by_hand.run(&system, (&mut q, &mut p), steps);
                 [q.high, p.high].concat()
