@@ -96,6 +96,7 @@ mod interpolation;
 mod invariant;
 mod iteration;
 mod kernel;
+mod lane_stages;
 mod lanes;
 mod long_splitting;
 mod method;
@@ -143,7 +144,7 @@ pub use fixed_point::FixedPoint;
 #[cfg(feature = "alloc")]
 pub use generating_function::{GeneratingFunction, generating_function};
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
-pub use in_lanes::{InLanes, LaneStages};
+pub use in_lanes::InLanes;
 pub use integrator::Integrator;
 pub use interpolation::{Inside, Interpolation};
 pub use invariant::Invariant;
@@ -151,6 +152,7 @@ pub use kernel::{
     advance, combine, copy, copy_to, factors, scale, total, transform, velocity, weighted_total,
     weights,
 };
+pub use lane_stages::LaneStages;
 pub use lanes::{F64x2, F64x4, F64x8, HamiltonianInLanes, Lanes};
 pub use long_splitting::{SeparableOnly, rows, staircase};
 pub use method::{Method, Plan, StagePlan};

@@ -3,10 +3,10 @@
 use core::marker::PhantomData;
 
 use crate::in_lanes::{
-    ByLanes, LaneMovement, LanePart, LaneStages, Sums, entry, extend, extrapolate, fill, lanes,
-    total, values,
+    ByLanes, LaneMovement, LanePart, Sums, entry, extend, extrapolate, fill, lanes, total, values,
 };
 use crate::iteration::{Sweeps, settle};
+use crate::lane_stages::LaneStages;
 use crate::summation::add;
 use crate::{
     Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes, Inside,
