@@ -5,7 +5,10 @@ mod common;
 use common::systems::{Chain, Driven, GeneralChain, Pendulum, Product, point};
 use common::{Midpoint, StoermerVerlet, distance, run, slopes};
 use symplectic::nalgebra::Vector1;
-use symplectic::{Error, Hamiltonian, Integrator, Method, State};
+use symplectic::{Error, Hamiltonian, Integrator, Method, State, separable, tableau};
+
+tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
+tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
 
 type Point = State<Vector1<f64>>;
 
@@ -229,4 +232,36 @@ fn noisy_evaluations_do_not_keep_the_iteration_going() -> Result<(), Error> {
         assert!(amplitude == 0.0 || distance(split.state(), &start) > amplitude / 2.0);
     }
     Ok(())
+}
+
+/// Where sweeps take half of their distance at most, and turn as they do, a change that grows does not show that they have
+/// settled: ended there, such a step is off by a hundred units.
+#[test]
+fn slow_fixed_point_iterations_settle() -> Result<(), Error> {
+    fn check<M: Method>(method: M, angle: f64) -> Result<(), Error> {
+        let rotation = || {
+            separable::<Vector1<f64>, _, _>(
+                |_, p, velocity| *velocity = *p,
+                |_, q, force| *force = -q,
+            )
+        };
+        let mut state = State::new(0.0, Vector1::new(1.0), Vector1::new(0.3));
+        for _ in 0..200 {
+            let mut integrator = Integrator::new(method, rotation(), state.clone(), angle)?;
+            let newton = Integrator::new(method, rotation(), state.clone(), angle)?;
+            let mut newton = newton.by_newton();
+            integrator.step()?;
+            let units = distance(newton.step()?, integrator.state()) / f64::EPSILON;
+            assert!(units <= 24.0, "{} {angle}: {units}", M::NAME);
+            assert!(integrator.statistics().iterations > 25);
+            state = newton.into_state();
+        }
+        Ok(())
+    }
+    // The iteration converges below 2√3 and 6.0.
+    check(Gauss2, 2.0)?;
+    check(Gauss2, 2.5)?;
+    check(Gauss2, 3.0)?;
+    check(Gauss4, 3.0)?;
+    check(Gauss4, 4.0)
 }
