@@ -78,10 +78,8 @@ fn a_driven_system_keeps_the_order() -> Result<(), Error> {
 #[test]
 fn verlet_on_the_oscillator_is_the_matrix_it_should_be() -> Result<(), Error> {
     // (q, p) ↦ ((1 − h²/2) q + h p, −h(1 − h²/4) q + (1 − h²/2) p), all exact in f64 for h = 1/2.
-    let oscillator = symplectic::separable::<Vector1<f64>, _, _>(
-        |_, p, velocity| *velocity = *p,
-        |_, q, force| *force = -q,
-    );
+    let oscillator =
+        separable::<Vector1<f64>, _, _>(|_, p, velocity| *velocity = *p, |_, q, force| *force = -q);
     let mut integrator = Integrator::new(StoermerVerlet, oscillator, point(1.0, 0.25), 0.5)?;
     let state = integrator.step()?;
     assert_eq!(
@@ -191,7 +189,7 @@ fn coupled_stages_stagnate_soon() -> Result<(), Error> {
 
 #[test]
 fn a_sweep_without_change_is_the_last() -> Result<(), Error> {
-    let free = symplectic::separable::<Vector1<f64>, _, _>(
+    let free = separable::<Vector1<f64>, _, _>(
         |_, p, velocity| *velocity = *p,
         |_, _q, force| force[0] = 0.0,
     );
