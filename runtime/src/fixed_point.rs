@@ -16,10 +16,11 @@ use crate::{
 /// stopped shrinking and is down to rounding errors, at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) relative to the
 /// largest position and the largest momentum: in either half for a separable system, in both for a general one
 /// (see [`Class::settling`](crate::Class::settling)). It has stopped when it has not shrunk further for one sweep and a sixteenth of
-/// all: where sweeps take little and turn the stages as they do, changes grow now and then before that.
+/// all: where sweeps take little and turn the stages as they do, changes grow now and then before that. In the last sweep that
+/// is allowed it need not have stopped.
 /// Where evaluations are noisier than that, or sweeps amplify what rounding does, it is enough that the change has shrunk a
-/// thousandfold, has not shrunk further in ten sweeps, and was down to rounding errors in one half and is not above four times
-/// as much; these are counted from the tenth on while the change is above 4096 units of the first stages.
+/// thousandfold, has stopped for ten sweeps too, that the smallest one was down to rounding errors in one half, and that it is at
+/// most four times as much; sweeps are counted from the tenth on while the change is above 4096 units of the first stages.
 ///
 /// Where it has settled with a change that is not zero, rounding makes stages jump to and fro between two values, and the side
 /// that the starting values come from says at which of them it ends. The energy would drift by that too, though by 1e-21 of it

@@ -221,9 +221,6 @@ where
     }
 }
 
-// These functions are given slices, not arrays of groups: where LLVM knows the length of what a reference points to, it
-// widens loads of single lanes beyond the group, and the processor has to wait until both groups are in memory.
-
 /// The lanes of one group in a list over the stages.
 #[inline(always)]
 pub(crate) fn lanes<L: Lanes>(list: &[f64], group: usize) -> L {
@@ -267,6 +264,9 @@ pub(crate) fn fill<P: StageTableau, V: Vector<Scalar = f64>>(groups: &mut [Laned
         }
     }
 }
+
+// Functions that look into groups are given slices, not arrays of them: where LLVM knows the length of what a reference points
+// to, it widens loads of single lanes beyond the group, and the processor has to wait until both groups are in memory.
 
 /// The double of one stage in one component.
 #[inline(always)]

@@ -20,7 +20,7 @@ const STAGNATION: u32 = 16;
 /// they the last, nor is the next one by its size alone.
 const FAR: f64 = ROUNDING * ROUNDING;
 
-/// Noise up to this many units of EPSILON is noise still where it was at most [`ROUNDING`] before.
+/// Noise up to this many units of EPSILON is noise still where the smallest change was at most [`ROUNDING`].
 const AMPLIFIED: f64 = 4.0 * ROUNDING;
 
 /// What tells an iteration that came down to its noise from one that never got anywhere.
@@ -173,6 +173,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
     let (mut last, mut looked) = (Change::default(), 0);
     let (mut scales, mut far, mut enough) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0);
+    let mut least = last;
     let mut idle = 0;
     let mut once_more = false;
     for iteration in 1..=max_iterations {
@@ -215,24 +216,27 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         (last, looked) = (change, iteration);
         let size = size(&change);
         // Comparisons, for it is a number: `min` and `max` look whether it is.
-        (smallest, idle) = if size < smallest {
-            (size, 0)
+        (smallest, least, idle) = if size < smallest {
+            (size, change, 0)
         } else {
-            (smallest, idle + 1)
+            (smallest, least, idle + 1)
         };
         largest = larger(size, largest);
         let is_rounding = || C::settling(&change) <= ROUNDING * T::EPSILON;
         // What rounding does may be amplified by all sweeps after the one whose change was the smallest.
         let is_noise = || {
-            let settling = Separable::settling(&change);
             smallest <= CONTRACTION * largest
-                && settling * smallest <= ROUNDING * T::EPSILON * size
-                && settling <= AMPLIFIED * T::EPSILON
+                && Separable::settling(&least) <= ROUNDING * T::EPSILON
+                && Separable::settling(&change) <= AMPLIFIED * T::EPSILON
         };
         if size == 0.0 {
             return Ok(iteration);
         }
-        if idle > iteration / STAGNATION && is_rounding() || idle >= PATIENCE && is_noise() {
+        let stagnates = idle > iteration / STAGNATION;
+        let at_bound = iteration == max_iterations;
+        if stagnates && (is_rounding() || idle >= PATIENCE && is_noise())
+            || at_bound && is_rounding()
+        {
             // What took many sweeps converges so slowly that another one is not about rounding.
             if W::HASTY || !early || !coin(sweeps.time()) {
                 return Ok(iteration);
@@ -424,13 +428,18 @@ mod tests {
 
     #[test]
     fn a_slow_iteration_that_grows_for_a_sweep_goes_on() {
-        // Four fifths a sweep, but every other change is half of what it were: from the 46th it is down to 64 units.
+        // Four fifths a sweep, but every other change is half of what it were: from the 44th it is down to 64 units, and it grows
+        // at the 45th.
         let mut changes: Vec<[f64; 2]> = (0..64)
             .map(|sweep| 1e6 * 0.8_f64.powi(sweep) / f64::from(1 + sweep % 2))
             .map(|units| [units, units])
             .collect();
         changes.extend([[1.0, 1.0]; 10]);
         assert_eq!(sweeps::<Separable, false>(&changes, &[1.0], false), Ok(69));
+        // Where the bound comes first, what is down to 64 units will do.
+        let bounded = |bound| sweeps::<Separable, false>(&changes[..bound], &[1.0], false);
+        assert_eq!(bounded(46), Ok(46));
+        assert!(bounded(43).is_err(), "{:?}", bounded(43));
     }
 
     #[test]

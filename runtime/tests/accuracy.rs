@@ -232,11 +232,11 @@ fn noisy_evaluations_do_not_keep_the_iteration_going() -> Result<(), Error> {
     Ok(())
 }
 
-/// Where sweeps take half of their distance at most, and turn as they do, a change that grows does not show that they have
-/// settled: ended there, such a step is off by a hundred units.
+/// Where sweeps take little and turn the stages as they do, a change that grows does not show that these have settled: ended
+/// there, steps were off by 38 to 174 units.
 #[test]
 fn slow_fixed_point_iterations_settle() -> Result<(), Error> {
-    fn check<M: Method>(method: M, angle: f64) -> Result<(), Error> {
+    fn check<M: Method>(method: M, angle: f64, bound: f64) -> Result<(), Error> {
         let rotation = || {
             separable::<Vector1<f64>, _, _>(
                 |_, p, velocity| *velocity = *p,
@@ -244,22 +244,23 @@ fn slow_fixed_point_iterations_settle() -> Result<(), Error> {
             )
         };
         let mut state = State::new(0.0, Vector1::new(1.0), Vector1::new(0.3));
+        let mut worst = 0.0_f64;
         for _ in 0..200 {
             let mut integrator = Integrator::new(method, rotation(), state.clone(), angle)?;
             let newton = Integrator::new(method, rotation(), state.clone(), angle)?;
             let mut newton = newton.by_newton();
             integrator.step()?;
             let units = distance(newton.step()?, integrator.state()) / f64::EPSILON;
-            assert!(units <= 24.0, "{} {angle}: {units}", M::NAME);
-            assert!(integrator.statistics().iterations > 25);
+            worst = worst.max(units);
             state = newton.into_state();
         }
+        assert!(worst <= bound, "{} {angle}: {worst}", M::NAME);
         Ok(())
     }
     // The iteration converges below 2√3 and 6.0.
-    check(Gauss2, 2.0)?;
-    check(Gauss2, 2.5)?;
-    check(Gauss2, 3.0)?;
-    check(Gauss4, 3.0)?;
-    check(Gauss4, 4.0)
+    check(Gauss2, 2.0, 6.0)?;
+    check(Gauss2, 2.5, 12.0)?;
+    check(Gauss2, 3.0, 24.0)?;
+    check(Gauss4, 3.0, 12.0)?;
+    check(Gauss4, 4.0, 40.0)
 }

@@ -162,7 +162,8 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
     }
 }
 
-/// Exchanges two vectors, short ones without [`mem::swap`]: it may be a call, which keeps them out of registers.
+/// Exchanges two vectors, or their handles: what is short without [`mem::swap`], which may be a call and keep it out of
+/// registers.
 #[inline(always)]
 fn swap<V: Vector>(a: &mut V, b: &mut V) {
     if size_of::<V>() <= SHORT {

@@ -2,7 +2,7 @@
 //!
 //! `RUSTFLAGS="-C target-cpu=native" cargo run --release --example ratios`; arguments choose rows by what they contain.
 //! Runs of both take turns, so that a machine which drifts hits both alike; a run has as many steps as Gauss 8 takes to the end of
-//! the problem (the chain: to a fifth), which takes a few milliseconds at most.
+//! the problem, which takes 50 milliseconds at most.
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
@@ -20,7 +20,9 @@ fn main() -> Result<(), Error> {
     println!(
         "Nanoseconds a step, medians of {ROUNDS} runs that take turns; ratio: the median of the ratios of neighbouring runs."
     );
-    println!("difference: of the states after a part of the run, relative.\n");
+    println!(
+        "difference: of the states, relative, after a part of the run where rounding errors grow fast.\n"
+    );
     println!(
         "| problem | method | sums | step size | by hand | library | ratio | of the least | difference |"
     );

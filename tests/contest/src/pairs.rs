@@ -28,7 +28,7 @@ pub struct Pair {
     pub step_size: f64,
     /// Steps of a whole run, for times.
     pub steps: u64,
-    /// Steps after which the states are compared: rounding errors grow, exponentially where there is chaos.
+    /// Steps after which the states are compared, at most these: rounding errors grow, exponentially where there is chaos.
     pub compared: u64,
     /// By the library.
     pub library: Run,

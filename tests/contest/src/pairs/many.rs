@@ -19,8 +19,8 @@ pub(super) fn chain(pairs: &mut Vec<Pair>) {
         by_hand: (),
         start: start(PARTICLES),
         step_size: 0.5,
-        // To t = 20: a fifth of the run of the others, for it is long.
-        steps: 40,
+        // To t = 100.
+        steps: 200,
         compared: 200,
         tolerance: 1e-14,
     };
