@@ -17,7 +17,7 @@ use crate::{
 /// largest position and the largest momentum: in either half for a separable system, in both for a general one
 /// (see [`Class::settling`](crate::Class::settling)). It has stopped when it has not shrunk further for one sweep and a sixteenth of
 /// all: where sweeps take little and turn the stages as they do, changes grow now and then before that. In the last sweep that
-/// is allowed it need not have stopped.
+/// is allowed one will do.
 /// Where evaluations are noisier than that, or sweeps amplify what rounding does, it is enough that the change has shrunk a
 /// thousandfold, has stopped for ten sweeps too, that the smallest one was down to rounding errors in one half, and that it is at
 /// most four times as much; sweeps are counted from the tenth on while the change is above 4096 units of the first stages.
