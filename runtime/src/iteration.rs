@@ -426,7 +426,7 @@ mod tests {
 
     #[test]
     fn a_slow_iteration_that_grows_for_a_sweep_goes_on() {
-        // Four fifths a sweep, but every other change is half of what it were: from the 44th it is down to 64 units, and it grows
+        // Four fifths a sweep, but every other change is half of that: from the 44th it is down to 64 units, and it grows
         // at the 45th.
         let mut changes: Vec<[f64; 2]> = (0..64)
             .map(|sweep| 1e6 * 0.8_f64.powi(sweep) / f64::from(1 + sweep % 2))
