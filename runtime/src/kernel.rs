@@ -114,17 +114,26 @@ pub fn advance<R: Summation, V: Vector>(
     evaluation: &V,
 ) {
     let factor = V::Scalar::weight(h, coefficient);
-    let n = shortest([&*out, &*out_low, evaluation]);
-    let (out, low) = (
-        &mut out.as_mut_slice()[..n],
-        &mut out_low.as_mut_slice()[..n],
+    add_products::<R, _>(
+        out.as_mut_slice(),
+        out_low.as_mut_slice(),
+        factor,
+        evaluation.as_slice(),
     );
-    let evaluation = &evaluation.as_slice()[..n];
+}
+
+/// `out + low + factor terms`, component by component.
+// The compiler knows of slices that are arguments that they are apart; of what vectors point to it does not, and looks at it
+// before every loop.
+#[inline(always)]
+fn add_products<R: Summation, T: Scalar>(out: &mut [T], low: &mut [T], factor: T, terms: &[T]) {
+    let n = out.len().min(low.len()).min(terms.len());
+    let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
     for i in 0..n {
         if R::COMPENSATED {
-            (out[i], low[i]) = add_sum(out[i], low[i], (factor * evaluation[i], None));
+            (out[i], low[i]) = add_sum(out[i], low[i], (factor * terms[i], None));
         } else {
-            out[i] = factor.fused(evaluation[i], out[i]);
+            out[i] = factor.fused(terms[i], out[i]);
         }
     }
 }

@@ -16,7 +16,7 @@ fn block(dimension: usize) -> u64 {
 }
 
 /// Bytes of a vector that may be in registers.
-pub(super) const SHORT: usize = 1 << 6;
+pub(super) const SHORT: usize = 1 << 8;
 
 /// Bytes that may be moved for a block of coupled steps.
 const LIGHT: usize = 1 << 14;
@@ -123,9 +123,9 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     #[inline]
     fn run_apart(&mut self, clock: &Clock, steps: u64, size: f64) {
         let blank = || (V::blank(), V::blank());
-        let mut next = mem::replace(&mut self.course.next, blank());
-        let mut low = mem::replace(&mut self.course.next_low, blank());
         let mut memory = mem::replace(&mut self.course.memory, StageStorage::like(&V::blank()));
+        let mut low = mem::replace(&mut self.course.next_low, blank());
+        let mut next = mem::replace(&mut self.course.next, blank());
         Self::run(
             &self.system,
             clock,
