@@ -162,6 +162,7 @@ where
     #[inline(always)]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         self.forces();
+        scale::<P, V>(&P::POSITIONS, self.step.size, self.stages.force.as_mut());
         let p = self.momenta();
         self.velocities();
         let q = self.positions();
@@ -196,7 +197,7 @@ where
         values::<P, V>(&sums, stages.p.as_mut(), base, terms, sum::<R, P>)
     }
 
-    /// Evaluates all forces.
+    /// Evaluates all forces, which are no increments yet.
     #[inline(always)]
     pub(crate) fn forces(&mut self) {
         let LaneStages { q, p, force, .. } = &mut *self.stages;
@@ -204,11 +205,10 @@ where
         for (group, force) in force.as_mut().iter_mut().enumerate() {
             let time = times::<P, V>(&P::POSITIONS, self.step, group);
             P::Lanes::force::<V, S>(self.system, time, &q[group], &p[group], force);
-            scale::<P, V>(&P::POSITIONS, self.step.size, group, force);
         }
     }
 
-    /// Evaluates all velocities.
+    /// Evaluates all velocities, which become increments.
     #[inline(always)]
     pub(crate) fn velocities(&mut self) {
         let LaneStages { q, p, velocity, .. } = &mut *self.stages;
@@ -216,8 +216,8 @@ where
         for (group, velocity) in velocity.as_mut().iter_mut().enumerate() {
             let time = times::<P, V>(&P::MOMENTA, self.step, group);
             P::Lanes::velocity::<V, S>(self.system, time, &q[group], &p[group], velocity);
-            scale::<P, V>(&P::MOMENTA, self.step.size, group, velocity);
         }
+        scale::<P, V>(&P::MOMENTA, self.step.size, self.stages.velocity.as_mut());
     }
 }
 
@@ -237,16 +237,17 @@ fn times<P: StageTableau, V>(half: &HalfTableau, step: &Step<'_, V>, group: usiz
 
 /// Evaluations become increments.
 #[inline(always)]
-fn scale<P: StageTableau, V: Vector>(
+pub(crate) fn scale<P: StageTableau, V: Vector>(
     half: &HalfTableau,
     h: f64,
-    group: usize,
-    evaluation: &mut Laned<V, P>,
+    evaluations: &mut [Laned<V, P>],
 ) {
     if P::INCREMENTS {
-        let factor = lanes::<P::Lanes>(half.weights, group) * P::Lanes::from_f64(h);
-        for component in evaluation.as_mut_slice() {
-            *component *= factor;
+        for (group, evaluation) in evaluations.iter_mut().enumerate() {
+            let factor = lanes::<P::Lanes>(half.weights, group) * P::Lanes::from_f64(h);
+            for component in evaluation.as_mut_slice() {
+                *component *= factor;
+            }
         }
     }
 }
@@ -279,23 +280,11 @@ pub(crate) fn entry<P: StageTableau, V: Vector>(
     group.as_slice()[component].to_array().as_ref()[stage % P::Lanes::WIDTH]
 }
 
-/// What the stages are sums of: a matrix by its columns, and a factor of them.
-pub(crate) struct Sums<C> {
-    count: usize,
-    column: C,
-    factor: Option<f64>,
-}
-
-impl<C: Fn(usize) -> &'static [f64]> Sums<C> {
-    /// Those with so many columns, which have an entry for each lane.
-    #[inline(always)]
-    pub(crate) const fn new(count: usize, column: C) -> Self {
-        Self {
-            count,
-            column,
-            factor: None,
-        }
-    }
+/// What the stages are sums of: a matrix by its columns, which have an entry for each lane, and the factor of each, if any.
+pub(crate) struct Sums<C, F> {
+    pub(crate) count: usize,
+    pub(crate) column: C,
+    pub(crate) factor: F,
 }
 
 /// The sums of one half of the stages.
@@ -303,11 +292,13 @@ impl<C: Fn(usize) -> &'static [f64]> Sums<C> {
 fn sums<P: StageTableau>(
     half: &HalfTableau,
     h: f64,
-) -> Sums<impl Fn(usize) -> &'static [f64] + use<P>> {
+) -> Sums<impl Fn(usize) -> &'static [f64] + use<P>, impl Fn(usize) -> Option<f64> + use<P>> {
     let columns = half.columns;
+    let factor = (!P::INCREMENTS).then_some(h);
     Sums {
-        factor: (!P::INCREMENTS).then_some(h),
-        ..Sums::new(columns.len(), move |j: usize| columns[j])
+        count: columns.len(),
+        column: move |j: usize| columns[j],
+        factor: move |_| factor,
     }
 }
 
@@ -315,7 +306,7 @@ fn sums<P: StageTableau>(
 /// component, of the base with what it leaves out, and of the sum.
 #[inline(always)]
 pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
-    sums: &Sums<impl Fn(usize) -> &'static [f64]>,
+    sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
     out: &mut [Laned<V, P>],
     (base, low): (&V, &V),
     terms: &[Laned<V, P>],
@@ -438,14 +429,14 @@ fn sum<R: Summation, P: StageTableau>(
 /// `factor Σ_j columns_j terms_j` in one component, for the stages of one group; the factor, if any, is in the products.
 #[inline(always)]
 fn combination<P: StageTableau, V: Vector>(
-    sums: &Sums<impl Fn(usize) -> &'static [f64]>,
+    sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
     group: usize,
     terms: &[Laned<V, P>],
     component: usize,
 ) -> P::Lanes {
     sum_of_products(sums.count, |j| {
         let column: P::Lanes = lanes((sums.column)(j), group);
-        let column = match sums.factor {
+        let column = match (sums.factor)(j) {
             Some(factor) => column * P::Lanes::from_f64(factor),
             None => column,
         };
@@ -462,7 +453,11 @@ pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
 ) {
     let n = shortest(increments);
     let columns = half.extrapolation;
-    let sums = Sums::new(columns.len(), |j: usize| columns[j]);
+    let sums = Sums {
+        count: columns.len(),
+        column: |j: usize| columns[j],
+        factor: |_| None,
+    };
     let mut new = P::groups(|_| P::Lanes::from_f64(0.0));
     for k in 0..n {
         for (group, new) in new.as_mut().iter_mut().enumerate() {

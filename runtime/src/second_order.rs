@@ -3,7 +3,8 @@
 use core::marker::PhantomData;
 
 use crate::in_lanes::{
-    ByLanes, LaneMovement, LanePart, Sums, entry, extend, extrapolate, fill, lanes, total, values,
+    ByLanes, LaneMovement, LanePart, Sums, entry, extend, extrapolate, fill, lanes, scale, total,
+    values,
 };
 use crate::iteration::{Sweeps, settle};
 use crate::lane_stages::LaneStages;
@@ -113,6 +114,9 @@ where
             },
         };
         let work = settle::<P::Class, f64>(&mut sweeps, kept, max_iterations)?;
+        if !R::COMPENSATED {
+            sweeps.increments();
+        }
         let Outcome { q, q_low, p, p_low } = outcome;
         total::<R, P, V>(
             (p, p_low),
@@ -183,6 +187,9 @@ where
 
 /// The positions of the stages alone. In the place of the momenta is the velocity at the start, in all lanes, and in that
 /// of the velocities are those of the increments of the momentum.
+///
+/// With plain sums these are the forces themselves while the stages are iterated, and the matrix has the factors of the
+/// increments in it: evaluations need not wait for a product, and stages not for two.
 struct Positions<'a, P: StageTableau, R, V: Vector, S> {
     lanes: ByLanes<'a, P, R, V, S>,
 }
@@ -262,12 +269,39 @@ where
     #[inline(always)]
     fn positions(&mut self) -> LanePart<P::Lanes> {
         let columns = tableau::<P>().columns;
-        self.sums(&Sums::new(columns.len(), |j: usize| columns[j]))
+        if R::COMPENSATED {
+            return self.of_increments(columns.len(), |j: usize| columns[j]);
+        }
+        let h = self.lanes.step.size;
+        self.sums(&Sums {
+            count: columns.len(),
+            column: |j: usize| columns[j],
+            factor: |j: usize| Some(h * (h * P::POSITIONS.weights[j])),
+        })
     }
 
-    /// The positions that are these sums of the velocities of increments; returns how much they changed.
+    /// New positions by so many columns, of the velocities of increments; returns how much they changed.
     #[inline(always)]
-    fn sums(&mut self, sums: &Sums<impl Fn(usize) -> &'static [f64]>) -> LanePart<P::Lanes> {
+    fn of_increments(
+        &mut self,
+        count: usize,
+        column: impl Fn(usize) -> &'static [f64],
+    ) -> LanePart<P::Lanes> {
+        self.sums(&Sums {
+            count,
+            column,
+            factor: |_| None,
+        })
+    }
+
+    /// The positions that are these sums of the velocities of increments, or, with factors, of those of forces; returns how
+    /// much they changed.
+    #[inline(always)]
+    fn sums(
+        &mut self,
+        sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
+    ) -> LanePart<P::Lanes> {
+        let scaled = (sums.factor)(0).is_some();
         let (step, stages) = (self.lanes.step, &mut *self.lanes.stages);
         let h = P::Lanes::from_f64(step.size);
         let start = stages.p.as_ref();
@@ -278,11 +312,14 @@ where
                 true => P::Lanes::from_f64(step.p.as_slice()[k]),
                 false => start[group].as_slice()[k],
             };
-            let drift = node * velocity;
-            match R::COMPENSATED {
-                true => base + (h * (drift + sum) + low),
-                // All but the sum is the same in every sweep.
-                false => h.fused(sum, base + h * drift),
+            if R::COMPENSATED {
+                return base + (h * (node * velocity + sum) + low);
+            }
+            // All but the sum is the same in every sweep.
+            let start = (h * node).fused(velocity, base);
+            match scaled {
+                true => start + sum,
+                false => h.fused(sum, start),
             }
         };
         let base = (step.q, step.q_low);
@@ -304,6 +341,19 @@ where
             let time = P::Lanes::from_f64(self.lanes.step.time);
             let (q, force) = (&q[group], &force[group]);
             P::Lanes::velocity::<V, S>(self.lanes.system, time, q, force, velocity);
+        }
+    }
+
+    /// The forces become the increments that they are elsewhere.
+    #[inline(always)]
+    fn increments(&mut self) {
+        let h = self.lanes.step.size;
+        let LaneStages {
+            velocity, force, ..
+        } = &mut *self.lanes.stages;
+        scale::<P, V>(&P::POSITIONS, h, force.as_mut());
+        if !<S as Hamiltonian<V>>::UNIT_MASSES {
+            scale::<P, V>(&P::POSITIONS, h, velocity.as_mut());
         }
     }
 
@@ -358,7 +408,7 @@ where
         self.start();
         if kept.stages && Start::<P>::AT_ONCE {
             let count = P::POSITIONS.extrapolation.len();
-            self.sums(&Sums::new(count, |k: usize| &Start::<P>::COLUMNS[k]));
+            self.of_increments(count, |k: usize| &Start::<P>::COLUMNS[k]);
             return;
         }
         if kept.stages && Start::<P>::IS {
@@ -371,7 +421,8 @@ where
             }
         }
         self.velocities();
-        self.positions();
+        let columns = tableau::<P>().columns;
+        self.of_increments(columns.len(), |j: usize| columns[j]);
     }
 
     #[inline(always)]
@@ -387,6 +438,13 @@ where
     #[inline(always)]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         self.lanes.forces();
+        if R::COMPENSATED {
+            scale::<P, V>(
+                &P::POSITIONS,
+                self.lanes.step.size,
+                self.lanes.stages.force.as_mut(),
+            );
+        }
         self.velocities();
         let q = self.positions();
         // Both halves are this one.
