@@ -154,6 +154,7 @@ impl<L: Substeps> Plan for Composition<L> {
             let kept = Kept {
                 evaluation: substep.kept.evaluation && (number > 0 || kept.evaluation),
                 stages: substep.kept.stages && (number > 0 || kept.stages),
+                scales: if number > 0 { work.scales } else { kept.scales },
             };
             let taken = L::take::<R, V, S, N>(
                 number,

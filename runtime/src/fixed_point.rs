@@ -29,7 +29,8 @@ use crate::{
 ///
 /// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for the stagnation: it
 /// ends with a change that is at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) if the next one, should it shrink by the same factor,
-/// would be at most one.
+/// would be at most one. In the first nine sweeps after another step of the same size, what is more than that of the stages there
+/// is not looked at.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint;
 
@@ -133,5 +134,10 @@ where
     #[inline(always)]
     fn sweep(&mut self) -> Change {
         P::sweep::<R, V, S>(self.step, self.system, self.stages)
+    }
+
+    #[inline(always)]
+    fn change(&self, movement: &Change) -> Change {
+        *movement
     }
 }

@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use crate::iteration::{Movement, Sweeps, settle};
+use crate::iteration::{Movement, Sweeps, is_next_within, settle};
 use crate::kernel::sum_of_products;
 use crate::lane_stages::{LaneStages, Laned};
 use crate::summation::add;
@@ -168,6 +168,46 @@ where
         let q = self.positions();
         LaneMovement { q, p }
     }
+
+    #[inline(always)]
+    fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
+        let (step, stages) = (self.step, &*self.stages);
+        Change {
+            q: (movement.q).change(scale_of::<P, V>(step.q, stages.q.as_ref())),
+            p: (movement.p).change(scale_of::<P, V>(step.p, stages.p.as_ref())),
+        }
+    }
+
+    #[inline(always)]
+    fn are_about(&self, _movement: &Self::Movement, [q, p]: [f64; 2], both: bool) -> bool {
+        let (step, stages) = (self.step, &*self.stages);
+        is_about(scale_of::<P, V>(step.q, stages.q.as_ref()), q)
+            && (!both || is_about(scale_of::<P, V>(step.p, stages.p.as_ref()), p))
+    }
+}
+
+/// The largest component of stages and of what they start from, lane by lane.
+#[inline(always)]
+pub(crate) fn scale_of<P: StageTableau, V: Vector<Scalar = f64>>(
+    base: &V,
+    groups: &[Laned<V, P>],
+) -> P::Lanes {
+    let mut scale = P::Lanes::from_f64(0.0);
+    for &component in base.as_slice() {
+        scale = scale.larger(P::Lanes::from_f64(component).abs());
+    }
+    for group in groups {
+        for component in group.as_slice() {
+            scale = scale.larger(component.abs());
+        }
+    }
+    scale
+}
+
+/// Whether the largest lane is another size but for a factor of two.
+#[inline(always)]
+pub(crate) fn is_about<L: Lanes>(scale: L, other: f64) -> bool {
+    scale.any_above(0.5 * other) && !scale.any_above(2.0 * other)
 }
 
 impl<P, R, V, S> ByLanes<'_, P, R, V, S>
@@ -319,10 +359,9 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
     let zero = P::Lanes::from_f64(0.0);
     // The lanes take the larger numbers, and lose what is not one; the sum does not.
-    let (mut difference, mut scale, mut sum) = (zero, zero, zero);
+    let (mut difference, mut sum) = (zero, zero);
     for k in 0..n {
         let start = P::Lanes::from_f64(base[k]);
-        scale = scale.larger(start.abs());
         for (group, out) in out.iter_mut().enumerate() {
             let sum_of_terms = combination::<P, V>(sums, group, terms, k);
             let new = value(
@@ -333,16 +372,11 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
             let component = &mut out.as_mut_slice()[k];
             let moved = (new - *component).abs();
             difference = difference.larger(moved);
-            scale = scale.larger(new.abs());
             sum += moved;
             *component = new;
         }
     }
-    LanePart {
-        difference,
-        scale,
-        sum,
-    }
+    LanePart { difference, sum }
 }
 
 /// How a sweep moved the stages, lane by lane.
@@ -357,21 +391,11 @@ pub(crate) struct LaneMovement<L> {
 pub(crate) struct LanePart<L> {
     /// The largest change of a component, without those that are NaN.
     difference: L,
-    /// The largest component.
-    scale: L,
     /// All changes together: NaN if one is.
     sum: L,
 }
 
 impl<L: Lanes> Movement for LaneMovement<L> {
-    #[inline(always)]
-    fn change(&self) -> Change {
-        Change {
-            q: self.q.change(),
-            p: self.p.change(),
-        }
-    }
-
     #[inline(always)]
     fn is_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
         self.q.is_within(q) && (!both || self.p.is_within(p))
@@ -383,18 +407,27 @@ impl<L: Lanes> Movement for LaneMovement<L> {
     }
 
     #[inline(always)]
-    fn is_as_large(&self, [q, p]: [f64; 2], both: bool) -> bool {
-        self.q.is_as_large(q) && (!both || self.p.is_as_large(p))
+    fn is_next_within(&self, before: &Self, [q, p]: [f64; 2], both: bool) -> bool {
+        self.q.is_next_within(&before.q, q) && (!both || self.p.is_next_within(&before.p, p))
     }
 }
 
 impl<L: Lanes> LanePart<L> {
+    /// With what the largest component is.
     #[inline(always)]
-    fn change(&self) -> PartChange {
+    pub(crate) fn change(&self, scale: L) -> PartChange {
         if self.sum.any_nan() {
             return PartChange::new(f64::NAN, f64::NAN);
         }
-        PartChange::new(self.difference.largest(), self.scale.largest())
+        PartChange::new(self.difference.largest(), scale.largest())
+    }
+
+    #[inline(always)]
+    fn is_next_within(&self, before: &Self, bound: f64) -> bool {
+        let (this, before) = (self.difference, before.difference);
+        // What holds in every lane holds for the largest of all, for which the processor would have to wait.
+        let in_lanes = !(this * this - before * L::from_f64(bound)).any_above(0.0);
+        in_lanes || is_next_within(before.largest(), this.largest(), bound)
     }
 
     #[inline(always)]
@@ -405,11 +438,6 @@ impl<L: Lanes> LanePart<L> {
     #[inline(always)]
     fn exceeds(&self, bound: f64) -> bool {
         self.difference.any_above(bound) && !self.sum.any_nan()
-    }
-
-    #[inline(always)]
-    fn is_as_large(&self, scale: f64) -> bool {
-        self.scale.largest() >= 0.5 * scale
     }
 }
 

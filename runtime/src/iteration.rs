@@ -60,29 +60,32 @@ pub(crate) trait Sweeps {
 
     /// One sweep over all of them.
     fn sweep(&mut self) -> Self::Movement;
+
+    /// By how much that moved them altogether.
+    fn change(&self, movement: &Self::Movement) -> Change;
+
+    /// Whether the positions, and the momenta where they count, are as large as this but for a factor of two.
+    #[inline(always)]
+    fn are_about(&self, movement: &Self::Movement, [q, p]: [f64; 2], both: bool) -> bool {
+        let is_about = |size: f64, other: f64| size > 0.5 * other && size <= 2.0 * other;
+        let change = self.change(movement);
+        is_about(change.q.scale(), q) && (!both || is_about(change.p.scale(), p))
+    }
 }
 
 /// How a sweep moved the stages.
 pub(crate) trait Movement: Copy {
-    /// By how much altogether.
-    fn change(&self) -> Change;
-
     /// Whether it is a number, and by how much the positions moved, and the momenta where they count, not above these bounds.
     fn is_within(&self, bounds: [f64; 2], both: bool) -> bool;
 
     /// Whether it is a number, and by how much the positions moved, and the momenta where they count, above these bounds.
     fn exceeds(&self, bounds: [f64; 2], both: bool) -> bool;
 
-    /// Whether the positions, and the momenta where they count, are at least half as large as this.
-    fn is_as_large(&self, scales: [f64; 2], both: bool) -> bool;
+    /// Whether the positions, and the momenta where they count, [would move](is_next_within) by no more than these bounds next.
+    fn is_next_within(&self, before: &Self, bounds: [f64; 2], both: bool) -> bool;
 }
 
 impl Movement for Change {
-    #[inline(always)]
-    fn change(&self) -> Change {
-        *self
-    }
-
     #[inline(always)]
     fn is_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
         self.q.difference() <= q && (!both || self.p.difference() <= p)
@@ -94,8 +97,9 @@ impl Movement for Change {
     }
 
     #[inline(always)]
-    fn is_as_large(&self, [q, p]: [f64; 2], both: bool) -> bool {
-        self.q.scale() >= 0.5 * q && (!both || self.p.scale() >= 0.5 * p)
+    fn is_next_within(&self, before: &Self, [q, p]: [f64; 2], both: bool) -> bool {
+        is_next_within(before.q.difference(), self.q.difference(), q)
+            && (!both || is_next_within(before.p.difference(), self.p.difference(), p))
     }
 }
 
@@ -140,9 +144,15 @@ fn solve<C: Class, T: Scalar>(
             stage: Some(stage),
         });
     }
-    let solved = iterate::<C, T, _>(sweeps, max_iterations);
+    // Without stages that are kept the first sweep shows what is not finite.
+    let scales = if kept.stages { kept.scales } else { [0.0; 2] };
+    let solved = iterate::<C, T, _>(sweeps, scales, max_iterations);
     let iterations = match solved {
-        Ok(iterations) | Err(Failure::NoConvergence { iterations, .. }) => iterations,
+        Ok((iterations, scales)) => {
+            work.scales = scales;
+            iterations
+        }
+        Err(Failure::NoConvergence { iterations, .. }) => iterations,
         Err(Failure::NonFinite { .. } | Failure::SingularMatrix) => 1,
     };
     work.iterations += iterations;
@@ -150,15 +160,17 @@ fn solve<C: Class, T: Scalar>(
     solved.map(|_| ())
 }
 
-/// Sweeps until stagnation; returns the number of sweeps.
+/// Sweeps until stagnation; returns the number of sweeps, and how large the stages are, which were as large as `scales` in the
+/// step before; zero where that is not known.
 ///
 /// A change that grows ends nothing: where the stages are many and their coupling is far from normal, it can
 /// grow for many sweeps and vanish after all. A true divergence ends at the bound or overflows.
 #[inline(always)]
 fn iterate<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
+    scales: [f64; 2],
     max_iterations: u32,
-) -> Result<u32, Failure> {
+) -> Result<(u32, [f64; 2]), Failure> {
     let both = W::both::<C>();
     let relative = |change: &Change| match both {
         true => change.residual(),
@@ -170,39 +182,41 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         false => change.q.difference(),
     };
     let units = |count: f64, [q, p]: [f64; 2]| [count * T::EPSILON * q, count * T::EPSILON * p];
+    let (one, near, mut far) = (units(1.0, scales), units(ROUNDING, scales), [0.0; 2]);
+    let is_known = is_square_safe(one[0]) && (!both || is_square_safe(one[1]));
+    let is_known = W::HASTY && !W::LOOKS_AFAR && is_known;
+    let mut previous = None;
     let (mut last, mut looked) = (Change::default(), 0);
-    let (mut scales, mut far, mut enough) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0);
     let mut least = last;
     let mut idle = 0;
     let mut once_more = false;
     for iteration in 1..=max_iterations {
-        let movement = sweeps.sweep();
+        let this = sweeps.sweep();
         if once_more {
-            return Ok(iteration);
+            return Ok((iteration, scales));
         }
-        if iteration == 1 {
-            (last, looked) = (movement.change(), iteration);
-            if last.is_undefined() {
-                return Err(non_finite(sweeps, &last));
-            }
-            largest = size(&last);
-            scales = last.scales();
-            far = units(FAR, scales);
-            // There is none before it that would tell how fast they shrink.
-            enough = units(1.0, scales);
-        }
-        // Comparisons with what is known before the sweep: the processor need not wait for the largest of all lanes.
-        if W::HASTY && movement.is_within(enough, both) && movement.is_as_large(scales, both) {
-            return Ok(iteration);
-        }
+        let before: Option<W::Movement> = previous.replace(this);
         let early = iteration < PATIENCE && iteration < max_iterations;
-        if !W::LOOKS_AFAR && early && movement.exceeds(far, both) {
-            enough = units(ROUNDING, scales);
+        // Comparisons with what is known before the sweep: the processor need not wait for the largest of all lanes.
+        if is_known && early {
+            if !this.is_within(near, both) {
+                continue;
+            }
+            let is_last = this.is_within(one, both)
+                || before.is_some_and(|before| this.is_next_within(&before, one, both));
+            if is_last && sweeps.are_about(&this, scales, both) {
+                return Ok((iteration, scales));
+            }
+        }
+        if looked > 0 && !W::LOOKS_AFAR && early && this.exceeds(far, both) {
             continue;
         }
-        let change = movement.change();
+        let change = sweeps.change(&this);
         if change.is_undefined() {
+            if iteration == 1 {
+                return Err(non_finite(sweeps, &change));
+            }
             // It has run away: the change before is shown, if it was looked at.
             let residual = match looked + 1 == iteration {
                 true => relative(&last),
@@ -213,8 +227,19 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
                 iterations: iteration,
             });
         }
+        if W::HASTY && is_last::<T>(before.map(|x| sweeps.change(&x)), &change, both) {
+            return Ok((iteration, change.scales()));
+        }
+        let is_first = looked == 0;
         (last, looked) = (change, iteration);
         let size = size(&change);
+        if is_first {
+            largest = size;
+            far = units(FAR, change.scales());
+            if !W::LOOKS_AFAR && early && this.exceeds(far, both) {
+                continue;
+            }
+        }
         // Comparisons, for it is a number: `min` and `max` look whether it is.
         (smallest, least, idle) = if size < smallest {
             (size, change, 0)
@@ -230,19 +255,17 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
                 && Separable::settling(&change) <= AMPLIFIED * T::EPSILON
         };
         if size == 0.0 {
-            return Ok(iteration);
+            return Ok((iteration, change.scales()));
         }
         // At the bound one sweep without progress will do.
         let waited = iteration == max_iterations || idle > iteration / STAGNATION;
         if idle > 0 && waited && (is_rounding() || idle >= PATIENCE && is_noise()) {
             // What took many sweeps converges so slowly that another one is not about rounding.
             if W::HASTY || !early || !coin(sweeps.time()) {
-                return Ok(iteration);
+                return Ok((iteration, change.scales()));
             }
             once_more = true;
         }
-        scales = change.scales();
-        enough = [enough_after::<T>(&change.q), enough_after::<T>(&change.p)];
     }
     Err(Failure::NoConvergence {
         residual: relative(&last),
@@ -250,15 +273,30 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
     })
 }
 
-/// The change after which none is more than a unit of EPSILON, should it and the next one shrink by the factor by which this
-/// one has: `next²/this` is the one after it.
+/// Whether a change, after the one `before`, is the last of an iteration that does not wait for stagnation.
 #[inline(always)]
-fn enough_after<T: Scalar>(this: &PartChange) -> f64 {
-    let unit = T::EPSILON * this.scale();
-    let next = Scalar::sqrt(T::EPSILON * this.difference()) * Scalar::sqrt(this.scale());
-    let next = larger(next, unit);
-    let most = ROUNDING * unit;
-    if next < most { next } else { most }
+fn is_last<T: Scalar>(before: Option<Change>, change: &Change, both: bool) -> bool {
+    let of = |before: Option<f64>, change: &PartChange| {
+        let (unit, this) = (T::EPSILON * change.scale(), change.difference());
+        // The next one by a quotient, for numbers of any size.
+        let is_next_within = |before| this / before * this <= unit;
+        this <= unit || this <= ROUNDING * unit && before.is_some_and(is_next_within)
+    };
+    of(before.map(|x| x.q.difference()), &change.q)
+        && (!both || of(before.map(|x| x.p.difference()), &change.p))
+}
+
+/// Whether the change after two others, `this²/before` should they shrink by one factor, is within a bound the square of which
+/// [is a number](is_square_safe).
+#[inline(always)]
+pub(crate) fn is_next_within(before: f64, this: f64, bound: f64) -> bool {
+    this * this <= before * bound
+}
+
+/// Whether squares of numbers of this size are far from the smallest and the largest numbers.
+#[inline(always)]
+fn is_square_safe(size: f64) -> bool {
+    size > 1e-140 && size < 1e140
 }
 
 /// A bit of the time that is as good as random, and the same on every run.
@@ -305,6 +343,7 @@ fn larger(a: f64, b: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::General;
+    use alloc::vec;
     use alloc::vec::Vec;
 
     /// Stages whose changes are given, in units of EPSILON of the values.
@@ -352,6 +391,10 @@ mod tests {
             self.made += 1;
             Change { q, p }
         }
+
+        fn change(&self, movement: &Change) -> Change {
+            *movement
+        }
     }
 
     /// The sweeps of an iteration with these changes that begins at a time with this coin.
@@ -370,7 +413,20 @@ mod tests {
             made: 0,
             time,
         };
-        iterate::<C, f64, _>(&mut script, changes.len() as u32)
+        let settled = iterate::<C, f64, _>(&mut script, [0.0; 2], changes.len() as u32);
+        settled.map(|(iterations, _)| iterations)
+    }
+
+    /// The sweeps of a hasty iteration of values that are one, after those of a step in which they were this, and how large they
+    /// are then known to be.
+    fn after<C: Class>(before: [f64; 2], changes: &[[f64; 2]]) -> Result<(u32, [f64; 2]), Failure> {
+        let mut script = Scripted::<true> {
+            changes,
+            scales: &[1.0],
+            made: 0,
+            time: 1.0,
+        };
+        iterate::<C, f64, _>(&mut script, before, changes.len() as u32)
     }
 
     /// The same changes of both halves.
@@ -476,6 +532,66 @@ mod tests {
         assert_eq!(sweeps::<Separable, true>(&near, &[1.0], true), Ok(4));
         let far = alike([1e12, 1e9, 1000.0, 50.0, 1.0, 1.0]);
         assert_eq!(sweeps::<Separable, true>(&far, &[1.0], true), Ok(5));
+    }
+
+    #[test]
+    fn a_hasty_iteration_after_another_ends_at_the_same_sweep() {
+        let near = alike([1e12, 1e9, 1000.0, 30.0, 1.0, 1.0]);
+        let far = alike([1e12, 1e9, 1000.0, 50.0, 1.0, 1.0]);
+        let still = alike([1e12, 1e9, 1000.0, 0.0, 0.0]);
+        let at_once = alike([0.5, 0.5]);
+        for (changes, sweeps) in [(&near[..], 4), (&far, 5), (&still, 4), (&at_once, 1)] {
+            for before in [1.0, 0.6, 1.9, 2.0, 1e6] {
+                let now = after::<General>([before; 2], changes);
+                let Ok((made, [size, _])) = now else {
+                    panic!("{now:?}");
+                };
+                assert_eq!(made, sweeps, "{before}");
+                // What is not known but for a factor of two is looked at.
+                assert!(0.5 * size < 1.0 && 1.0 <= 2.0 * size, "{before}: {size}");
+            }
+        }
+        // Momenta that do not count need not be known.
+        assert_eq!(after::<Separable>([1.0, 0.0], &near), Ok((4, [1.0, 0.0])));
+        assert_eq!(after::<General>([1.0, 0.0], &near), Ok((4, [1.0; 2])));
+    }
+
+    #[test]
+    fn a_hasty_iteration_of_what_was_small_looks_at_the_tenth_sweep() {
+        let changes = alike([
+            1e12, 1e9, 1e6, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0,
+        ]);
+        // No change is near to the rounding errors of what it was before.
+        assert_eq!(after::<General>([0.1; 2], &changes), Ok((11, [1.0; 2])));
+        assert_eq!(after::<General>([1.0; 2], &changes), Ok((4, [1.0; 2])));
+    }
+
+    #[test]
+    fn a_hasty_iteration_after_another_that_runs_away_is_an_error() {
+        for first in [1e12, f64::NAN] {
+            let mut changes = vec![[first, first]];
+            changes.extend([[f64::NAN; 2]; 20]);
+            let shown = after::<General>([1.0; 2], &changes);
+            let Err(Failure::NoConvergence { iterations: 10, .. }) = shown else {
+                panic!("{shown:?}");
+            };
+        }
+    }
+
+    #[test]
+    fn a_hasty_iteration_of_numbers_of_any_size_ends_at_the_same_sweep() {
+        for scale in [1.0, 1e-120, 1e-130, 1e-150, 1e-280, 1e150, 1e200] {
+            for (last, sweeps) in [(30.0, 4), (32.0, 5)] {
+                let mut script = Scripted::<true> {
+                    changes: &alike([1e12, 1e9, 1000.0, last, 0.0]),
+                    scales: &[scale],
+                    made: 0,
+                    time: 1.0,
+                };
+                let settled = iterate::<General, f64, _>(&mut script, [scale; 2], 5);
+                assert_eq!(settled, Ok((sweeps, [scale; 2])), "{scale} {last}");
+            }
+        }
     }
 
     #[test]

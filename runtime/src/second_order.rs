@@ -3,15 +3,15 @@
 use core::marker::PhantomData;
 
 use crate::in_lanes::{
-    ByLanes, LaneMovement, LanePart, Sums, entry, extend, extrapolate, fill, lanes, scale, total,
-    values,
+    ByLanes, LaneMovement, LanePart, Sums, entry, extend, extrapolate, fill, is_about, lanes,
+    scale, scale_of, total, values,
 };
 use crate::iteration::{Sweeps, settle};
 use crate::lane_stages::LaneStages;
 use crate::summation::add;
 use crate::{
-    Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes, Inside,
-    Kept, Lanes, Outcome, Quantity, Scalar, SecondOrderTableau, Solver, StageTableau, Step,
+    Change, Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes,
+    Inside, Kept, Lanes, Outcome, Quantity, Scalar, SecondOrderTableau, Solver, StageTableau, Step,
     Summation, Vector, Work,
 };
 
@@ -449,5 +449,18 @@ where
         let q = self.positions();
         // Both halves are this one.
         LaneMovement { q, p: q }
+    }
+
+    #[inline(always)]
+    fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
+        let stages = self.lanes.stages.q.as_ref();
+        let q = (movement.q).change(scale_of::<P, V>(self.lanes.step.q, stages));
+        Change { q, p: q }
+    }
+
+    #[inline(always)]
+    fn are_about(&self, _movement: &Self::Movement, [q, _]: [f64; 2], _both: bool) -> bool {
+        let stages = self.lanes.stages.q.as_ref();
+        is_about(scale_of::<P, V>(self.lanes.step.q, stages), q)
     }
 }

@@ -124,10 +124,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         S: Hamiltonian<V, Class = P::Class>,
         N: Solver<V, S>,
     {
-        let kept = Kept {
-            evaluation: true,
-            stages: false,
-        };
+        let kept = Kept::new(true, false);
         P::apply::<R, V, S, ()>(span, system, memory, kept, state, &mut ());
     }
 }

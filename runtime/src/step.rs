@@ -79,13 +79,26 @@ impl<V> Outcome<'_, V> {
 }
 
 /// What the memory of the stages still holds from the step before.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Kept {
     /// The evaluations at its end that are those at the start of this step, if there are any.
     pub evaluation: bool,
     /// The increments of its stages, from which those of this step can be extrapolated: the step before was taken by
     /// the same method, from a step size equal to this one.
     pub stages: bool,
+    /// How large [those stages](Work::scales) were.
+    pub scales: [f64; 2],
+}
+
+impl Kept {
+    /// Evaluations, stages, or both.
+    pub const fn new(evaluation: bool, stages: bool) -> Self {
+        Self {
+            evaluation,
+            stages,
+            scales: [0.0; 2],
+        }
+    }
 }
 
 /// Evaluations that a [`StagePlan`](crate::StagePlan) makes.

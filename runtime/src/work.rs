@@ -5,7 +5,7 @@ use core::ops::AddAssign;
 use crate::Quantity;
 
 /// What a step took.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Work {
     /// Sweeps of the fixed-point iteration, or of another one.
     pub iterations: u32,
@@ -15,6 +15,9 @@ pub struct Work {
     pub factorisations: u32,
     /// Attempts to find the stages that failed and were made good by another solver.
     pub rejected: u32,
+    /// How large the positions and the momenta of coupled stages are, but for a factor of two, of several steps in the last; zero
+    /// where that is not known.
+    pub scales: [f64; 2],
 }
 
 impl AddAssign for Work {
@@ -24,6 +27,7 @@ impl AddAssign for Work {
         self.evaluations += other.evaluations;
         self.factorisations += other.factorisations;
         self.rejected += other.rejected;
+        self.scales = other.scales;
     }
 }
 

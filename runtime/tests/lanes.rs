@@ -4,8 +4,9 @@ use std::fmt::Debug;
 
 use symplectic::nalgebra::{DVector, SVector, Vector2};
 use symplectic::{
-    Error, F64x2, F64x4, F64x8, General, Hamiltonian, HamiltonianInLanes, Integrator, Lanes,
-    Method, Quantity, Scalar, SeparableHamiltonian, State, Vector, tableau,
+    Compensated, Error, F64x2, F64x4, F64x8, General, Hamiltonian, HamiltonianInLanes, Integrator,
+    Lanes, Method, Plain, Quantity, Scalar, SeparableHamiltonian, State, Summation, Vector,
+    tableau,
 };
 
 tableau! { Gauss1 { basis: polynomial(1), nodes: gauss(1) } }
@@ -14,6 +15,7 @@ tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
 tableau! { Gauss5 { basis: polynomial(5), nodes: gauss(5) } }
 tableau! { Gauss8 { basis: polynomial(8), nodes: gauss(8) } }
 tableau! { Gauss10 { basis: polynomial(10), nodes: gauss(10) } }
+tableau! { Gauss18 { basis: polynomial(18), nodes: gauss(18) } }
 tableau! { Lobatto4 { basis: polynomial(4), nodes: lobatto(4) } }
 tableau! { Radau3 { basis: polynomial(3), nodes: radau-right(3) } }
 tableau! { RadauIIA { a: [[5/12, -1/12], [3/4, 1/4]], b: [3/4, 1/4] } }
@@ -222,9 +224,19 @@ where
     M: Method,
     S: HamiltonianInLanes<Vector2<f64>> + Copy,
 {
+    without_them::<Compensated, M, S>(method, system)?;
+    without_them::<Plain, M, S>(method, system)
+}
+
+fn without_them<R: Summation, M, S>(method: M, system: S) -> Result<(), Error>
+where
+    M: Method,
+    S: HamiltonianInLanes<Vector2<f64>> + Copy,
+{
     let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
-    let mut whole = Integrator::new(method, system, start.clone(), 0.03)?.in_lanes();
-    let mut half = Integrator::new(method, system, start, 0.03)?.in_second_order_lanes()?;
+    let made = || Integrator::<_, _, _, R>::with_summation(method, system, start.clone(), 0.03);
+    let mut whole = made()?.in_lanes();
+    let mut half = made()?.in_second_order_lanes()?;
     for _ in 0..100 {
         let (expected, found) = (whole.step()?, half.step()?);
         assert!((found.q - expected.q).norm() < 1e-12, "{}", M::NAME);
@@ -245,6 +257,8 @@ fn second_order_systems_need_no_momentum_stages() -> Result<(), Error> {
     without_momentum_stages(Gauss3, Kepler)?;
     without_momentum_stages(Gauss8, Kepler)?;
     without_momentum_stages(Gauss10, Kepler)?;
+    // More than their starting values are made of at once.
+    without_momentum_stages(Gauss18, Kepler)?;
     without_momentum_stages(Lobatto4, Kepler)?;
     without_momentum_stages(Radau3, Kepler)?;
     without_momentum_stages(StoermerVerlet, Kepler)?;
@@ -294,11 +308,15 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for UnitKepler {
 #[test]
 fn unit_masses_change_no_bit_of_second_order_lanes() -> Result<(), Error> {
     fn check<M: Method>(method: M) -> Result<(), Error> {
+        check_with::<Compensated, M>(method)?;
+        check_with::<Plain, M>(method)
+    }
+    fn check_with<R: Summation, M: Method>(method: M) -> Result<(), Error> {
         let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
-        let mut asked =
-            Integrator::new(method, Kepler, start.clone(), 0.03)?.in_second_order_lanes()?;
-        let mut known =
-            Integrator::new(method, UnitKepler, start, 0.03)?.in_second_order_lanes()?;
+        let asked = Integrator::<_, _, _, R>::with_summation(method, Kepler, start.clone(), 0.03)?;
+        let known = Integrator::<_, _, _, R>::with_summation(method, UnitKepler, start, 0.03)?;
+        let mut asked = asked.in_second_order_lanes()?;
+        let mut known = known.in_second_order_lanes()?;
         assert_eq!(known.take_steps(300)?, asked.take_steps(300)?);
         assert_eq!(known.statistics(), asked.statistics());
         let time = known.state().time - 0.01;

@@ -132,6 +132,7 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
         self.kept = Kept {
             evaluation: true,
             stages: true,
+            scales: self.work.scales,
         };
     }
 

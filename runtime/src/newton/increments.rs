@@ -128,6 +128,11 @@ where
         self.judge(&change);
         change
     }
+
+    #[inline(always)]
+    fn change(&self, movement: &Change) -> Change {
+        *movement
+    }
 }
 
 impl<'a, P, R, V, S, L> ByIncrements<'a, P, R, V, S, L>

@@ -143,7 +143,7 @@ impl Composed<'_> {
                 ::symplectic::Substep {
                     start: #at,
                     fraction: #size,
-                    kept: ::symplectic::Kept { evaluation: #follows, stages: #equal },
+                    kept: ::symplectic::Kept::new(#follows, #equal),
                     stages: #count,
                 }
             });
