@@ -86,10 +86,10 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             copy(&mut next_low.0, &low.0);
             copy(&mut next_low.1, &low.1);
         }
-        if size_of::<V>() <= SHORT {
-            self.run_apart(clock, steps, size);
-        } else {
-            self.run_here(clock, steps, size);
+        match (size_of::<V>() <= SHORT, R::COMPENSATED) {
+            (true, true) => self.run_apart(clock, steps, size),
+            (true, false) => self.run_alone(clock, steps, size),
+            (false, _) => self.run_here(clock, steps, size),
         }
         if !self.course.is_sound() {
             self.course.memory = StageStorage::like(&self.course.state.q);
@@ -120,11 +120,11 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     }
 
     /// Takes steps in these places moved out of the memory of the integrator, so that they are in registers from step to step.
-    #[inline]
+    #[inline(always)]
     fn run_apart(&mut self, clock: &Clock, steps: u64, size: f64) {
         let blank = || (V::blank(), V::blank());
-        let mut memory = mem::replace(&mut self.course.memory, StageStorage::like(&V::blank()));
         let mut low = mem::replace(&mut self.course.next_low, blank());
+        let mut memory = mem::replace(&mut self.course.memory, StageStorage::like(&V::blank()));
         let mut next = mem::replace(&mut self.course.next, blank());
         Self::run(
             &self.system,
@@ -137,6 +137,13 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         );
         (self.course.next, self.course.next_low) = (next, low);
         self.course.memory = memory;
+    }
+
+    /// [`run_apart`](Self::run_apart), in a function of its own: plain steps are so short that it shows what is in registers around
+    /// them.
+    #[inline(never)]
+    fn run_alone(&mut self, clock: &Clock, steps: u64, size: f64) {
+        self.run_apart(clock, steps, size);
     }
 
     /// Takes steps in the places of a state.
