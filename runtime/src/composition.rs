@@ -6,7 +6,7 @@ use crate::diagnosis::{FirstFault, culprit};
 use crate::stage::is_finite;
 use crate::{
     Class, Coefficient, Failure, Hamiltonian, Inside, Interpolation, Kept, Outcome, Plan, Quantity,
-    Solver, StageStorage, Step, Summation, Vector, Witness, Work,
+    Solver, StageStorage, Step, Stopping, Summation, Vector, Witness, Work,
 };
 
 /// A step `Φ_{γh}` of a composition.
@@ -43,7 +43,7 @@ pub trait Substeps {
         system: &S,
         memory: &mut Self::Memory<V, S, N>,
         kept: Kept,
-        max_iterations: u32,
+        stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
@@ -114,7 +114,7 @@ impl<L: Substeps> Plan for Composition<L> {
         system: &S,
         memory: &mut Self::Memory<V, S, N>,
         kept: Kept,
-        max_iterations: u32,
+        stopping: Stopping,
         mut outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
@@ -162,7 +162,7 @@ impl<L: Substeps> Plan for Composition<L> {
                 system,
                 plans,
                 kept,
-                max_iterations,
+                stopping,
                 here.reborrow(),
             );
             let taken = taken.and_then(|taken| {

@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use crate::{
     Failure, Hamiltonian, Inside, Interpolation, Kept, Outcome, Plan, Solver, StageTableau, Step,
-    Summation, Vector, Witness, Work,
+    Stopping, Summation, Vector, Witness, Work,
 };
 
 /// The plan of a step some stages of which depend on each other: a [`Solver`] finds them.
@@ -21,7 +21,7 @@ impl<P: StageTableau> Plan for Coupled<P> {
         system: &S,
         memory: &mut N::Memory<P>,
         kept: Kept,
-        max_iterations: u32,
+        stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
@@ -30,7 +30,7 @@ impl<P: StageTableau> Plan for Coupled<P> {
         S: Hamiltonian<V, Class = P::Class>,
         N: Solver<V, S>,
     {
-        N::take::<P, R>(step, system, memory, kept, max_iterations, outcome)
+        N::take::<P, R>(step, system, memory, kept, stopping, outcome)
     }
 
     /// The evaluations are in the memory.

@@ -8,8 +8,8 @@ use core::fmt;
 pub enum Error {
     /// The iteration for the coupled stages did not settle.
     #[error(
-        "step {step} of size {step_size} at time {time}: the stages did not converge in {iterations} iterations \
-         (relative change {residual:e} in the last one); take a smaller step"
+        "step {step} of size {step_size} at time {time}: the stages {}; take a smaller step",
+        Divergence { residual: *.residual, iterations: *.iterations }
     )]
     NoConvergence {
         /// Time at the start of the step.
@@ -18,8 +18,8 @@ pub enum Error {
         step_size: f64,
         /// Number of the step, from 1.
         step: u64,
-        /// Relative change of the stages in the last sweep in which it was finite; infinite where it grew so fast that it was
-        /// not looked at.
+        /// Relative change of the stages in the last sweep in which it was finite; infinite where that was not
+        /// looked at.
         residual: f64,
         /// Sweeps made.
         iterations: u32,
@@ -104,6 +104,13 @@ pub enum Error {
     #[error("the step size is {value}; it must be finite and not zero")]
     StepSize {
         /// The step size given.
+        value: f64,
+    },
+
+    /// The tolerance of an iteration is negative, infinite or not a number.
+    #[error("the tolerance is {value}; it must be finite and not negative")]
+    Tolerance {
+        /// The tolerance given.
         value: f64,
     },
 
@@ -273,5 +280,28 @@ impl fmt::Display for AtStage {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0
             .map_or(Ok(()), |stage| write!(formatter, " at stage {stage}"))
+    }
+}
+
+/// What an iteration did instead of converging.
+struct Divergence {
+    residual: f64,
+    iterations: u32,
+}
+
+impl fmt::Display for Divergence {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            residual,
+            iterations,
+        } = *self;
+        if residual.is_finite() {
+            write!(
+                formatter,
+                "did not converge in {iterations} iterations (relative change {residual:e} in the last one)"
+            )
+        } else {
+            write!(formatter, "are not finite after {iterations} iterations")
+        }
     }
 }

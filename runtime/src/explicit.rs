@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use crate::{
     Failure, Hamiltonian, Inside, Interpolation, Kept, Outcome, Plan, Solver, StagePlan,
-    StageStorage, Step, Summation, Vector, Witness, Work,
+    StageStorage, Step, Stopping, Summation, Vector, Witness, Work,
 };
 
 /// The plan of a step in which every stage is computed from the ones before it. There is no solver in its code.
@@ -21,7 +21,7 @@ impl<P: StagePlan> Plan for Explicit<P> {
         system: &S,
         memory: &mut P::Stages<V>,
         kept: Kept,
-        _max_iterations: u32,
+        _stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where

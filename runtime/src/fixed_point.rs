@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use crate::iteration::{Sweeps, settle};
 use crate::{
     Change, EvaluationCounts, Failure, Hamiltonian, Inside, Kept, Outcome, Quantity, Solver,
-    StagePlan, StageStorage, StageTableau, Step, Summation, Vector, Work,
+    StagePlan, StageStorage, StageTableau, Step, Stopping, Summation, Vector, Work,
 };
 
 /// Fixed-point iteration: sweep after sweep from the latest evaluations to new stages. It converges where the step size
@@ -20,7 +20,8 @@ use crate::{
 /// is allowed one will do.
 /// Where evaluations are noisier than that, or sweeps amplify what rounding does, it is enough that the change has shrunk a
 /// thousandfold, has stopped for ten sweeps too, that the smallest one was down to rounding errors in one half, and that it is at
-/// most four times as much; sweeps are counted from the tenth on while the change is above 4096 units of the first stages.
+/// most four times as much; sweeps are counted from the tenth on while the change is above 4096 units of the stages of the step
+/// before or, without one, of the first stages.
 ///
 /// Where it has settled with a change that is not zero, rounding makes stages jump to and fro between two values, and the side
 /// that the starting values come from says at which of them it ends. The energy would drift by that too, though by 1e-21 of it
@@ -29,8 +30,8 @@ use crate::{
 ///
 /// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for the stagnation: it
 /// ends with a change that is at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) if the next one, should it shrink by the same factor,
-/// would be at most one. In the first nine sweeps after another step of the same size, what is more than that of the stages there
-/// is not looked at.
+/// would be at most one. In the first nine sweeps of a step that goes on from another one nothing is looked at before a change is
+/// within 64 units of the stages there. With a [tolerance](crate::Integrator::set_tolerance) the first change within it is the last.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint;
 
@@ -43,7 +44,7 @@ impl<V: Vector, S: Hamiltonian<V>> Solver<V, S> for FixedPoint {
         system: &S,
         stages: &mut P::Stages<V>,
         kept: Kept,
-        max_iterations: u32,
+        stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
@@ -51,7 +52,7 @@ impl<V: Vector, S: Hamiltonian<V>> Solver<V, S> for FixedPoint {
         R: Summation,
         S: Hamiltonian<V, Class = P::Class>,
     {
-        by_stages::<P, R, V, S>(step, system, stages, kept, max_iterations, outcome)
+        by_stages::<P, R, V, S>(step, system, stages, kept, stopping, outcome)
     }
 
     fn extend<P: StageTableau>(stages: &P::Stages<V>, at: Inside, q: &mut V, p: &mut V) {
@@ -68,7 +69,7 @@ pub(crate) fn by_stages<P, R, V, S>(
     system: &S,
     stages: &mut P::Stages<V>,
     kept: Kept,
-    max_iterations: u32,
+    stopping: Stopping,
     outcome: Outcome<'_, V>,
 ) -> Result<Work, Failure>
 where
@@ -83,7 +84,7 @@ where
         stages: &mut *stages,
         sums: PhantomData,
     };
-    let mut work = settle::<P::Class, V::Scalar>(&mut sweeps, kept, max_iterations)?;
+    let mut work = settle::<P::Class, V::Scalar>(&mut sweeps, kept, stopping)?;
     P::finish::<R, V, S, ()>(step, system, stages, kept, outcome, &mut ());
     work.evaluations += P::EVALUATIONS.finish;
     Ok(work)

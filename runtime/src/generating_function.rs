@@ -10,8 +10,8 @@ use crate::fixed_point::by_stages;
 use crate::integrator::{check_state, check_step_size};
 use crate::stage::{first_mismatch, first_non_finite, first_non_finite_of, is_finite};
 use crate::{
-    Change, Class, Coefficient, Coefficients, Error, EvaluationCounts, Hamiltonian, Integrator,
-    Kept, Method, Outcome, PartChange, Plain, Quantity, Scalar, StagePlan, StageStorage, Step,
+    Change, Class, Coefficient, Coefficients, Error, EvaluationCounts, Hamiltonian, Kept, Method,
+    Outcome, PartChange, Plain, Quantity, Scalar, StagePlan, StageStorage, Step, Stopping,
     Summation, Vector, Witness,
 };
 
@@ -103,8 +103,7 @@ pub fn generating_function<M: Method, S: Hamiltonian<V>, V: Vector>(
         p: p1,
         p_low: &nothing,
     };
-    let max_iterations = Integrator::<M, S, V>::DEFAULT_MAX_ITERATIONS;
-    generating::<M, S, V>(system, &step, 1, max_iterations)
+    generating::<M, S, V>(system, &step, 1, Stopping::DEFAULT)
 }
 
 /// [`generating_function`] with `q0` and `p1` for the position and the momentum of `step`, whose number is for errors.
@@ -112,7 +111,7 @@ pub(crate) fn generating<M: Method, S: Hamiltonian<V>, V: Vector>(
     system: &S,
     step: &Step<'_, V>,
     number: u64,
-    max_iterations: u32,
+    stopping: Stopping,
 ) -> Result<GeneratingFunction<V>, Error> {
     let mut stages = Unknowns::<M, V>::like(step.q);
     let zeros = || step.q.zeros_like();
@@ -122,7 +121,7 @@ pub(crate) fn generating<M: Method, S: Hamiltonian<V>, V: Vector>(
         system,
         &mut stages,
         Kept::default(),
-        max_iterations,
+        stopping,
         Outcome {
             q: &mut q1,
             q_low: &mut zeros(),

@@ -9,7 +9,7 @@ use crate::summation::add;
 use crate::{
     Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, HamiltonianInLanes, Inside,
     Kept, Lanes, Outcome, PartChange, Quantity, Scalar, Solver, StageStorage, StageTableau, Step,
-    Summation, Vector, Work,
+    Stopping, Summation, Vector, Work,
 };
 
 /// The iteration of [`FixedPoint`](crate::FixedPoint) with the stages side by side in [`Lanes`]: one evaluation of the
@@ -34,7 +34,7 @@ where
         system: &S,
         stages: &mut LaneStages<V, P>,
         kept: Kept,
-        max_iterations: u32,
+        stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
@@ -48,7 +48,7 @@ where
             stages: &mut *stages,
             sums: PhantomData,
         };
-        let work = settle::<P::Class, f64>(&mut sweeps, kept, max_iterations)?;
+        let work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
         let Outcome { q, q_low, p, p_low } = outcome;
         total::<R, P, V>(
             (q, q_low),
@@ -117,9 +117,15 @@ where
 
     #[inline(always)]
     fn evaluations(&self) -> EvaluationCounts {
+        let start = P::MOMENTA.count as u32;
+        let (begin, start) = if extrapolates::<P>() {
+            (0, start)
+        } else {
+            (start, 0)
+        };
         EvaluationCounts {
-            begin: 0,
-            start: P::MOMENTA.count as u32,
+            begin,
+            start,
             sweep: (P::POSITIONS.count + P::MOMENTA.count) as u32,
             finish: 0,
             carried: 0,
@@ -133,9 +139,7 @@ where
 
     #[inline(always)]
     fn begin(&mut self, kept: Kept) {
-        let extrapolates = !P::MOMENTA.extrapolation.is_empty()
-            && (P::Class::SEPARABLE || !P::POSITIONS.extrapolation.is_empty());
-        if kept.stages && extrapolates {
+        if kept.stages && extrapolates::<P>() {
             extrapolate::<P, V>(&P::MOMENTA, self.stages.velocity.as_mut());
             if !P::Class::SEPARABLE {
                 extrapolate::<P, V>(&P::POSITIONS, self.stages.force.as_mut());
@@ -145,6 +149,7 @@ where
             fill::<P, V>(self.stages.q.as_mut(), self.step.q);
             fill::<P, V>(self.stages.p.as_mut(), self.step.p);
             self.velocities();
+            self.scale_velocities();
         }
         self.positions();
     }
@@ -162,9 +167,10 @@ where
     #[inline(always)]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         self.forces();
-        scale::<P, V>(&P::POSITIONS, self.step.size, self.stages.force.as_mut());
+        self.scale_forces();
         let p = self.momenta();
         self.velocities();
+        self.scale_velocities();
         let q = self.positions();
         LaneMovement { q, p }
     }
@@ -184,6 +190,12 @@ where
         is_about(scale_of::<P, V>(step.q, stages.q.as_ref()), q)
             && (!both || is_about(scale_of::<P, V>(step.p, stages.p.as_ref()), p))
     }
+}
+
+/// Whether there are starting values from the step before: of the velocities, and of the forces where they need them too.
+pub(crate) const fn extrapolates<P: StageTableau>() -> bool {
+    !P::MOMENTA.extrapolation.is_empty()
+        && (P::Class::SEPARABLE || !P::POSITIONS.extrapolation.is_empty())
 }
 
 /// The largest component of stages and of what they start from, lane by lane.
@@ -248,7 +260,7 @@ where
         }
     }
 
-    /// Evaluates all velocities, which become increments.
+    /// Evaluates all velocities, which are no increments yet.
     #[inline(always)]
     pub(crate) fn velocities(&mut self) {
         let LaneStages { q, p, velocity, .. } = &mut *self.stages;
@@ -257,6 +269,17 @@ where
             let time = times::<P, V>(&P::MOMENTA, self.step, group);
             P::Lanes::velocity::<V, S>(self.system, time, &q[group], &p[group], velocity);
         }
+    }
+
+    /// The forces become increments.
+    #[inline(always)]
+    pub(crate) fn scale_forces(&mut self) {
+        scale::<P, V>(&P::POSITIONS, self.step.size, self.stages.force.as_mut());
+    }
+
+    /// The velocities become increments.
+    #[inline(always)]
+    pub(crate) fn scale_velocities(&mut self) {
         scale::<P, V>(&P::MOMENTA, self.step.size, self.stages.velocity.as_mut());
     }
 }
@@ -413,7 +436,7 @@ impl<L: Lanes> Movement for LaneMovement<L> {
 }
 
 impl<L: Lanes> LanePart<L> {
-    /// With what the largest component is.
+    /// All lanes together; `scale` is the largest component, lane by lane.
     #[inline(always)]
     pub(crate) fn change(&self, scale: L) -> PartChange {
         if self.sum.any_nan() {
@@ -443,7 +466,7 @@ impl<L: Lanes> LanePart<L> {
 
 /// `base + low + sum`.
 #[inline(always)]
-fn sum<R: Summation, P: StageTableau>(
+pub(crate) fn sum<R: Summation, P: StageTableau>(
     _place: (usize, usize),
     (base, low): (P::Lanes, P::Lanes),
     sum: P::Lanes,

@@ -10,9 +10,9 @@ use crate::interpolation::Line;
 use crate::stage::is_finite;
 use crate::time::{Clock, uniform};
 use crate::{
-    Class, Compensated, Error, FixedPoint, Hamiltonian, HamiltonianInLanes, InLanes, Inside,
-    Interpolation, Method, Plain, Plan, Quantity, Retry, Scalar, SecondOrderInLanes, Solver, State,
-    States, Statistics, Summation, Vector,
+    AtOnceInLanes, Class, Compensated, Error, FixedPoint, Hamiltonian, HamiltonianInLanes, InLanes,
+    Inside, Interpolation, Method, Plain, Plan, Quantity, Retry, Scalar, SecondOrderInLanes,
+    Solver, State, States, Statistics, Stopping, Summation, Vector,
 };
 #[cfg(feature = "alloc")]
 use crate::{GeneratingFunction, Kept, Step, generating_function::generating};
@@ -74,7 +74,7 @@ pub struct Integrator<
     course: Course<V, MemoryOf<M, S, V, N>>,
     clock: Clock,
     step_size: f64,
-    max_iterations: u32,
+    stopping: Stopping,
     retry: Retry,
     method: PhantomData<(M, R, N)>,
 }
@@ -118,6 +118,44 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V, Plain> {
     }
 }
 
+impl<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> Integrator<M, S, V, Plain, N> {
+    /// Sets how far a sweep may move the coupled stages and be the last one: no position by more than `tolerance` in its unit, nor,
+    /// where the Hamiltonian is not separable or the iteration is Newton's, a momentum. Where changes
+    /// shrink by `κ` a sweep, `κ/(1 − κ)` of the last one is left of the error. Zero, as it is at first, and anything below what
+    /// rounding does: down to rounding.
+    ///
+    /// A tolerance saves sweeps, and the search for the largest position that rounding is compared with. It is for plain sums only:
+    /// compensated ones are for runs without drift, and the energy drifts by iterations that end above rounding.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Tolerance`], where it is negative, infinite or not a number; the one before then holds.
+    ///
+    /// ```
+    /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, acceleration};
+    /// # fn main() -> Result<(), Error> {
+    /// let pendulum = acceleration(|_time, q: &Vector1<f64>, acceleration| acceleration[0] = -q[0].sin());
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+    /// let mut integrator = Integrator::plain(Gauss4, pendulum, start, 0.1)?;
+    /// integrator.take_steps(100)?;
+    /// let to_rounding = integrator.iterations();
+    /// integrator.set_tolerance(1e-10)?;
+    /// integrator.take_steps(100)?;
+    /// assert!(integrator.iterations() - to_rounding < to_rounding);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub const fn set_tolerance(&mut self, tolerance: f64) -> Result<(), Error> {
+        if !(tolerance >= 0.0 && tolerance.is_finite()) {
+            return Err(Error::Tolerance { value: tolerance });
+        }
+        self.stopping.tolerance = tolerance;
+        Ok(())
+    }
+}
+
 impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
     Integrator<M, S, V, R>
 {
@@ -155,6 +193,12 @@ impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
         self.with_solver(InLanes)
     }
 
+    /// [`in_lanes`](Self::in_lanes) for a Hamiltonian that is not separable, with positions and momenta iterated at once:
+    /// [`AtOnceInLanes`], which says where that pays.
+    pub fn at_once_in_lanes(self) -> Integrator<M, S, V, R, AtOnceInLanes> {
+        self.with_solver(AtOnceInLanes)
+    }
+
     /// [`in_lanes`](Self::in_lanes) for a second-order system `q'' = M⁻¹ f(q)`, one whose velocity `M⁻¹ p` is linear in the
     /// momentum: by [`SecondOrderInLanes`], which iterates the positions only.
     ///
@@ -175,7 +219,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 {
     /// A bound on the sweeps of one step, for [`set_max_iterations`](Self::set_max_iterations). An iteration that
     /// needs more gains less than a factor of 1.2 a sweep.
-    pub const DEFAULT_MAX_ITERATIONS: u32 = 200;
+    pub const DEFAULT_MAX_ITERATIONS: u32 = Stopping::DEFAULT.max_iterations;
 
     /// What the states inside a step are computed from, and their order: see [`dense`](Self::dense).
     ///
@@ -209,7 +253,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             clock: Clock::new(state.time, step_size),
             course: Course::new(state),
             step_size,
-            max_iterations: Self::DEFAULT_MAX_ITERATIONS,
+            stopping: Stopping::DEFAULT,
             retry: Retry::default(),
             method: PhantomData,
         })
@@ -222,7 +266,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             course: self.course.with_memory(),
             clock: self.clock,
             step_size: self.step_size,
-            max_iterations: self.max_iterations,
+            stopping: self.stopping,
             retry: self.retry,
             method: PhantomData,
         }
@@ -313,7 +357,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             p_low: &self.course.next_low.1,
         };
         let number = self.course.statistics.steps + 1;
-        let outcome = generating::<M, S, V>(&self.system, &step, number, self.max_iterations);
+        let outcome = generating::<M, S, V>(&self.system, &step, number, self.stopping);
         if outcome.is_ok() {
             self.accept(size, time);
             self.clock.tick();
@@ -474,7 +518,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 
     /// Sets the bound on the sweeps of one step, beyond which it fails with [`Error::NoConvergence`]; 0 counts as 1.
     pub const fn set_max_iterations(&mut self, max_iterations: u32) {
-        self.max_iterations = if max_iterations == 0 {
+        self.stopping.max_iterations = if max_iterations == 0 {
             1
         } else {
             max_iterations
@@ -548,9 +592,9 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         })
     }
 
-    /// The bound on the sweeps of one step.
-    pub(crate) const fn max_iterations(&self) -> u32 {
-        self.max_iterations
+    /// When the iteration of one step stops.
+    pub(crate) const fn stopping(&self) -> Stopping {
+        self.stopping
     }
 
     /// Adds what the stages of the last step say about its inside: see [`Plan::extend`].

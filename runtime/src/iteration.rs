@@ -1,7 +1,8 @@
 //! Sweep after sweep over coupled stages, until they have settled.
 
 use crate::{
-    Change, Class, EvaluationCounts, Failure, Kept, PartChange, Quantity, Scalar, Separable, Work,
+    Change, Class, EvaluationCounts, Failure, Kept, PartChange, Quantity, Scalar, Separable,
+    Stopping, Work,
 };
 
 /// Changes up to this many units of EPSILON can be rounding errors: one sweep rounds s products, s sums and the
@@ -16,8 +17,8 @@ const PATIENCE: u32 = 10;
 /// changes grow now and then long before it has settled.
 const STAGNATION: u32 = 16;
 
-/// Changes above this many units of EPSILON of the first stages are not looked at further in the first sweeps: neither are
-/// they the last, nor is the next one by its size alone.
+/// Changes above this many units of EPSILON, of the stages of the step before or of those that were looked at first, are not looked
+/// at further in the first sweeps: none of them is the last.
 const FAR: f64 = ROUNDING * ROUNDING;
 
 /// Noise up to this many units of EPSILON is noise still where the smallest change was at most [`ROUNDING`].
@@ -108,12 +109,12 @@ impl Movement for Change {
 pub(crate) fn settle<C: Class, T: Scalar>(
     sweeps: &mut impl Sweeps,
     kept: Kept,
-    max_iterations: u32,
+    stopping: Stopping,
 ) -> Result<Work, Failure> {
     let mut work = Work::default();
     let mut kept = kept;
     loop {
-        let solved = solve::<C, T>(sweeps, kept, max_iterations, &mut work);
+        let solved = solve::<C, T>(sweeps, kept, stopping, &mut work);
         if solved.is_ok() || !kept.stages {
             return solved.map(|()| work);
         }
@@ -127,7 +128,7 @@ pub(crate) fn settle<C: Class, T: Scalar>(
 fn solve<C: Class, T: Scalar>(
     sweeps: &mut impl Sweeps,
     kept: Kept,
-    max_iterations: u32,
+    stopping: Stopping,
     work: &mut Work,
 ) -> Result<(), Failure> {
     sweeps.begin(kept);
@@ -144,9 +145,7 @@ fn solve<C: Class, T: Scalar>(
             stage: Some(stage),
         });
     }
-    // Without stages that are kept the first sweep shows what is not finite.
-    let scales = if kept.stages { kept.scales } else { [0.0; 2] };
-    let solved = iterate::<C, T, _>(sweeps, scales, max_iterations);
+    let solved = iterate::<C, T, _>(sweeps, kept, stopping);
     let iterations = match solved {
         Ok((iterations, scales)) => {
             work.scales = scales;
@@ -160,111 +159,147 @@ fn solve<C: Class, T: Scalar>(
     solved.map(|_| ())
 }
 
-/// Sweeps until stagnation; returns the number of sweeps, and how large the stages are, which were as large as `scales` in the
-/// step before; zero where that is not known.
+/// Sweeps until stagnation; returns the number of sweeps, and how large the stages are, if that is known.
 ///
 /// A change that grows ends nothing: where the stages are many and their coupling is far from normal, it can
 /// grow for many sweeps and vanish after all. A true divergence ends at the bound or overflows.
 #[inline(always)]
 fn iterate<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
-    scales: [f64; 2],
-    max_iterations: u32,
+    kept: Kept,
+    stopping: Stopping,
 ) -> Result<(u32, [f64; 2]), Failure> {
+    let Stopping {
+        max_iterations,
+        tolerance,
+    } = stopping;
     let both = W::both::<C>();
+    let units = |count: f64, [q, p]: [f64; 2]| [count * T::EPSILON * q, count * T::EPSILON * p];
+    // Sweeps before this one are early.
+    let late = max_iterations.min(PATIENCE);
+    let tolerates = W::HASTY && tolerance > 0.0;
+    // Without stages that are kept the first sweep is looked at: it shows what is not finite.
+    let scales = if kept.stages { kept.scales } else { [0.0; 2] };
+    let one = units(1.0, scales);
+    let is_known = is_square_safe(one[0]) && (!both || is_square_safe(one[1]));
+    let is_known = !W::LOOKS_AFAR && is_known;
+    let is_tolerable = |this: &W::Movement| this.is_within([tolerance; 2], both);
+    let mut iteration = 0;
+    let mut previous = None;
+    // The sweep that is looked at first, if it has been made.
+    let mut made = None;
+    let near = units(ROUNDING, scales);
+    // A tolerance that rounding may keep changes from is not waited for.
+    let tolerates_more = tolerates && tolerance >= near[0] && (!both || tolerance >= near[1]);
+    let tolerates_more = tolerates_more && kept.stages && !W::LOOKS_AFAR;
+    // Comparisons with what is known before the sweep: the processor need not wait for the largest of all lanes. Nothing is made
+    // ready here for what is looked at below, for most iterations end here.
+    if W::HASTY && (tolerates_more || is_known) {
+        while iteration + 1 < late {
+            let this = sweeps.sweep();
+            iteration += 1;
+            if tolerates_more {
+                if is_tolerable(&this) {
+                    return Ok((iteration, scales));
+                }
+            } else if this.is_within(near, both) {
+                let is_last = this.is_within(one, both)
+                    || previous.is_some_and(|before| this.is_next_within(&before, one, both));
+                if is_last && sweeps.are_about(&this, scales, both) {
+                    return Ok((iteration, scales));
+                }
+                made = Some(this);
+                break;
+            }
+            previous = Some(this);
+        }
+    }
     let relative = |change: &Change| match both {
         true => change.residual(),
         false => change.q.relative(),
     };
     // What shrinks from sweep to sweep: without a division where it is one half.
-    let size = |change: &Change| match both {
+    let size_of = |change: &Change| match both {
         true => change.residual(),
         false => change.q.difference(),
     };
-    let units = |count: f64, [q, p]: [f64; 2]| [count * T::EPSILON * q, count * T::EPSILON * p];
-    let (one, near, mut far) = (units(1.0, scales), units(ROUNDING, scales), [0.0; 2]);
-    let is_known = is_square_safe(one[0]) && (!both || is_square_safe(one[1]));
-    let is_known = W::HASTY && !W::LOOKS_AFAR && is_known;
-    let mut previous = None;
+    // Whether there are changes that are not looked at, and which.
+    let (mut overlooks, mut far) = (is_known, units(FAR, scales));
     let (mut last, mut looked) = (Change::default(), 0);
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0);
+    // The first sweep, where it is not looked at and somebody may want to know.
+    let mut first = None;
     let mut least = last;
     let mut idle = 0;
     let mut once_more = false;
-    for iteration in 1..=max_iterations {
-        let this = sweeps.sweep();
-        if once_more {
-            return Ok((iteration, scales));
-        }
+    while iteration < max_iterations {
+        let this = made.take().unwrap_or_else(|| {
+            iteration += 1;
+            sweeps.sweep()
+        });
         let before: Option<W::Movement> = previous.replace(this);
-        let early = iteration < PATIENCE && iteration < max_iterations;
-        // Comparisons with what is known before the sweep: the processor need not wait for the largest of all lanes.
-        if is_known && early {
-            if !this.is_within(near, both) {
-                continue;
-            }
-            let is_last = this.is_within(one, both)
-                || before.is_some_and(|before| this.is_next_within(&before, one, both));
-            if is_last && sweeps.are_about(&this, scales, both) {
-                return Ok((iteration, scales));
-            }
+        let early = iteration < late;
+        if once_more {
+            return Ok((iteration, last.scales()));
         }
-        if looked > 0 && !W::LOOKS_AFAR && early && this.exceeds(far, both) {
-            continue;
+        if tolerates && is_tolerable(&this) {
+            return Ok((iteration, sweeps.change(&this).scales()));
         }
-        let change = sweeps.change(&this);
-        if change.is_undefined() {
+        if overlooks && early && this.exceeds(far, both) {
             if iteration == 1 {
-                return Err(non_finite(sweeps, &change));
+                first = Some(this);
             }
-            // It has run away: the change before is shown, if it was looked at.
-            let residual = match looked + 1 == iteration {
-                true => relative(&last),
-                false => f64::INFINITY,
-            };
-            return Err(Failure::NoConvergence {
-                residual,
-                iterations: iteration,
-            });
-        }
-        if W::HASTY && is_last::<T>(before.map(|x| sweeps.change(&x)), &change, both) {
-            return Ok((iteration, change.scales()));
-        }
-        let is_first = looked == 0;
-        (last, looked) = (change, iteration);
-        let size = size(&change);
-        if is_first {
-            largest = size;
-            far = units(FAR, change.scales());
-            if !W::LOOKS_AFAR && early && this.exceeds(far, both) {
-                continue;
-            }
-        }
-        // Comparisons, for it is a number: `min` and `max` look whether it is.
-        (smallest, least, idle) = if size < smallest {
-            (size, change, 0)
         } else {
-            (smallest, least, idle + 1)
-        };
-        largest = larger(size, largest);
-        let is_rounding = || C::settling(&change) <= ROUNDING * T::EPSILON;
-        // What rounding does may be amplified by all sweeps after the one whose change was the smallest.
-        let is_noise = || {
-            smallest <= CONTRACTION * largest
-                && Separable::settling(&least) <= ROUNDING * T::EPSILON
-                && Separable::settling(&change) <= AMPLIFIED * T::EPSILON
-        };
-        if size == 0.0 {
-            return Ok((iteration, change.scales()));
-        }
-        // At the bound one sweep without progress will do.
-        let waited = iteration == max_iterations || idle > iteration / STAGNATION;
-        if idle > 0 && waited && (is_rounding() || idle >= PATIENCE && is_noise()) {
-            // What took many sweeps converges so slowly that another one is not about rounding.
-            if W::HASTY || !early || !coin(sweeps.time()) {
+            let change = sweeps.change(&this);
+            if change.is_undefined() {
+                if iteration == 1 {
+                    return Err(non_finite(sweeps, &change));
+                }
+                // It has run away: the change before is shown, if it was looked at.
+                let residual = match looked + 1 == iteration {
+                    true => relative(&last),
+                    false => f64::INFINITY,
+                };
+                return Err(Failure::NoConvergence {
+                    residual,
+                    iterations: iteration,
+                });
+            }
+            if W::HASTY && is_last::<T>(before.map(|x| sweeps.change(&x)), &change, both) {
                 return Ok((iteration, change.scales()));
             }
-            once_more = true;
+            let size = size_of(&change);
+            if looked == 0 {
+                (overlooks, far) = (!W::LOOKS_AFAR, units(FAR, change.scales()));
+            }
+            (last, looked) = (change, iteration);
+            largest = larger(size, largest);
+            // Comparisons, for it is a number: `min` and `max` look whether it is.
+            (smallest, least, idle) = if size < smallest {
+                (size, change, 0)
+            } else {
+                (smallest, least, idle + 1)
+            };
+            let is_rounding = || C::settling(&change) <= ROUNDING * T::EPSILON;
+            // What rounding does may be amplified by all sweeps after the one whose change was the smallest.
+            let is_noise = || {
+                let at_first = first.map_or(0.0, |first| size_of(&sweeps.change(&first)));
+                smallest <= CONTRACTION * larger(at_first, largest)
+                    && Separable::settling(&least) <= ROUNDING * T::EPSILON
+                    && Separable::settling(&change) <= AMPLIFIED * T::EPSILON
+            };
+            if size == 0.0 {
+                return Ok((iteration, change.scales()));
+            }
+            // At the bound one sweep without progress will do.
+            let waited = iteration == max_iterations || idle > iteration / STAGNATION;
+            if idle > 0 && waited && (is_rounding() || idle >= PATIENCE && is_noise()) {
+                // What took many sweeps converges so slowly that another one is not about rounding.
+                if W::HASTY || !early || !coin(sweeps.time()) {
+                    return Ok((iteration, change.scales()));
+                }
+                once_more = true;
+            }
         }
     }
     Err(Failure::NoConvergence {
@@ -413,7 +448,7 @@ mod tests {
             made: 0,
             time,
         };
-        let settled = iterate::<C, f64, _>(&mut script, [0.0; 2], changes.len() as u32);
+        let settled = iterate::<C, f64, _>(&mut script, Kept::default(), at_most(changes.len()));
         settled.map(|(iterations, _)| iterations)
     }
 
@@ -426,7 +461,23 @@ mod tests {
             made: 0,
             time: 1.0,
         };
-        iterate::<C, f64, _>(&mut script, before, changes.len() as u32)
+        iterate::<C, f64, _>(&mut script, stages(before), at_most(changes.len()))
+    }
+
+    /// So many sweeps, to rounding.
+    fn at_most(sweeps: usize) -> Stopping {
+        Stopping {
+            max_iterations: sweeps as u32,
+            ..Stopping::DEFAULT
+        }
+    }
+
+    /// The stages of the step before are kept, and were as large as this.
+    fn stages(scales: [f64; 2]) -> Kept {
+        Kept {
+            scales,
+            ..Kept::new(false, true)
+        }
     }
 
     /// The same changes of both halves.
@@ -513,6 +564,119 @@ mod tests {
     }
 
     #[test]
+    fn noise_is_noise_where_the_sweeps_before_it_were_not_looked_at() {
+        let mut changes = alike([1e12, 1e9, 1e6, 1e3, 50.0]).to_vec();
+        changes.extend([[200.0; 2]; 30]);
+        let settled = |kept: Kept| {
+            let mut script = Scripted::<false> {
+                changes: &changes,
+                scales: &[1.0],
+                made: 0,
+                time: 1.0,
+            };
+            iterate::<Separable, f64, _>(&mut script, kept, at_most(changes.len()))
+        };
+        assert_eq!(settled(Kept::default()), Ok((15, [1.0; 2])));
+        assert_eq!(settled(stages([1.0; 2])), Ok((15, [1.0; 2])));
+        // Where one half never settles, the other says nothing.
+        let changes = [[0.5, 1e12]; 40];
+        for kept in [Kept::default(), stages([1.0; 2])] {
+            let mut script = Scripted::<false> {
+                changes: &changes,
+                scales: &[1.0],
+                made: 0,
+                time: 1.0,
+            };
+            let settled = iterate::<General, f64, _>(&mut script, kept, at_most(40));
+            assert!(settled.is_err(), "{settled:?}");
+        }
+        let settled = after::<General>([1.0; 2], &changes);
+        assert!(settled.is_err(), "{settled:?}");
+    }
+
+    /// The sweeps of a hasty iteration of values that are one, to a tolerance in units of EPSILON.
+    fn tolerant<C: Class>(
+        units: f64,
+        kept: Kept,
+        changes: &[[f64; 2]],
+    ) -> Result<(u32, [f64; 2]), Failure> {
+        let mut script = Scripted::<true> {
+            changes,
+            scales: &[1.0],
+            made: 0,
+            time: 1.0,
+        };
+        let stopping = Stopping {
+            max_iterations: changes.len() as u32,
+            tolerance: units * f64::EPSILON,
+        };
+        iterate::<C, f64, _>(&mut script, kept, stopping)
+    }
+
+    #[test]
+    fn a_tolerance_ends_an_iteration_at_the_first_change_within_it() {
+        let changes = alike([1e12, 1e9, 1e6, 1e3, 1.0, 0.5]);
+        for kept in [
+            Kept::default(),
+            stages([0.0; 2]),
+            stages([1.0; 2]),
+            stages([1e-3; 2]),
+        ] {
+            for (units, sweeps) in [(1e12, 1), (1e9, 2), (2e6, 3), (1e5, 4), (2.0, 5)] {
+                let made = tolerant::<General>(units, kept, &changes);
+                assert_eq!(made.map(|(made, _)| made), Ok(sweeps), "{units} {kept:?}");
+            }
+        }
+        // Also in the last sweep that is allowed.
+        for bound in 1..=5 {
+            let kept = stages([1.0; 2]);
+            let made = tolerant::<General>(2.0, kept, &changes[..bound]);
+            assert_eq!(made.is_ok(), bound == 5, "{bound}");
+        }
+        // Momenta count where they count.
+        let changes = [[1e12, 1e12], [1.0, 1e6], [1.0, 1.0]];
+        for (kept, general) in [(Kept::default(), 3), (stages([1.0; 2]), 3)] {
+            assert_eq!(
+                tolerant::<General>(9.0, kept, &changes).map(|x| x.0),
+                Ok(general)
+            );
+            assert_eq!(
+                tolerant::<Separable>(9.0, kept, &changes).map(|x| x.0),
+                Ok(2)
+            );
+        }
+    }
+
+    #[test]
+    fn a_tolerance_below_rounding_is_not_waited_for() {
+        let kept = stages([1.0; 2]);
+        let changes = alike([1e12, 1e9, 1e6, 30.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0]);
+        assert_eq!(tolerant::<General>(1.0, kept, &changes), Ok((4, [1.0; 2])));
+        assert_eq!(tolerant::<General>(10.0, kept, &changes), Ok((4, [1.0; 2])));
+        let changes = alike([1e12, 1e9, 100.0, 60.0, 30.0, 20.0, 20.0]);
+        assert_eq!(tolerant::<General>(25.0, kept, &changes), Ok((6, [1.0; 2])));
+        let changes = alike([1e12, 1e9, 1e6, 30.0, 2.0, 0.7, 0.7, 0.7, 0.7, 0.7, 0.7, 0.7]);
+        assert_eq!(tolerant::<General>(1e-3, kept, &changes), Ok((4, [1.0; 2])));
+        // What was larger once leaves no bound that is too wide, and is known better after.
+        let kept = stages([1e9; 2]);
+        let made = tolerant::<General>(1.0, kept, &changes);
+        assert_eq!(made, Ok((4, [1.0; 2])));
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_within_no_tolerance() {
+        let mut changes = alike([1e12, 1e9]).to_vec();
+        changes.extend([[f64::NAN; 2]; 20]);
+        for kept in [Kept::default(), stages([1.0; 2])] {
+            let made = tolerant::<General>(1e3, kept, &changes);
+            assert!(
+                matches!(made, Err(Failure::NoConvergence { .. })),
+                "{made:?}"
+            );
+        }
+    }
+
+    #[test]
     fn what_runs_away_shows_the_change_before_if_it_was_looked_at() {
         let residual =
             |changes: &[[f64; 2]]| match sweeps::<Separable, false>(changes, &[1.0], false) {
@@ -588,7 +752,8 @@ mod tests {
                     made: 0,
                     time: 1.0,
                 };
-                let settled = iterate::<General, f64, _>(&mut script, [scale; 2], 5);
+                let settled =
+                    iterate::<General, f64, _>(&mut script, stages([scale; 2]), at_most(5));
                 assert_eq!(settled, Ok((sweeps, [scale; 2])), "{scale} {last}");
             }
         }

@@ -138,10 +138,48 @@ fn add_products<R: Summation, T: Scalar>(out: &mut [T], low: &mut [T], factor: T
     }
 }
 
+/// Kicks one after the other, and a drift of unit masses, component by component: the same bits as by one [`advance`] each.
+#[inline(always)]
+pub(crate) fn kick_and_drift<V: Vector>(
+    q: &mut V,
+    p: &mut V,
+    force: &V,
+    kicks: [Option<V::Scalar>; 2],
+    drift: V::Scalar,
+) {
+    let (q, p, force) = (q.as_mut_slice(), p.as_mut_slice(), force.as_slice());
+    match kicks {
+        [Some(first), Some(second)] => add_kicked(q, p, force, [first, second], drift),
+        [Some(kick), None] | [None, Some(kick)] => add_kicked(q, p, force, [kick], drift),
+        [None, None] => add_kicked(q, p, force, [], drift),
+    }
+}
+
+/// [`kick_and_drift`] of slices, which are known to be apart.
+#[inline(always)]
+fn add_kicked<T: Scalar, const N: usize>(
+    q: &mut [T],
+    p: &mut [T],
+    force: &[T],
+    kicks: [T; N],
+    drift: T,
+) {
+    let n = q.len().min(p.len()).min(force.len());
+    let (q, p, force) = (&mut q[..n], &mut p[..n], &force[..n]);
+    for i in 0..n {
+        let mut momentum = p[i];
+        for kick in kicks {
+            momentum = kick.fused(force[i], momentum);
+        }
+        p[i] = momentum;
+        q[i] = drift.fused(momentum, q[i]);
+    }
+}
+
 /// The velocity of a drift: the momentum itself where [masses are one](Hamiltonian::UNIT_MASSES), else what is in `place`,
 /// which is evaluated unless it is `known`.
 #[inline(always)]
-pub fn velocity<'a, V: Vector, S: Hamiltonian<V>>(
+pub(crate) fn velocity<'a, V: Vector, S: Hamiltonian<V>>(
     system: &S,
     time: V::Scalar,
     q: &V,

@@ -18,7 +18,7 @@
 //! | What it computes with | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors) |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`] |
 //! | Running it | [`State`], [`Integrator`], [`Error`], [`Retry`], [`Statistics`], [`Progress`], [`Invariant`] |
-//! | How coupled stages are found | [`Solver`]: [`FixedPoint`], [`InLanes`], [`Newton`], [`FixedPointThenNewton`] |
+//! | How coupled stages are found | [`Solver`]: [`FixedPoint`], [`InLanes`], [`AtOnceInLanes`], [`SecondOrderInLanes`], [`Newton`], [`FixedPointThenNewton`] |
 //! | Between the steps | [`DenseOutput`], [`Interpolation`], [`Event`] |
 //! | What generates a step | [`generating_function`], of Type II |
 //! | Which method to take | the module `report` |
@@ -75,6 +75,7 @@ extern crate alloc;
 extern crate std;
 
 mod array;
+mod at_once;
 mod change;
 mod class;
 mod closures;
@@ -100,6 +101,7 @@ mod lane_stages;
 mod lanes;
 mod long_splitting;
 mod method;
+mod moves;
 #[cfg(feature = "alloc")]
 mod newton;
 mod output;
@@ -117,16 +119,19 @@ mod splitting;
 mod splitting_macros;
 mod stage;
 mod stage_tableau;
+mod starting_values;
 mod state;
 mod states;
 mod statistics;
 mod step;
+mod stopping;
 mod summation;
 mod tableau_macro;
 mod time;
 mod vector;
 mod work;
 
+pub use at_once::AtOnceInLanes;
 pub use change::{Change, PartChange};
 pub use class::{Class, General, Separable};
 pub use closures::{
@@ -149,13 +154,13 @@ pub use integrator::Integrator;
 pub use interpolation::{Inside, Interpolation};
 pub use invariant::Invariant;
 pub use kernel::{
-    advance, combine, copy, copy_to, factors, scale, total, transform, velocity, weighted_total,
-    weights,
+    advance, combine, copy, copy_to, factors, scale, total, transform, weighted_total, weights,
 };
 pub use lane_stages::LaneStages;
 pub use lanes::{F64x2, F64x4, F64x8, HamiltonianInLanes, Lanes};
 pub use long_splitting::{SeparableOnly, rows, staircase};
 pub use method::{Method, Plan, StagePlan};
+pub use moves::{Drift, Moves};
 pub use nalgebra;
 #[cfg(feature = "alloc")]
 pub use newton::{
@@ -182,6 +187,7 @@ pub use state::State;
 pub use states::States;
 pub use statistics::Statistics;
 pub use step::{EvaluationCounts, Kept, Outcome, Span, Step, Witness};
+pub use stopping::Stopping;
 pub use summation::{Compensated, Plain, Summation};
 pub use tableau_macro::tableau;
 pub use vector::Vector;

@@ -2,7 +2,7 @@
 
 use crate::{
     Failure, General, Hamiltonian, Inside, Interpolation, Kept, Outcome, Plan, Solver, Step,
-    Summation, Vector, Witness, Work,
+    Stopping, Summation, Vector, Witness, Work,
 };
 
 /// The matrix with the entries `weights[j]` in the row `i` for `j < i`, and for `j = i` where they are its `own`, and `zero`
@@ -69,7 +69,7 @@ impl Plan for SeparableOnly {
         _system: &S,
         _memory: &mut crate::Evaluations<V>,
         _kept: Kept,
-        _max_iterations: u32,
+        _stopping: Stopping,
         _outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where

@@ -4,8 +4,8 @@ use core::fmt::Debug;
 
 use crate::{
     Change, Class, Coefficients, EvaluationCounts, Failure, General, Hamiltonian, Inside,
-    Interpolation, Kept, Outcome, Separable, Solver, Span, StageStorage, Step, Summation, Vector,
-    Witness, Work,
+    Interpolation, Kept, Moves, Outcome, Separable, Solver, Span, StageStorage, Step, Stopping,
+    Summation, Vector, Witness, Work,
 };
 
 /// A symplectic partitioned Runge–Kutta method: a type without a value, emitted from a proved tableau.
@@ -53,7 +53,7 @@ pub trait Plan {
         system: &S,
         memory: &mut Self::Memory<V, S, N>,
         kept: Kept,
-        max_iterations: u32,
+        stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
@@ -63,18 +63,35 @@ pub trait Plan {
         N: Solver<V, S>;
 
     /// Takes a step from `state`, in place, with the evaluations [kept](Kept::evaluation) by the step before; nothing where
-    /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`.
+    /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`. `moves` may leave kicks waiting.
     #[inline(always)]
-    fn take_in_place<R, V, S, N>(
+    fn take_in_place<R, V, S, N, K>(
         _span: Span,
         _system: &S,
         _memory: &mut Self::Memory<V, S, N>,
         _state: Outcome<'_, V>,
+        _moves: &mut K,
     ) where
         R: Summation,
         V: Vector,
         S: Hamiltonian<V, Class = Self::Class>,
         N: Solver<V, S>,
+        K: Moves,
+    {
+    }
+
+    /// Gives the state what steps [taken in place](Self::take_in_place) have left waiting.
+    #[inline(always)]
+    fn settle_in_place<R, V, S, N, K>(
+        _memory: &mut Self::Memory<V, S, N>,
+        _state: Outcome<'_, V>,
+        _moves: &mut K,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+        K: Moves,
     {
     }
 

@@ -50,7 +50,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S
             integrator.system(),
             &mut self.memory,
             Kept::default(),
-            integrator.max_iterations(),
+            integrator.stopping(),
             Outcome {
                 q: &mut state.q,
                 q_low: &mut self.low.0,

@@ -8,11 +8,12 @@ use crate::in_lanes::{
 };
 use crate::iteration::{Sweeps, settle};
 use crate::lane_stages::LaneStages;
+use crate::starting_values::{StartingColumns, starting_columns, starts_at_once};
 use crate::summation::add;
 use crate::{
     Change, Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes,
     Inside, Kept, Lanes, Outcome, Quantity, Scalar, SecondOrderTableau, Solver, StageTableau, Step,
-    Summation, Vector, Work,
+    Stopping, Summation, Vector, Work,
 };
 
 /// [`InLanes`] for second-order systems `q'' = M⁻¹ f(q)`, whose velocity `M⁻¹ p` is linear in the momentum: only the
@@ -87,7 +88,7 @@ where
         system: &S,
         stages: &mut LaneStages<V, P>,
         kept: Kept,
-        max_iterations: u32,
+        stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
@@ -97,12 +98,7 @@ where
     {
         if !eliminates::<P>() {
             return <InLanes as Solver<V, S>>::take::<P, R>(
-                step,
-                system,
-                stages,
-                kept,
-                max_iterations,
-                outcome,
+                step, system, stages, kept, stopping, outcome,
             );
         }
         let mut sweeps = Positions::<P, R, V, S> {
@@ -113,10 +109,11 @@ where
                 sums: PhantomData,
             },
         };
-        let work = settle::<P::Class, f64>(&mut sweeps, kept, max_iterations)?;
+        let mut work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
         if !R::COMPENSATED {
             sweeps.increments();
         }
+        work.evaluations += sweeps.evaluations().finish;
         let Outcome { q, q_low, p, p_low } = outcome;
         total::<R, P, V>(
             (p, p_low),
@@ -188,8 +185,8 @@ where
 /// The positions of the stages alone. In the place of the momenta is the velocity at the start, in all lanes, and in that
 /// of the velocities are those of the increments of the momentum.
 ///
-/// With plain sums these are the forces themselves while the stages are iterated, and the matrix has the factors of the
-/// increments in it: evaluations need not wait for a product, and stages not for two.
+/// With plain sums the forces are no increments while the stages are iterated, and the matrix has the factors that would make them
+/// such: a sweep is a product shorter.
 struct Positions<'a, P: StageTableau, R, V: Vector, S> {
     lanes: ByLanes<'a, P, R, V, S>,
 }
@@ -219,43 +216,12 @@ const fn tableau<P: StageTableau>() -> SecondOrderTableau {
     }
 }
 
-/// The most stages of which starting values are made at once.
-const MOST: usize = 16;
-
-/// `ν E` for the extrapolation `E` of increments from one step to the next, by its columns: a product of doubles, for it is
-/// only where iterations start.
+/// `ν E`, for starting values from the step before.
 struct Start<P>(PhantomData<P>);
 
 impl<P: StageTableau> Start<P> {
-    const COLUMNS: &'static [[f64; MOST]; MOST] = &Self::columns();
-
-    /// Whether there are starting values from the step before.
-    const IS: bool = !P::POSITIONS.extrapolation.is_empty();
-
-    /// Whether they are made at once.
-    const AT_ONCE: bool = Self::IS && tableau::<P>().nodes.len() <= MOST;
-
-    const fn columns() -> [[f64; MOST]; MOST] {
-        let mut product = [[0.0; MOST]; MOST];
-        if !Self::AT_ONCE {
-            return product;
-        }
-        let (nu, extrapolation) = (tableau::<P>().columns, P::POSITIONS.extrapolation);
-        let mut k = 0;
-        while k < extrapolation.len() {
-            let mut j = 0;
-            while j < nu.len() {
-                let mut i = 0;
-                while i < nu[j].len() {
-                    product[k][i] += nu[j][i] * extrapolation[k][j];
-                    i += 1;
-                }
-                j += 1;
-            }
-            k += 1;
-        }
-        product
-    }
+    const COLUMNS: &'static StartingColumns =
+        &starting_columns(tableau::<P>().columns, &P::POSITIONS);
 }
 
 impl<P, R, V, S> Positions<'_, P, R, V, S>
@@ -347,12 +313,9 @@ where
     /// The forces become the increments that they are elsewhere.
     #[inline(always)]
     fn increments(&mut self) {
-        let h = self.lanes.step.size;
-        let LaneStages {
-            velocity, force, ..
-        } = &mut *self.lanes.stages;
-        scale::<P, V>(&P::POSITIONS, h, force.as_mut());
+        self.lanes.scale_forces();
         if !<S as Hamiltonian<V>>::UNIT_MASSES {
+            let (h, velocity) = (self.lanes.step.size, &mut self.lanes.stages.velocity);
             scale::<P, V>(&P::POSITIONS, h, velocity.as_mut());
         }
     }
@@ -389,11 +352,18 @@ where
 
     #[inline(always)]
     fn evaluations(&self) -> EvaluationCounts {
+        let stages = P::POSITIONS.count as u32;
+        // The velocities of the increments that the iteration starts from, unless it starts from positions at once.
+        let (begin, start) = if starts_at_once(&P::POSITIONS) {
+            (0, stages)
+        } else {
+            (stages, 0)
+        };
         EvaluationCounts {
-            begin: 1,
-            start: P::POSITIONS.count as u32,
-            sweep: 2 * P::POSITIONS.count as u32,
-            finish: 0,
+            begin: begin + 1,
+            start,
+            sweep: 2 * stages,
+            finish: u32::from(R::COMPENSATED),
             carried: 0,
         }
     }
@@ -406,12 +376,12 @@ where
     #[inline(always)]
     fn begin(&mut self, kept: Kept) {
         self.start();
-        if kept.stages && Start::<P>::AT_ONCE {
+        if kept.stages && starts_at_once(&P::POSITIONS) {
             let count = P::POSITIONS.extrapolation.len();
             self.of_increments(count, |k: usize| &Start::<P>::COLUMNS[k]);
             return;
         }
-        if kept.stages && Start::<P>::IS {
+        if kept.stages && !P::POSITIONS.extrapolation.is_empty() {
             extrapolate::<P, V>(&P::POSITIONS, self.lanes.stages.force.as_mut());
         } else {
             for group in self.lanes.stages.force.as_mut() {
@@ -439,11 +409,7 @@ where
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         self.lanes.forces();
         if R::COMPENSATED {
-            scale::<P, V>(
-                &P::POSITIONS,
-                self.lanes.step.size,
-                self.lanes.stages.force.as_mut(),
-            );
+            self.lanes.scale_forces();
         }
         self.velocities();
         let q = self.positions();

@@ -3,8 +3,8 @@
 use core::fmt::Debug;
 
 use crate::{
-    Failure, Hamiltonian, Inside, Kept, Outcome, StageStorage, StageTableau, Step, Summation,
-    Vector, Work,
+    Failure, Hamiltonian, Inside, Kept, Outcome, StageStorage, StageTableau, Step, Stopping,
+    Summation, Vector, Work,
 };
 
 /// Finds the stages of a [`Coupled`](crate::Coupled) plan, for a system `S` over the vectors `V`.
@@ -24,7 +24,7 @@ pub trait Solver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
         system: &S,
         memory: &mut Self::Memory<P>,
         kept: Kept,
-        max_iterations: u32,
+        stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where

@@ -3,8 +3,8 @@
 use core::marker::PhantomData;
 
 use crate::{
-    Class, Evaluations, Failure, Hamiltonian, Inside, Interpolation, Kept, Outcome, Plan, Solver,
-    Span, StageStorage, Step, Summation, Vector, Witness, Work, copy,
+    Class, Evaluations, Failure, Hamiltonian, Inside, Interpolation, Kept, Moves, Outcome, Plan,
+    Solver, Span, StageStorage, Step, Stopping, Summation, Vector, Witness, Work, copy,
 };
 
 /// How a splitting goes through one step of a system of one [`Class`]: each evaluation is in the later stages in full, so
@@ -18,13 +18,20 @@ pub trait SplittingPlan {
     /// How many of the first ones are not made where the step before has [kept](Kept::evaluation) them.
     const CARRIED: u32;
 
-    /// Takes the step `span` from `state`, in place, and shows its evaluations to `witness`.
-    fn apply<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>, W: Witness>(
+    /// Takes the step `span` from `state`, in place, by these `moves`, and shows its evaluations to `witness`.
+    fn apply<
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        K: Moves,
+        W: Witness,
+    >(
         span: Span,
         system: &S,
         evaluations: &mut Evaluations<V>,
         kept: Kept,
         state: Outcome<'_, V>,
+        moves: &mut K,
         witness: &mut W,
     );
 }
@@ -58,7 +65,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         system: &S,
         memory: &mut Evaluations<V>,
         kept: Kept,
-        _max_iterations: u32,
+        _stopping: Stopping,
         mut outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
@@ -68,7 +75,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         N: Solver<V, S>,
     {
         Self::start::<R, V>(step, &mut outcome);
-        P::apply::<R, V, S, ()>(step.span(), system, memory, kept, outcome, &mut ());
+        P::apply::<R, V, S, (), ()>(step.span(), system, memory, kept, outcome, &mut (), &mut ());
         let carried = if kept.evaluation { P::CARRIED } else { 0 };
         Ok(Work {
             evaluations: P::EVALUATIONS - carried,
@@ -91,12 +98,13 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
     {
         *memory = Evaluations::like(step.q);
         Self::start::<R, V>(step, &mut outcome);
-        P::apply::<R, V, S, W>(
+        P::apply::<R, V, S, (), W>(
             step.span(),
             system,
             memory,
             Kept::default(),
             outcome,
+            &mut (),
             witness,
         );
     }
@@ -113,18 +121,35 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
     }
 
     #[inline(always)]
-    fn take_in_place<R, V, S, N>(
+    fn take_in_place<R, V, S, N, K>(
         span: Span,
         system: &S,
         memory: &mut Evaluations<V>,
         state: Outcome<'_, V>,
+        moves: &mut K,
     ) where
         R: Summation,
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,
         N: Solver<V, S>,
+        K: Moves,
     {
         let kept = Kept::new(true, false);
-        P::apply::<R, V, S, ()>(span, system, memory, kept, state, &mut ());
+        P::apply::<R, V, S, K, ()>(span, system, memory, kept, state, moves, &mut ());
+    }
+
+    #[inline(always)]
+    fn settle_in_place<R, V, S, N, K>(
+        memory: &mut Evaluations<V>,
+        state: Outcome<'_, V>,
+        moves: &mut K,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+        K: Moves,
+    {
+        moves.settle::<R, V>((state.p, state.p_low), &memory.force);
     }
 }

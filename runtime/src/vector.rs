@@ -6,6 +6,9 @@ use nalgebra::SVector;
 
 use crate::{Error, Scalar};
 
+/// Bytes of a vector that is moved out of the memory of the integrator: it may be in registers then.
+pub(crate) const SHORT: usize = 1 << 8;
+
 /// A position, a momentum or one of their derivatives: components of one [`Scalar`] type, contiguous in memory.
 ///
 /// Implemented by [`nalgebra::SVector`] (static dimension, nothing on the heap) and, with the feature `alloc`, by

@@ -15,8 +15,8 @@ pub struct Work {
     pub factorisations: u32,
     /// Attempts to find the stages that failed and were made good by another solver.
     pub rejected: u32,
-    /// How large the positions and the momenta of coupled stages are, but for a factor of two, of several steps in the last; zero
-    /// where that is not known.
+    /// How large the positions and the momenta of coupled stages were when that was last looked for, of several steps in the last; zero
+    /// where that is not known. Without a tolerance it is right but for a factor of two.
     pub scales: [f64; 2],
 }
 
@@ -36,7 +36,7 @@ impl AddAssign for Work {
 pub enum Failure {
     /// The iteration did not settle: [`Error::NoConvergence`](crate::Error::NoConvergence).
     NoConvergence {
-        /// Relative change in the last sweep in which it was finite.
+        /// Relative change in the last sweep in which it was finite; infinite where that was not looked at.
         residual: f64,
         /// Sweeps made.
         iterations: u32,

@@ -1,15 +1,17 @@
 //! Many steps at once are the steps one by one.
 
-use symplectic::nalgebra::{DVector, Vector1, Vector2};
+use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::{
     Error, Integrator, Method, Quantity, Retry, SeparableHamiltonian, State, Summation, Vector,
-    composition, separable, tableau,
+    acceleration, composition, separable, tableau,
 };
 
 tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
 tableau! { SymplecticEuler { basis: polynomial(1), nodes: [0] } }
 tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
+tableau! { AdjointEuler { basis: polynomial(1), nodes: [1] } }
 composition! { TripleJump { base: velocity-verlet, weights: triple_jump(4) } }
+composition! { PositionJump { base: position-verlet, weights: triple_jump(4) } }
 
 /// A driven oscillator in each component.
 struct Driven;
@@ -31,12 +33,61 @@ impl<V: Vector<Scalar = f64>> SeparableHamiltonian<V> for Driven {
     }
 }
 
+/// The same, which says that its masses are one; its velocity is the momentum so many times.
+struct Unit<const VELOCITY: i32>;
+
+impl<V: Vector<Scalar = f64>, const VELOCITY: i32> SeparableHamiltonian<V> for Unit<VELOCITY> {
+    const UNIT_MASSES: bool = true;
+
+    fn velocity(&self, _time: f64, p: &V, velocity: &mut V) {
+        for (velocity, p) in velocity.as_mut_slice().iter_mut().zip(p.as_slice()) {
+            *velocity = f64::from(VELOCITY) * p;
+        }
+    }
+
+    fn force(&self, time: f64, q: &V, force: &mut V) {
+        SeparableHamiltonian::force(&Driven, time, q, force);
+    }
+}
+
+/// The same with masses 1, 2, 3, 1, ….
+struct Heavy;
+
+impl<V: Vector<Scalar = f64>> SeparableHamiltonian<V> for Heavy {
+    fn velocity(&self, _time: f64, p: &V, velocity: &mut V) {
+        let components = velocity.as_mut_slice().iter_mut().zip(p.as_slice());
+        for (k, (velocity, p)) in components.enumerate() {
+            *velocity = p / (k % 3 + 1) as f64;
+        }
+    }
+
+    fn force(&self, time: f64, q: &V, force: &mut V) {
+        SeparableHamiltonian::force(&Driven, time, q, force);
+    }
+}
+
 fn same_bits<M: Method, V: Vector<Scalar = f64>, R: Summation>(
     method: M,
     start: &State<V>,
 ) -> Result<(), Error> {
+    same_bits_of::<M, _, V, R>(method, || Driven, start)?;
+    same_bits_of::<M, _, V, R>(method, || Heavy, start)?;
+    same_bits_of::<M, _, V, R>(method, || Unit::<1>, start)
+}
+
+fn same_bits_of<M, S, V, R>(
+    method: M,
+    system: impl Fn() -> S,
+    start: &State<V>,
+) -> Result<(), Error>
+where
+    M: Method,
+    S: SeparableHamiltonian<V>,
+    V: Vector<Scalar = f64>,
+    R: Summation,
+{
     let integrator =
-        || Integrator::<M, Driven, V, R>::with_summation(method, Driven, start.clone(), 0.01);
+        || Integrator::<M, S, V, R>::with_summation(method, system(), start.clone(), 0.01);
     for count in [0, 1, 2, 256, 257, 258, 1000] {
         let (mut at_once, mut one_by_one) = (integrator()?, integrator()?);
         for _ in 0..count {
@@ -67,12 +118,66 @@ fn many_steps_are_the_steps_one_by_one() -> Result<(), Error> {
         same_bits::<_, _, symplectic::Compensated>(method, &fixed)?;
         same_bits::<_, _, symplectic::Plain>(method, &fixed)?;
         let vector = |n: usize| DVector::from_fn(n, |i, _| (i as f64).sin());
-        same_bits::<_, _, symplectic::Compensated>(method, &State::new(0.0, vector(5), vector(5)))
+        same_bits::<_, _, symplectic::Compensated>(method, &State::new(0.0, vector(5), vector(5)))?;
+        // Long vectors, to the momenta of which kicks are given by drifts.
+        let long = State::new(0.25, vector(70), vector(70));
+        same_bits::<_, _, symplectic::Plain>(method, &long)?;
+        same_bits::<_, _, symplectic::Compensated>(method, &long)?;
+        let fixed = |x: &DVector<f64>| SVector::<f64, 70>::from_column_slice(x.as_slice());
+        let long = State::new(0.25, fixed(&long.q), fixed(&long.p));
+        same_bits::<_, _, symplectic::Plain>(method, &long)
     }
     check(StoermerVerlet)?;
     check(SymplecticEuler)?;
+    check(AdjointEuler)?;
+    check(PositionJump)?;
     check(TripleJump)?;
-    check(Midpoint)
+    check(Midpoint)?;
+    // So long that a thousand steps are several blocks.
+    let vector = |n: usize| DVector::from_fn(n, |i, _| (i as f64).sin());
+    let long = State::new(0.0, vector(1030), vector(1030));
+    same_bits_of::<_, _, _, symplectic::Plain>(StoermerVerlet, || Unit::<1>, &long)?;
+    same_bits_of::<_, _, _, symplectic::Plain>(PositionJump, || Unit::<1>, &long)
+}
+
+/// Kicks that wait where a block fails are made by the steps one by one.
+#[test]
+fn a_step_of_a_long_vector_that_fails_among_many_is_found() -> Result<(), Error> {
+    fn check<M: Method>(method: M) -> Result<(), Error> {
+        let well = || {
+            acceleration(|_time, q: &DVector<f64>, force: &mut DVector<f64>| {
+                force.copy_from(&q.map(|q| q.sqrt() - 1.0));
+            })
+        };
+        for size in [0.001, -0.001] {
+            let start = State::new(
+                0.0,
+                DVector::from_fn(70, |i, _| 0.5 + 0.01 * i as f64),
+                DVector::from_element(70, -1.0_f64.copysign(size)),
+            );
+            let made = || Integrator::plain(method, well(), start.clone(), size);
+            let (mut at_once, mut one_by_one) = (made()?, made()?);
+            let expected = loop {
+                if let Err(error) = one_by_one.step() {
+                    break error;
+                }
+            };
+            let error = at_once.take_steps(10_000).expect_err("below zero");
+            assert_eq!(error, expected);
+            assert_eq!(at_once.state(), one_by_one.state());
+            // Not all statistics: the force before the block is evaluated again.
+            assert_eq!(at_once.steps(), one_by_one.steps());
+            assert!(at_once.steps() > 300);
+            // No smaller step helps.
+            at_once.set_retry(Retry::Split { halvings: 2 });
+            assert!(at_once.take_steps(3).is_err());
+            assert_eq!(at_once.state(), one_by_one.state());
+        }
+        Ok(())
+    }
+    check(StoermerVerlet)?;
+    check(SymplecticEuler)?;
+    check(PositionJump)
 }
 
 /// The error, the state and the counts are those of the step that fails.
@@ -152,20 +257,6 @@ fn steps_are_split_among_many() -> Result<(), Error> {
 /// The velocity of a system with unit masses is not asked for, and the steps are the same.
 #[test]
 fn unit_masses_are_no_other_system() -> Result<(), Error> {
-    struct Unit<const VELOCITY: i32>;
-
-    impl<const VELOCITY: i32> SeparableHamiltonian<Vector2<f64>> for Unit<VELOCITY> {
-        const UNIT_MASSES: bool = true;
-
-        fn velocity(&self, _time: f64, p: &Vector2<f64>, velocity: &mut Vector2<f64>) {
-            *velocity = *p * f64::from(VELOCITY);
-        }
-
-        fn force(&self, time: f64, q: &Vector2<f64>, force: &mut Vector2<f64>) {
-            SeparableHamiltonian::force(&Driven, time, q, force);
-        }
-    }
-
     fn check<M: Method>(method: M) -> Result<(), Error> {
         let start = State::new(0.5, Vector2::new(0.3, -0.2), Vector2::new(0.1, 1.0));
         let mut known = Integrator::new(method, Unit::<1>, start.clone(), 0.01)?;

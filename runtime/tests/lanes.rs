@@ -1,11 +1,12 @@
 //! Stages in lanes.
 
+use std::cell::Cell;
 use std::fmt::Debug;
 
 use symplectic::nalgebra::{DVector, SVector, Vector2};
 use symplectic::{
     Compensated, Error, F64x2, F64x4, F64x8, General, Hamiltonian, HamiltonianInLanes, Integrator,
-    Lanes, Method, Plain, Quantity, Scalar, SeparableHamiltonian, State, Summation, Vector,
+    Lanes, Method, Plain, Quantity, Scalar, SeparableHamiltonian, Solver, State, Summation, Vector,
     tableau,
 };
 
@@ -36,6 +37,7 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
 }
 
 /// H = (q² + 1)(p² + 1)/2 + q sin t, in each component.
+#[derive(Clone, Copy)]
 struct Coupled;
 
 macro_rules! coupled {
@@ -224,11 +226,12 @@ where
     M: Method,
     S: HamiltonianInLanes<Vector2<f64>> + Copy,
 {
-    without_them::<Compensated, M, S>(method, system)?;
-    without_them::<Plain, M, S>(method, system)
+    without_momentum_stages_by::<Compensated, M, S>(method, system)?;
+    without_momentum_stages_by::<Plain, M, S>(method, system)
 }
 
-fn without_them<R: Summation, M, S>(method: M, system: S) -> Result<(), Error>
+/// The same with these sums.
+fn without_momentum_stages_by<R: Summation, M, S>(method: M, system: S) -> Result<(), Error>
 where
     M: Method,
     S: HamiltonianInLanes<Vector2<f64>> + Copy,
@@ -264,6 +267,203 @@ fn second_order_systems_need_no_momentum_stages() -> Result<(), Error> {
     without_momentum_stages(StoermerVerlet, Kepler)?;
     // The coefficients of second order are for symplectic methods only.
     without_momentum_stages(RadauIIA, Kepler)
+}
+
+/// Both halves at once, beside one after the other, with these sums.
+fn at_once<R: Summation, M: Method, V>(method: M, start: &State<V>) -> Result<(), Error>
+where
+    V: Vector<Scalar = f64> + Debug,
+    Coupled: HamiltonianInLanes<V>,
+{
+    let made = || Integrator::<_, _, _, R>::with_summation(method, Coupled, start.clone(), 0.05);
+    let (mut in_turn, mut at_once) = (made()?.in_lanes(), made()?.at_once_in_lanes());
+    let check = |expected: &State<V>, found: &State<V>| {
+        for (expected, found) in [(&expected.q, &found.q), (&expected.p, &found.p)] {
+            for (expected, found) in expected.as_slice().iter().zip(found.as_slice()) {
+                assert!((found - expected).abs() < 1e-12, "{}", M::NAME);
+            }
+        }
+    };
+    for _ in 0..100 {
+        check(in_turn.step()?, at_once.step()?);
+        // Inside of the step too.
+        let time = in_turn.state().time - 0.02;
+        check(
+            &in_turn.dense()?.state(time)?,
+            &at_once.dense()?.state(time)?,
+        );
+    }
+    // Steps by themselves and in blocks.
+    let mut block = made()?.at_once_in_lanes();
+    assert_eq!(block.take_steps(100)?, at_once.state(), "{}", M::NAME);
+    assert_eq!(block.statistics(), at_once.statistics(), "{}", M::NAME);
+    Ok(())
+}
+
+#[test]
+fn halves_at_once_are_those_in_turn_up_to_rounding() -> Result<(), Error> {
+    fn check<M: Method>(method: M) -> Result<(), Error> {
+        let q = SVector::from([0.5, -0.3, 0.9]);
+        let p = SVector::from([1.0, 0.25, -0.5]);
+        let long = |x: SVector<f64, 3>| DVector::from_column_slice(x.as_slice());
+        at_once::<Compensated, M, _>(method, &State::new(0.0, q, p))?;
+        at_once::<Plain, M, _>(method, &State::new(0.0, q, p))?;
+        at_once::<Plain, M, _>(method, &State::new(0.0, long(q), long(p)))
+    }
+    check(Gauss1)?;
+    check(Gauss3)?;
+    check(Gauss8)?;
+    check(Gauss10)?;
+    // More than their starting values are made of at once.
+    check(Gauss18)?;
+    check(Lobatto4)?;
+    check(Radau3)?;
+    // Not symplectic: stages are sums of evaluations.
+    check(RadauIIA)
+}
+
+/// For a separable system there would be twice as many sweeps at once.
+#[test]
+fn halves_of_separable_systems_are_taken_in_turn() -> Result<(), Error> {
+    let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
+    let mut in_turn = Integrator::new(Gauss3, Kepler, start.clone(), 0.03)?.in_lanes();
+    let mut at_once = Integrator::new(Gauss3, Kepler, start, 0.03)?.at_once_in_lanes();
+    assert_eq!(at_once.take_steps(100)?, in_turn.take_steps(100)?);
+    assert_eq!(at_once.statistics(), in_turn.statistics());
+    Ok(())
+}
+
+/// Counts the calls of its evaluations, which are one for all lanes.
+struct Counting<'a, S> {
+    system: S,
+    calls: &'a Cell<u64>,
+}
+
+impl<T: Scalar> Hamiltonian<SVector<T, 3>> for Counting<'_, Coupled> {
+    type Class = General;
+
+    fn velocity(&self, t: T, q: &SVector<T, 3>, p: &SVector<T, 3>, velocity: &mut SVector<T, 3>) {
+        self.calls.set(self.calls.get() + 1);
+        self.system.velocity(t, q, p, velocity);
+    }
+
+    fn force(&self, t: T, q: &SVector<T, 3>, p: &SVector<T, 3>, force: &mut SVector<T, 3>) {
+        self.calls.set(self.calls.get() + 1);
+        self.system.force(t, q, p, force);
+    }
+}
+
+/// Kepler's problem.
+struct CountingKepler<'a>(&'a Cell<u64>);
+
+impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for CountingKepler<'_> {
+    fn velocity(&self, time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+        self.0.set(self.0.get() + 1);
+        SeparableHamiltonian::velocity(&Kepler, time, p, velocity);
+    }
+
+    fn force(&self, time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+        self.0.set(self.0.get() + 1);
+        SeparableHamiltonian::force(&Kepler, time, q, force);
+    }
+}
+
+// Stages at the same time: the stages of the next step cannot be told from them.
+tableau! { Twins { a: [[1/2, 0], [0, 1/2]], b: [1/2, 1/2] } }
+
+/// Evaluations are counted stage by stage, although one call is for all of them.
+#[test]
+fn evaluations_are_counted_for_every_stage() -> Result<(), Error> {
+    const STEPS: u64 = 20;
+
+    /// Of steps that call for `alone` evaluations of a single stage.
+    fn check<M, S, V, R, N>(
+        calls: &Cell<u64>,
+        stages: u64,
+        alone: u64,
+        mut integrator: Integrator<M, S, V, R, N>,
+    ) -> Result<(), Error>
+    where
+        M: Method,
+        S: Hamiltonian<V>,
+        V: Vector,
+        R: Summation,
+        N: Solver<V, S>,
+    {
+        calls.set(0);
+        integrator.take_steps(STEPS)?;
+        let expected = stages * (calls.get() - STEPS * alone) + STEPS * alone;
+        assert_eq!(integrator.statistics().evaluations, expected, "{}", M::NAME);
+        Ok(())
+    }
+
+    fn all<M: Method>(method: M, stages: u64) -> Result<(), Error> {
+        let calls = Cell::new(0);
+        let q = SVector::from([0.5, -0.3, 0.9]);
+        let start = State::new(0.0, q, SVector::from([1.0, 0.25, -0.5]));
+        let (system, calls) = (Coupled, &calls);
+        let coupled = || {
+            let system = Counting { system, calls };
+            Integrator::new(method, system, start.clone(), 0.05)
+        };
+        check(calls, stages, 0, coupled()?.in_lanes())?;
+        check(calls, stages, 0, coupled()?.at_once_in_lanes())?;
+        let system = Counting { system, calls };
+        let plain = Integrator::plain(method, system, start.clone(), -0.05)?;
+        check(calls, stages, 0, plain.at_once_in_lanes())?;
+        let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
+        let kepler = || Integrator::new(method, CountingKepler(calls), start.clone(), 0.03);
+        check(calls, stages, 0, kepler()?.in_lanes())?;
+        let plain = || Integrator::plain(method, CountingKepler(calls), start.clone(), 0.03);
+        check(calls, stages, 0, plain()?.in_lanes())
+    }
+    all(Gauss3, 3)?;
+    all(Gauss8, 8)?;
+    all(Twins, 2)?;
+
+    // The velocity at the start, and with compensated sums that of what the momentum leaves out.
+    let calls = &Cell::new(0);
+    let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
+    let half = Integrator::new(Gauss3, CountingKepler(calls), start.clone(), 0.03)?;
+    check(calls, 3, 2, half.in_second_order_lanes()?)?;
+    let half = Integrator::plain(Gauss3, CountingKepler(calls), start, 0.03)?;
+    check(calls, 3, 1, half.in_second_order_lanes()?)
+}
+
+/// Lanes at once that are not finite are named too.
+#[test]
+fn what_is_not_finite_at_once_is_named_with_its_stage() -> Result<(), Error> {
+    /// H = p²/2 + q²/2, beyond q = 1 nothing.
+    struct Disc;
+
+    impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Disc {
+        type Class = General;
+
+        fn velocity(&self, _time: T, _q: &SVector<T, 1>, p: &SVector<T, 1>, v: &mut SVector<T, 1>) {
+            *v = *p;
+        }
+
+        fn force(&self, _time: T, q: &SVector<T, 1>, _p: &SVector<T, 1>, f: &mut SVector<T, 1>) {
+            f[0] = -q[0] + T::from_f64(0.0) * (T::one() - q[0]).ln();
+        }
+    }
+
+    let start = State::new(0.0, SVector::from([0.9]), SVector::from([1.0]));
+    let mut integrator = Integrator::new(Gauss3, Disc, start.clone(), 0.15)?.at_once_in_lanes();
+    let error = integrator.step().expect_err("beyond the disc");
+    assert!(
+        matches!(
+            error,
+            Error::NonFinite {
+                what: Quantity::Force,
+                stage: Some(3),
+                ..
+            }
+        ),
+        "{error:?}"
+    );
+    assert_eq!(integrator.state(), &start);
+    Ok(())
 }
 
 /// Masses 2 and 3.

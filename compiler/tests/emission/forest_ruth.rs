@@ -863,6 +863,7 @@ const _: () = {
             R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            K: ::symplectic::Moves,
             W: ::symplectic::Witness,
         >(
             span: ::symplectic::Span,
@@ -870,11 +871,13 @@ const _: () = {
             evaluations: &mut ::symplectic::Evaluations<V>,
             kept: ::symplectic::Kept,
             state: ::symplectic::Outcome<'_, V>,
+            moves: &mut K,
             witness: &mut W,
         ) {
             let ::symplectic::Evaluations { velocity, force } = evaluations;
             let ::symplectic::Outcome { q, q_low, p, p_low } = state;
             if !kept.evaluation {
+                moves.settle::<R, V>((&mut *p, &mut *p_low), &*force);
                 system
                     .force(
                         span.at(::symplectic::Coefficient::exact(0.0)),
@@ -884,50 +887,49 @@ const _: () = {
                     );
                 witness.evaluation(::symplectic::Quantity::Force, 1, &*q, force);
             }
-            ::symplectic::advance::<
-                R,
-                V,
-            >(
-                p,
-                p_low,
-                span.size,
-                ::symplectic::Coefficient::new(
-                    0.6756035959798288,
-                    4.21370887772588e-17,
-                    0.67560357,
-                ),
-                force,
-            );
-            let slope = ::symplectic::velocity(
-                system,
-                span
-                    .at(
-                        ::symplectic::Coefficient::new(
+            moves
+                .kick::<
+                    R,
+                    V,
+                >(
+                    (&mut *p, &mut *p_low),
+                    span.size,
+                    ::symplectic::Coefficient::new(
+                        0.6756035959798288,
+                        4.21370887772588e-17,
+                        0.67560357,
+                    ),
+                    &*force,
+                );
+            moves
+                .drift::<
+                    R,
+                    V,
+                    S,
+                    W,
+                >(
+                    ::symplectic::Drift {
+                        span,
+                        stage: 1,
+                        time: ::symplectic::Coefficient::new(
                             0.6756035959798288,
                             4.21370887772588e-17,
                             0.67560357,
                         ),
-                    ),
-                &*q,
-                &*p,
-                velocity,
-                false,
-            );
-            witness.evaluation(::symplectic::Quantity::Velocity, 1, &*p, slope);
-            ::symplectic::advance::<
-                R,
-                V,
-            >(
-                q,
-                q_low,
-                span.size,
-                ::symplectic::Coefficient::new(
-                    1.3512071919596575,
-                    8.42741775545176e-17,
-                    1.3512071,
-                ),
-                slope,
-            );
+                        weight: ::symplectic::Coefficient::new(
+                            1.3512071919596575,
+                            8.42741775545176e-17,
+                            1.3512071,
+                        ),
+                        known: false,
+                    },
+                    system,
+                    (&mut *velocity, &*force),
+                    (&mut *q, &mut *q_low),
+                    (&mut *p, &mut *p_low),
+                    witness,
+                );
+            moves.settle::<R, V>((&mut *p, &mut *p_low), &*force);
             system
                 .force(
                     span
@@ -943,43 +945,45 @@ const _: () = {
                     force,
                 );
             witness.evaluation(::symplectic::Quantity::Force, 2, &*q, force);
-            ::symplectic::advance::<
-                R,
-                V,
-            >(
-                p,
-                p_low,
-                span.size,
-                ::symplectic::Coefficient::new(
-                    (-0.17560359597982883),
-                    1.337406245399903e-17,
-                    (-0.1756036),
-                ),
-                force,
-            );
-            let slope = ::symplectic::velocity(
-                system,
-                span.at(::symplectic::Coefficient::exact(0.5)),
-                &*q,
-                &*p,
-                velocity,
-                false,
-            );
-            witness.evaluation(::symplectic::Quantity::Velocity, 2, &*p, slope);
-            ::symplectic::advance::<
-                R,
-                V,
-            >(
-                q,
-                q_low,
-                span.size,
-                ::symplectic::Coefficient::new(
-                    (-1.7024143839193153),
-                    5.349624981599612e-17,
-                    (-1.7024144),
-                ),
-                slope,
-            );
+            moves
+                .kick::<
+                    R,
+                    V,
+                >(
+                    (&mut *p, &mut *p_low),
+                    span.size,
+                    ::symplectic::Coefficient::new(
+                        (-0.17560359597982883),
+                        1.337406245399903e-17,
+                        (-0.1756036),
+                    ),
+                    &*force,
+                );
+            moves
+                .drift::<
+                    R,
+                    V,
+                    S,
+                    W,
+                >(
+                    ::symplectic::Drift {
+                        span,
+                        stage: 2,
+                        time: ::symplectic::Coefficient::exact(0.5),
+                        weight: ::symplectic::Coefficient::new(
+                            (-1.7024143839193153),
+                            5.349624981599612e-17,
+                            (-1.7024144),
+                        ),
+                        known: false,
+                    },
+                    system,
+                    (&mut *velocity, &*force),
+                    (&mut *q, &mut *q_low),
+                    (&mut *p, &mut *p_low),
+                    witness,
+                );
+            moves.settle::<R, V>((&mut *p, &mut *p_low), &*force);
             system
                 .force(
                     span
@@ -995,67 +999,66 @@ const _: () = {
                     force,
                 );
             witness.evaluation(::symplectic::Quantity::Force, 3, &*q, force);
-            ::symplectic::advance::<
-                R,
-                V,
-            >(
-                p,
-                p_low,
-                span.size,
-                ::symplectic::Coefficient::new(
-                    (-0.17560359597982883),
-                    1.337406245399903e-17,
-                    (-0.1756036),
-                ),
-                force,
-            );
-            let slope = ::symplectic::velocity(
-                system,
-                span
-                    .at(
-                        ::symplectic::Coefficient::new(
+            moves
+                .kick::<
+                    R,
+                    V,
+                >(
+                    (&mut *p, &mut *p_low),
+                    span.size,
+                    ::symplectic::Coefficient::new(
+                        (-0.17560359597982883),
+                        1.337406245399903e-17,
+                        (-0.1756036),
+                    ),
+                    &*force,
+                );
+            moves
+                .drift::<
+                    R,
+                    V,
+                    S,
+                    W,
+                >(
+                    ::symplectic::Drift {
+                        span,
+                        stage: 3,
+                        time: ::symplectic::Coefficient::new(
                             0.32439640402017117,
                             1.337406245399903e-17,
                             0.3243964,
                         ),
-                    ),
-                &*q,
-                &*p,
-                velocity,
-                false,
-            );
-            witness.evaluation(::symplectic::Quantity::Velocity, 3, &*p, slope);
-            ::symplectic::advance::<
-                R,
-                V,
-            >(
-                q,
-                q_low,
-                span.size,
-                ::symplectic::Coefficient::new(
-                    1.3512071919596575,
-                    8.42741775545176e-17,
-                    1.3512071,
-                ),
-                slope,
-            );
+                        weight: ::symplectic::Coefficient::new(
+                            1.3512071919596575,
+                            8.42741775545176e-17,
+                            1.3512071,
+                        ),
+                        known: false,
+                    },
+                    system,
+                    (&mut *velocity, &*force),
+                    (&mut *q, &mut *q_low),
+                    (&mut *p, &mut *p_low),
+                    witness,
+                );
+            moves.settle::<R, V>((&mut *p, &mut *p_low), &*force);
             system
                 .force(span.at(::symplectic::Coefficient::exact(1.0)), &*q, &*p, force);
             witness.evaluation(::symplectic::Quantity::Force, 4, &*q, force);
-            ::symplectic::advance::<
-                R,
-                V,
-            >(
-                p,
-                p_low,
-                span.size,
-                ::symplectic::Coefficient::new(
-                    0.6756035959798288,
-                    4.21370887772588e-17,
-                    0.67560357,
-                ),
-                force,
-            );
+            moves
+                .kick::<
+                    R,
+                    V,
+                >(
+                    (&mut *p, &mut *p_low),
+                    span.size,
+                    ::symplectic::Coefficient::new(
+                        0.6756035959798288,
+                        4.21370887772588e-17,
+                        0.67560357,
+                    ),
+                    &*force,
+                );
         }
     }
 };

@@ -325,6 +325,7 @@ const _: () = {
             R: ::symplectic::Summation,
             V: ::symplectic::Vector,
             S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            K: ::symplectic::Moves,
             W: ::symplectic::Witness,
         >(
             span: ::symplectic::Span,
@@ -332,11 +333,13 @@ const _: () = {
             evaluations: &mut ::symplectic::Evaluations<V>,
             kept: ::symplectic::Kept,
             state: ::symplectic::Outcome<'_, V>,
+            moves: &mut K,
             witness: &mut W,
         ) {
             let ::symplectic::Evaluations { velocity, force } = evaluations;
             let ::symplectic::Outcome { q, q_low, p, p_low } = state;
             if !kept.evaluation {
+                moves.settle::<R, V>((&mut *p, &mut *p_low), &*force);
                 system
                     .force(
                         span.at(::symplectic::Coefficient::exact(0.0)),
@@ -346,30 +349,50 @@ const _: () = {
                     );
                 witness.evaluation(::symplectic::Quantity::Force, 1, &*q, force);
             }
-            ::symplectic::advance::<
-                R,
-                V,
-            >(p, p_low, span.size, ::symplectic::Coefficient::exact(0.5), force);
-            let slope = ::symplectic::velocity(
-                system,
-                span.at(::symplectic::Coefficient::exact(0.5)),
-                &*q,
-                &*p,
-                velocity,
-                false,
-            );
-            witness.evaluation(::symplectic::Quantity::Velocity, 1, &*p, slope);
-            ::symplectic::advance::<
-                R,
-                V,
-            >(q, q_low, span.size, ::symplectic::Coefficient::exact(1.0), slope);
+            moves
+                .kick::<
+                    R,
+                    V,
+                >(
+                    (&mut *p, &mut *p_low),
+                    span.size,
+                    ::symplectic::Coefficient::exact(0.5),
+                    &*force,
+                );
+            moves
+                .drift::<
+                    R,
+                    V,
+                    S,
+                    W,
+                >(
+                    ::symplectic::Drift {
+                        span,
+                        stage: 1,
+                        time: ::symplectic::Coefficient::exact(0.5),
+                        weight: ::symplectic::Coefficient::exact(1.0),
+                        known: false,
+                    },
+                    system,
+                    (&mut *velocity, &*force),
+                    (&mut *q, &mut *q_low),
+                    (&mut *p, &mut *p_low),
+                    witness,
+                );
+            moves.settle::<R, V>((&mut *p, &mut *p_low), &*force);
             system
                 .force(span.at(::symplectic::Coefficient::exact(1.0)), &*q, &*p, force);
             witness.evaluation(::symplectic::Quantity::Force, 2, &*q, force);
-            ::symplectic::advance::<
-                R,
-                V,
-            >(p, p_low, span.size, ::symplectic::Coefficient::exact(0.5), force);
+            moves
+                .kick::<
+                    R,
+                    V,
+                >(
+                    (&mut *p, &mut *p_low),
+                    span.size,
+                    ::symplectic::Coefficient::exact(0.5),
+                    &*force,
+                );
         }
     }
 };

@@ -48,11 +48,9 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
                 step_size: size,
             });
         }
-        let attempt = self.course.attempt::<PlanOf<M, S, V>, R, S, N>(
-            &self.system,
-            size,
-            self.max_iterations,
-        );
+        let attempt =
+            self.course
+                .attempt::<PlanOf<M, S, V>, R, S, N>(&self.system, size, self.stopping);
         attempt.map_err(|failure| self.fail(size, failure))
     }
 

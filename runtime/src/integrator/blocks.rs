@@ -3,10 +3,12 @@
 use core::mem;
 
 use super::{Course, Integrator, MemoryOf, PlanOf};
+use crate::moves::Waiting;
 use crate::time::Clock;
+use crate::vector::SHORT;
 use crate::{
-    Error, Hamiltonian, Kept, Method, Outcome, Plan, Solver, Span, StageStorage, Summation, Vector,
-    copy,
+    Error, Hamiltonian, Kept, Method, Moves, Outcome, Plan, Solver, Span, StageStorage, Summation,
+    Vector, copy,
 };
 
 /// Steps of vectors of this dimension that are taken in place before what comes out is looked at: what that costs does not
@@ -15,8 +17,8 @@ fn block(dimension: usize) -> u64 {
     (1 << 18) / (dimension as u64).clamp(16, 1 << 10)
 }
 
-/// Bytes of a vector that may be in registers.
-pub(super) const SHORT: usize = 1 << 8;
+/// Components of a vector from which on kicks wait for the drift after them.
+const LONG: usize = 1 << 6;
 
 /// Bytes that may be moved for a block of coupled steps.
 const LIGHT: usize = 1 << 14;
@@ -86,10 +88,12 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             copy(&mut next_low.0, &low.0);
             copy(&mut next_low.1, &low.1);
         }
+        let waits = !R::COMPENSATED && self.course.state.q.dimension() >= LONG;
         match (size_of::<V>() <= SHORT, R::COMPENSATED) {
+            _ if waits => self.run_here(clock, steps, size, Waiting::default()),
             (true, true) => self.run_apart(clock, steps, size),
             (true, false) => self.run_alone(clock, steps, size),
-            (false, _) => self.run_here(clock, steps, size),
+            (false, _) => self.run_here(clock, steps, size, ()),
         }
         if !self.course.is_sound() {
             self.course.memory = StageStorage::like(&self.course.state.q);
@@ -109,20 +113,22 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 
     /// Takes steps in the places of `next`.
     #[inline]
-    fn run_here(&mut self, clock: &Clock, steps: u64, size: f64) {
+    fn run_here(&mut self, clock: &Clock, steps: u64, size: f64, moves: impl Moves) {
         let Course {
             next,
             next_low,
             memory,
             ..
         } = &mut self.course;
-        Self::run(&self.system, clock, steps, size, next, next_low, memory);
+        let system = &self.system;
+        Self::run(system, clock, steps, size, (next, next_low), memory, moves);
     }
 
     /// Takes steps in these places moved out of the memory of the integrator, so that they are in registers from step to step.
     #[inline(always)]
     fn run_apart(&mut self, clock: &Clock, steps: u64, size: f64) {
         let blank = || (V::blank(), V::blank());
+        // The order shows in how registers are given to six components: see `ratios`, springs, and `instructions`.
         let mut low = mem::replace(&mut self.course.next_low, blank());
         let mut memory = mem::replace(&mut self.course.memory, StageStorage::like(&V::blank()));
         let mut next = mem::replace(&mut self.course.next, blank());
@@ -131,9 +137,9 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             clock,
             steps,
             size,
-            &mut next,
-            &mut low,
+            (&mut next, &mut low),
             &mut memory,
+            (),
         );
         (self.course.next, self.course.next_low) = (next, low);
         self.course.memory = memory;
@@ -153,9 +159,9 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         clock: &Clock,
         steps: u64,
         size: f64,
-        (q, p): &mut (V, V),
-        (q_low, p_low): &mut (V, V),
+        ((q, p), (q_low, p_low)): (&mut (V, V), &mut (V, V)),
         memory: &mut MemoryOf<M, S, V, N>,
+        mut moves: impl Moves,
     ) {
         for number in 0..steps {
             // Nothing of this remains where the system does not look at the time.
@@ -167,8 +173,12 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
                 p_low: &mut *p_low,
             };
             let span = Span { time, size };
-            <PlanOf<M, S, V> as Plan>::take_in_place::<R, V, S, N>(span, system, memory, state);
+            <PlanOf<M, S, V> as Plan>::take_in_place::<R, V, S, N, _>(
+                span, system, memory, state, &mut moves,
+            );
         }
+        let state = Outcome { q, q_low, p, p_low };
+        <PlanOf<M, S, V> as Plan>::settle_in_place::<R, V, S, N, _>(memory, state, &mut moves);
     }
 
     /// Whether what steps change is little and all in one place: copies of it do not show beside a few steps.
@@ -203,7 +213,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
                 break;
             }
             let attempt =
-                course.attempt::<PlanOf<M, S, V>, R, S, N>(&self.system, size, self.max_iterations);
+                course.attempt::<PlanOf<M, S, V>, R, S, N>(&self.system, size, self.stopping);
             match attempt {
                 Ok(()) => {
                     course.accept::<R>(size, time);

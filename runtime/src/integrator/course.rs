@@ -2,11 +2,11 @@
 
 use core::mem;
 
-use super::blocks::SHORT;
 use crate::stage::is_finite;
+use crate::vector::SHORT;
 use crate::{
     Failure, Hamiltonian, Kept, Outcome, Plan, Solver, StageStorage, State, Statistics, Step,
-    Summation, Vector, Work,
+    Stopping, Summation, Vector, Work,
 };
 
 /// What steps change: the state, and what a step leaves behind for the next one.
@@ -86,7 +86,7 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
         &mut self,
         system: &S,
         size: f64,
-        max_iterations: u32,
+        stopping: Stopping,
     ) -> Result<(), Option<Failure>>
     where
         P: Plan<Class = S::Class, Memory<V, S, N> = T>,
@@ -99,7 +99,7 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
             ..self.kept
         };
         let (step, outcome, memory) = self.lend(size);
-        self.work = P::take::<R, V, S, N>(&step, system, memory, kept, max_iterations, outcome)?;
+        self.work = P::take::<R, V, S, N>(&step, system, memory, kept, stopping, outcome)?;
         if self.is_sound() { Ok(()) } else { Err(None) }
     }
 

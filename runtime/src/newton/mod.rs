@@ -22,7 +22,7 @@ pub use policy::{FixedPointThenNewton, FixedPointThenNewtonMemory};
 use crate::iteration::settle;
 use crate::{
     Failure, Hamiltonian, Inside, Integrator, Kept, Method, Outcome, Solver, StageTableau, Step,
-    StoredEvaluations, Summation, Vector, Work,
+    Stopping, StoredEvaluations, Summation, Vector, Work,
 };
 use increments::ByIncrements;
 
@@ -133,7 +133,7 @@ impl<V: Vector, S: Hamiltonian<V>, L: LinearSolver<V, S>> Solver<V, S> for Newto
         system: &S,
         memory: &mut Self::Memory<P>,
         kept: Kept,
-        max_iterations: u32,
+        stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
@@ -142,7 +142,7 @@ impl<V: Vector, S: Hamiltonian<V>, L: LinearSolver<V, S>> Solver<V, S> for Newto
         S: Hamiltonian<V, Class = P::Class>,
     {
         let mut sweeps = ByIncrements::<P, R, V, S, L>::new(step, system, memory);
-        let settled = settle::<P::Class, V::Scalar>(&mut sweeps, kept, max_iterations);
+        let settled = settle::<P::Class, V::Scalar>(&mut sweeps, kept, stopping);
         let mut work = settled.map_err(|failure| sweeps.failure().unwrap_or(failure))?;
         work.factorisations = sweeps.finish(outcome);
         Ok(work)

@@ -7,7 +7,7 @@ use super::{Newton, memory::NewtonMemory};
 use crate::fixed_point::by_stages;
 use crate::{
     Failure, FixedPoint, Hamiltonian, Inside, Kept, Outcome, Quantity, Solver, StageStorage,
-    StageTableau, Step, Summation, Vector, Work,
+    StageTableau, Step, Stopping, Summation, Vector, Work,
 };
 
 /// Steps that are left to Newton's iteration after one that the fixed-point iteration has failed at.
@@ -128,7 +128,7 @@ where
         system: &S,
         memory: &mut Self::Memory<P>,
         kept: Kept,
-        max_iterations: u32,
+        stopping: Stopping,
         mut outcome: Outcome<'_, V>,
     ) -> Result<Work, Failure>
     where
@@ -145,7 +145,7 @@ where
                 system,
                 &mut memory.fixed_point,
                 if_kept(!memory.was_newton),
-                max_iterations,
+                stopping,
                 outcome.reborrow(),
             );
             if taken.is_ok() {
@@ -159,8 +159,7 @@ where
         memory.waiting -= 1;
         let kept = if_kept(memory.was_newton);
         let newton = &mut memory.newton;
-        let mut work =
-            Newton::<L>::take::<P, R>(step, system, newton, kept, max_iterations, outcome)?;
+        let mut work = Newton::<L>::take::<P, R>(step, system, newton, kept, stopping, outcome)?;
         memory.was_newton = true;
         work.rejected = rejected;
         Ok(work)

@@ -70,7 +70,7 @@ impl<V: Vector> SeparableHamiltonian<V> for FputChain {
 /// The derivative `d + d³` of the energy of a bond.
 #[inline(always)]
 fn tension<T: Scalar>(d: T) -> T {
-    d + d * d * d
+    (d * d).fused(d, d)
 }
 
 /// At rest position, with momenta `p_i = ((7919 i mod n) − n/2)/n`: equally spaced numbers in a scattered order.

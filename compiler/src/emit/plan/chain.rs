@@ -43,6 +43,7 @@ impl<'g, 'a> Chain<'g, 'a> {
                     R: ::symplectic::Summation,
                     V: ::symplectic::Vector,
                     S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+                    K: ::symplectic::Moves,
                     W: ::symplectic::Witness,
                 >(
                     span: ::symplectic::Span,
@@ -50,6 +51,7 @@ impl<'g, 'a> Chain<'g, 'a> {
                     evaluations: &mut ::symplectic::Evaluations<V>,
                     kept: ::symplectic::Kept,
                     state: ::symplectic::Outcome<'_, V>,
+                    moves: &mut K,
                     witness: &mut W,
                 ) {
                     let ::symplectic::Evaluations { velocity, force } = evaluations;
@@ -66,7 +68,6 @@ impl<'g, 'a> Chain<'g, 'a> {
 
     /// An evaluation, unless it is `carried`, and what it does to the state.
     fn line(&self, node: Node, carried: bool) -> TokenStream {
-        let is_force = matches!(node, Node::Force(_));
         let evaluation = self.graph.evaluation(node);
         let time = literal::coefficient(&evaluation.time);
         let weight = literal::coefficient(&evaluation.weight);
@@ -75,14 +76,16 @@ impl<'g, 'a> Chain<'g, 'a> {
             true => quote!(kept.evaluation),
             false => quote!(false),
         };
-        if !is_force {
+        if !matches!(node, Node::Force(_)) {
             return quote! {
-                let slope = ::symplectic::velocity(system, span.at(#time), &*q, &*p, velocity, #known);
-                witness.evaluation(::symplectic::Quantity::Velocity, #stage, &*p, slope);
-                ::symplectic::advance::<R, V>(q, q_low, span.size, #weight, slope);
+                moves.drift::<R, V, S, W>(
+                    ::symplectic::Drift { span, stage: #stage, time: #time, weight: #weight, known: #known },
+                    system, (&mut *velocity, &*force), (&mut *q, &mut *q_low), (&mut *p, &mut *p_low), witness,
+                );
             };
         }
         let evaluate = quote! {
+            moves.settle::<R, V>((&mut *p, &mut *p_low), &*force);
             system.force(span.at(#time), &*q, &*p, force);
             witness.evaluation(::symplectic::Quantity::Force, #stage, &*q, force);
         };
@@ -92,7 +95,7 @@ impl<'g, 'a> Chain<'g, 'a> {
         };
         quote! {
             #evaluate
-            ::symplectic::advance::<R, V>(p, p_low, span.size, #weight, force);
+            moves.kick::<R, V>((&mut *p, &mut *p_low), span.size, #weight, &*force);
         }
     }
 }

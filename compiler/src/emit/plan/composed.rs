@@ -75,7 +75,7 @@ impl Composed<'_> {
         };
         let take = arms(&|plan, place| {
             let place = borrowed(place);
-            quote!(<#plan as ::symplectic::Plan>::take::<R, V, S, N>(step, system, #place, kept, max_iterations, outcome))
+            quote!(<#plan as ::symplectic::Plan>::take::<R, V, S, N>(step, system, #place, kept, stopping, outcome))
         });
         let observe = arms(&|plan, place| {
             let place = borrowed(place);
@@ -105,7 +105,7 @@ impl Composed<'_> {
                     system: &S,
                     memory: &mut Self::Memory<V, S, N>,
                     kept: ::symplectic::Kept,
-                    max_iterations: u32,
+                    stopping: ::symplectic::Stopping,
                     outcome: ::symplectic::Outcome<'_, V>,
                 ) -> ::core::result::Result<::symplectic::Work, ::symplectic::Failure> {
                     #take

@@ -1,10 +1,12 @@
 //! Problems with few components: the stages in lanes.
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Compensated, HamiltonianInLanes, Integrator, Method, Plain, State, Summation};
+use symplectic::{
+    Compensated, Error, HamiltonianInLanes, Integrator, Method, Plain, State, Summation,
+};
 use wide::{f64x2, f64x4, f64x8};
 
-use super::{Pair, Problem, rule};
+use super::{Pair, Problem, TO_ROUNDING, rule};
 use crate::baseline::explicit::{self, Splitting};
 use crate::baseline::gauss::{FirstOrder, Rule, SecondOrder};
 use crate::baseline::lanes::Lanes;
@@ -13,6 +15,18 @@ use crate::baseline::systems;
 use symplectic_tests::methods::{
     BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4, Gauss6, Gauss8, Lobatto3, VelocityVerlet,
 };
+
+/// An integrator before it is given its solver.
+type Made<M, S, const N: usize, R> = Integrator<M, S, SVector<f64, N>, R>;
+
+/// Sets the tolerance of the iteration by hand: what no stage may move by in the last sweep.
+fn within<M: Method, S: HamiltonianInLanes<SVector<f64, N>>, const N: usize>(
+    tolerance: f64,
+    mut made: Made<M, S, N, Plain>,
+) -> Result<Made<M, S, N, Plain>, Error> {
+    made.set_tolerance(tolerance)?;
+    Ok(made)
+}
 
 /// Implicit and explicit methods on a separable problem.
 pub(super) fn separable<S, B, const N: usize>(
@@ -63,17 +77,24 @@ where
         let (h, tolerance) = (fraction * self.step_size, self.tolerance);
         let (system, (q, p)) = (self.by_hand, arrays(&self.start));
         let by_hand = SecondOrder::<L, STAGES>::new(rule, h);
-        pairs.push(self.in_lanes::<M, Plain>(method, h, move |steps| {
+        let by_hand = move |steps| {
             let (mut q, mut p) = (q, p);
             by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
             [q, p].concat()
-        }));
+        };
+        pairs.push(self.in_lanes(method, h, move |made| within(tolerance, made), by_hand));
+        pairs.push(Pair {
+            sums: TO_ROUNDING,
+            ..self.in_lanes::<M, Plain>(method, h, Ok, by_hand)
+        });
         let by_hand = NoDrift::<L, STAGES>::new(rule, h);
-        pairs.push(self.in_lanes::<M, Compensated>(method, h, move |steps| {
-            let (mut q, mut p) = (Double::new(q), Double::new(p));
-            by_hand.run(&system, (&mut q, &mut p), 1e4 * tolerance, steps);
-            [q.high, p.high].concat()
-        }));
+        pairs.push(
+            self.in_lanes::<M, Compensated>(method, h, Ok, move |steps| {
+                let (mut q, mut p) = (Double::new(q), Double::new(p));
+                by_hand.run(&system, (&mut q, &mut p), 1e4 * tolerance, steps);
+                [q.high, p.high].concat()
+            }),
+        );
     }
 
     /// A pair with the stages in lanes, without those of the momenta where the system is q'' = f(q).
@@ -81,14 +102,15 @@ where
         &self,
         method: (&'static str, M),
         step_size: f64,
+        set: impl Fn(Made<M, S, N, R>) -> Result<Made<M, S, N, R>, Error> + 'static,
         baseline: impl Fn(u64) -> Vec<f64> + 'static,
     ) -> Pair {
         let first = Integrator::new(method.1, self.system, self.start.clone(), step_size);
         if first.and_then(Integrator::in_second_order_lanes).is_ok() {
-            let solved = Integrator::<_, _, _, R>::in_second_order_lanes;
+            let solved = move |made| set(made)?.in_second_order_lanes();
             self.pair(method, step_size, solved, baseline)
         } else {
-            let solved = |integrator: Integrator<_, _, _, R>| Ok(integrator.in_lanes());
+            let solved = move |made| Ok(set(made)?.in_lanes());
             self.pair(method, step_size, solved, baseline)
         }
     }
@@ -143,27 +165,41 @@ where
         let (h, tolerance) = (fraction * self.step_size, self.tolerance);
         let (system, (q, p)) = (self.by_hand, arrays(&self.start));
         let by_hand = FirstOrder::<L, STAGES>::new(rule, h);
-        pairs.push(self.pair(
-            method,
-            h,
-            |i: Integrator<_, _, _, Plain>| Ok(i.in_lanes()),
-            move |steps| {
-                let (mut q, mut p) = (q, p);
-                by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
-                [q, p].concat()
-            },
-        ));
+        let by_hand = move |steps| {
+            let (mut q, mut p) = (q, p);
+            by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
+            [q, p].concat()
+        };
+        pairs.push(self.coupled_in_lanes(method, h, move |made| within(tolerance, made), by_hand));
+        pairs.push(Pair {
+            sums: TO_ROUNDING,
+            ..self.coupled_in_lanes::<M, Plain>(method, h, Ok, by_hand)
+        });
         let by_hand = NoDriftGeneral::<L, STAGES>::new(rule, h);
-        pairs.push(self.pair(
-            method,
-            h,
-            |i: Integrator<_, _, _, Compensated>| Ok(i.in_lanes()),
-            move |steps| {
+        pairs.push(
+            self.coupled_in_lanes::<M, Compensated>(method, h, Ok, move |steps| {
                 let (mut q, mut p) = (Double::new(q), Double::new(p));
                 by_hand.run(&system, (&mut q, &mut p), steps);
                 [q.high, p.high].concat()
-            },
-        ));
+            }),
+        );
+    }
+
+    /// A pair with the stages in lanes, both halves at once where that was chosen.
+    fn coupled_in_lanes<M: Method, R: Summation>(
+        &self,
+        method: (&'static str, M),
+        step_size: f64,
+        set: impl Fn(Made<M, S, N, R>) -> Result<Made<M, S, N, R>, Error> + 'static,
+        baseline: impl Fn(u64) -> Vec<f64> + 'static,
+    ) -> Pair {
+        if self.at_once {
+            let solved = move |made| Ok(set(made)?.at_once_in_lanes());
+            self.pair(method, step_size, solved, baseline)
+        } else {
+            let solved = move |made| Ok(set(made)?.in_lanes());
+            self.pair(method, step_size, solved, baseline)
+        }
     }
 }
 

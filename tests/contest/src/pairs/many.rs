@@ -3,7 +3,7 @@
 use symplectic::nalgebra::DVector;
 use symplectic::{Integrator, Method, Plain};
 
-use super::{Pair, Problem, rule};
+use super::{Pair, Problem, TO_ROUNDING, rule};
 use crate::baseline::chain::{self, Blocks};
 use crate::baseline::explicit::{self, Splitting};
 use symplectic_tests::methods::{BlanesMoanSrkn14a, ForestRuth, Gauss8, VelocityVerlet};
@@ -23,6 +23,7 @@ pub(super) fn chain(pairs: &mut Vec<Pair>) {
         steps: 200,
         compared: 200,
         tolerance: 1e-14,
+        at_once: false,
     };
     let Problem {
         step_size,
@@ -40,13 +41,28 @@ pub(super) fn chain(pairs: &mut Vec<Pair>) {
     pairs.push(problem.pair(
         ("Gauss 8", Gauss8),
         step_size,
-        Integrator::<_, _, _, Plain>::in_second_order_lanes,
+        move |mut integrator: Integrator<_, _, _, Plain>| {
+            integrator.set_tolerance(tolerance)?;
+            integrator.in_second_order_lanes()
+        },
         by_hand.clone(),
     ));
+    pairs.push(Pair {
+        sums: TO_ROUNDING,
+        ..problem.pair(
+            ("Gauss 8", Gauss8),
+            step_size,
+            Integrator::<_, _, _, Plain>::in_second_order_lanes,
+            by_hand.clone(),
+        )
+    });
     pairs.push(problem.pair(
         ("Gauss 8, stage by stage", Gauss8),
         step_size,
-        Ok::<Integrator<_, _, _, Plain>, _>,
+        move |mut integrator: Integrator<_, _, _, Plain>| {
+            integrator.set_tolerance(tolerance)?;
+            Ok(integrator)
+        },
         by_hand,
     ));
     pairs.push(problem.explicit::<explicit::Verlet, _>(("Verlet", VelocityVerlet), 0.05));

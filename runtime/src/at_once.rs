@@ -1,0 +1,263 @@
+//! Both halves of a system that is not separable, at once.
+
+use core::marker::PhantomData;
+
+use crate::in_lanes::{
+    ByLanes, LaneMovement, LanePart, Sums, extrapolate, extrapolates, fill, sum, total, values,
+};
+use crate::iteration::{Sweeps, settle};
+use crate::lane_stages::{LaneStages, Laned};
+use crate::starting_values::{Starting, starts_at_once};
+use crate::{
+    Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, HamiltonianInLanes,
+    InLanes, Inside, Kept, Outcome, Quantity, Solver, StageTableau, Step, Stopping, Summation,
+    Vector, Work,
+};
+
+/// [`InLanes`] for Hamiltonians that are not separable, with positions and momenta iterated at once.
+///
+/// A sweep of [`InLanes`] takes the velocities where its forces have moved the momenta to (Gauss–Seidel); here both halves are
+/// taken where the sweep before has left the stages (Jacobi). Neither half waits for the other, and there may be more sweeps:
+/// it pays where `∂²H/∂q∂p` is as large as the other second derivatives and where evaluations cost little.
+/// The stages are those of [`InLanes`] up to rounding.
+///
+/// Separable systems are taken as by [`InLanes`]: for these there would be twice as many sweeps.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct AtOnceInLanes;
+
+impl<V, S> Solver<V, S> for AtOnceInLanes
+where
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    type Memory<P: StageTableau> = LaneStages<V, P>;
+
+    #[inline(always)]
+    fn take<P, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        stages: &mut LaneStages<V, P>,
+        kept: Kept,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        P: StageTableau,
+        R: Summation,
+        S: Hamiltonian<V, Class = P::Class>,
+    {
+        if P::Class::SEPARABLE {
+            return <InLanes as Solver<V, S>>::take::<P, R>(
+                step, system, stages, kept, stopping, outcome,
+            );
+        }
+        let mut sweeps = Halves::<P, R, V, S>(ByLanes {
+            step,
+            system,
+            stages: &mut *stages,
+            sums: PhantomData,
+        });
+        let work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
+        if !R::COMPENSATED {
+            sweeps.increments();
+        }
+        let Outcome { q, q_low, p, p_low } = outcome;
+        total::<R, P, V>(
+            (q, q_low),
+            (step.q, step.q_low),
+            stages.velocity.as_ref(),
+            &P::MOMENTA,
+            step.size,
+        );
+        total::<R, P, V>(
+            (p, p_low),
+            (step.p, step.p_low),
+            stages.force.as_ref(),
+            &P::POSITIONS,
+            step.size,
+        );
+        Ok(work)
+    }
+
+    fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside, q: &mut V, p: &mut V) {
+        <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
+    }
+}
+
+/// Positions and momenta of the stages.
+///
+/// With plain sums evaluations are no increments while the stages are iterated, and the matrices have the factors that would make
+/// them such.
+struct Halves<'a, P: StageTableau, R, V: Vector, S>(ByLanes<'a, P, R, V, S>);
+
+impl<P, R, V, S> Halves<'_, P, R, V, S>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    /// Both evaluations become increments.
+    #[inline(always)]
+    fn increments(&mut self) {
+        self.0.scale_forces();
+        self.0.scale_velocities();
+    }
+
+    /// New stages from the evaluations, by how much they moved.
+    #[inline(always)]
+    fn stages(&mut self) -> LaneMovement<P::Lanes> {
+        if R::COMPENSATED {
+            self.increments();
+        }
+        let step = self.0.step;
+        let LaneStages {
+            q,
+            p,
+            velocity,
+            force,
+        } = &mut *self.0.stages;
+        LaneMovement {
+            p: Self::half(
+                (&P::MOMENTA, &P::POSITIONS),
+                step,
+                (step.p, step.p_low),
+                p.as_mut(),
+                force.as_ref(),
+            ),
+            q: Self::half(
+                (&P::POSITIONS, &P::MOMENTA),
+                step,
+                (step.q, step.q_low),
+                q.as_mut(),
+                velocity.as_ref(),
+            ),
+        }
+    }
+
+    /// New values of one half from the evaluations of the other.
+    #[inline(always)]
+    fn half(
+        (half, other): (&HalfTableau, &HalfTableau),
+        step: &Step<'_, V>,
+        base: (&V, &V),
+        out: &mut [Laned<V, P>],
+        terms: &[Laned<V, P>],
+    ) -> LanePart<P::Lanes> {
+        let (h, columns, weights) = (step.size, half.columns, other.weights);
+        let sums = Sums {
+            count: columns.len(),
+            column: |j: usize| columns[j],
+            factor: |j: usize| match (P::INCREMENTS, R::COMPENSATED) {
+                (true, true) => None,
+                (true, false) => Some(h * weights[j]),
+                (false, _) => Some(h),
+            },
+        };
+        values::<P, V>(&sums, out, base, terms, sum::<R, P>)
+    }
+
+    /// Stages from the increments of the step before.
+    #[inline(always)]
+    fn start(&mut self) {
+        let step = self.0.step;
+        let factor = (!P::INCREMENTS).then_some(step.size);
+        let LaneStages {
+            q,
+            p,
+            velocity,
+            force,
+        } = &mut *self.0.stages;
+        let sums = Sums {
+            count: P::MOMENTA.columns.len(),
+            column: |j: usize| &Starting::<P>::MOMENTA[j][..],
+            factor: |_| factor,
+        };
+        let base = (step.p, step.p_low);
+        values::<P, V>(&sums, p.as_mut(), base, force.as_ref(), sum::<R, P>);
+        let sums = Sums {
+            count: P::POSITIONS.columns.len(),
+            column: |j: usize| &Starting::<P>::POSITIONS[j][..],
+            factor: |_| factor,
+        };
+        let base = (step.q, step.q_low);
+        values::<P, V>(&sums, q.as_mut(), base, velocity.as_ref(), sum::<R, P>);
+    }
+}
+
+impl<P, R, V, S> Sweeps for Halves<'_, P, R, V, S>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    type Movement = LaneMovement<P::Lanes>;
+
+    const HASTY: bool = !R::COMPENSATED;
+
+    #[inline(always)]
+    fn evaluations(&self) -> EvaluationCounts {
+        let both = (P::POSITIONS.count + P::MOMENTA.count) as u32;
+        let (begin, start) = if extrapolates::<P>() {
+            (0, both)
+        } else {
+            (both, 0)
+        };
+        EvaluationCounts {
+            begin,
+            start,
+            ..self.0.evaluations()
+        }
+    }
+
+    #[inline(always)]
+    fn time(&self) -> f64 {
+        self.0.time()
+    }
+
+    #[inline(always)]
+    fn begin(&mut self, kept: Kept) {
+        if kept.stages && starts_at_once(&P::POSITIONS) && starts_at_once(&P::MOMENTA) {
+            self.start();
+            return;
+        }
+        if kept.stages && extrapolates::<P>() {
+            extrapolate::<P, V>(&P::MOMENTA, self.0.stages.velocity.as_mut());
+            extrapolate::<P, V>(&P::POSITIONS, self.0.stages.force.as_mut());
+            self.0.momenta();
+            self.0.positions();
+            return;
+        }
+        fill::<P, V>(self.0.stages.q.as_mut(), self.0.step.q);
+        fill::<P, V>(self.0.stages.p.as_mut(), self.0.step.p);
+        self.sweep();
+    }
+
+    #[inline(always)]
+    fn non_finite(&mut self) -> Option<(Quantity, usize)> {
+        self.0.non_finite()
+    }
+
+    #[inline(always)]
+    fn non_finite_force(&mut self) -> Option<usize> {
+        self.0.non_finite_force()
+    }
+
+    #[inline(always)]
+    fn sweep(&mut self) -> LaneMovement<P::Lanes> {
+        self.0.forces();
+        self.0.velocities();
+        self.stages()
+    }
+
+    #[inline(always)]
+    fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
+        self.0.change(movement)
+    }
+
+    #[inline(always)]
+    fn are_about(&self, movement: &Self::Movement, scales: [f64; 2], both: bool) -> bool {
+        self.0.are_about(movement, scales, both)
+    }
+}
