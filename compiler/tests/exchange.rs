@@ -94,7 +94,9 @@ proptest! {
             let floor = |offset: usize| (0..=offset.min(written.len())).rev().find(|&o| written.is_char_boundary(o)).unwrap_or(0);
             let (start, end) = (floor(position), floor(position + length));
             let damaged = format!("{}{filling}{}", &written[..start], &written[end..]);
-            let _ = toml::read(name, &damaged, &Limits::default());
+            if name.ends_with("toml") && let Err(error) = toml::read(name, &damaged, &Limits::default()) {
+                prop_assert!(error.place.is_some());
+            }
             match check(name, &damaged, &Limits::default()) {
                 // White space, comments and the name are nobody's business.
                 Ok(checked) => prop_assert!(checked.has_coefficients_of(&tableau)),
@@ -105,5 +107,19 @@ proptest! {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn what_is_wrong_with_the_parts_together_has_a_place() {
+    for (text, place) in [
+        ("[provenance]\nbasis = \"polynomial(2)\"\n", "[provenance]"),
+        ("[provenance]\nnodes = \"gauss(2)\"\n", "[provenance]"),
+        ("name = \"x\"\nprovenance = {}\n", "{}"),
+        ("provenance.b = \"[1]\"", "provenance"),
+    ] {
+        let error = check("t.toml", text, &Limits::default()).expect_err("half a method");
+        let found = error.place.expect("a place");
+        assert_eq!(&found.text[found.span], place);
     }
 }

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::definition::{Definition, Key};
 use crate::error::{Error, Place};
+use crate::export::entries::first_line;
 use crate::expression::Input;
 use crate::limits::Limits;
 use crate::tableau::Tableau;
@@ -22,6 +23,8 @@ pub(super) struct Origin {
     pub name: Option<String>,
     pub parts: Vec<Part>,
     pub source: Option<String>,
+    /// The bytes of the file that stand for all parts together.
+    pub span: Range<usize>,
 }
 
 impl Origin {
@@ -42,27 +45,31 @@ impl Origin {
         Ok(tableau)
     }
 
-    /// Moves the place of an error from an expression to the file that the expression stands in.
+    /// Moves the place of an error from an expression to the file that the expression stands in; what
+    /// is wrong with the parts together stands where all of them do.
     fn in_file(&self, file: Input<'_>, mut error: Error) -> Error {
-        let Some(place) = error.place.take() else {
-            return error;
-        };
-        let part = self.parts.iter().find(|p| p.key.name() == place.input);
-        if let Some(Part { text, span, .. }) = part {
-            // Between two quotes and without escapes, bytes of the expression are bytes of the file.
-            let quoted = file.text.get(span.start + 1..span.end.saturating_sub(1));
-            let span = if quoted == Some(text.as_str()) {
-                let moved = |offset: usize| span.start + 1 + offset.min(text.len());
-                moved(place.span.start)..moved(place.span.end)
-            } else {
-                span.clone()
-            };
-            error.place = Some(Place {
-                input: file.name.to_owned(),
-                text: file.text.to_owned(),
-                span,
-            });
-        }
+        let found = error.place.as_ref().and_then(|place| {
+            let part = self.parts.iter().find(|p| p.key.name() == place.input)?;
+            Some(moved(file.text, part, &place.span))
+        });
+        let span = found.unwrap_or_else(|| first_line(file.text, self.span.clone()));
+        error.place = Some(Place {
+            input: file.name.to_owned(),
+            text: file.text.to_owned(),
+            span,
+        });
         error
     }
+}
+
+/// The bytes of a file that say some bytes of a part.
+fn moved(file: &str, part: &Part, within: &Range<usize>) -> Range<usize> {
+    let Part { text, span, .. } = part;
+    // Between two quotes and without escapes, bytes of the expression are bytes of the file.
+    let quoted = file.get(span.start + 1..span.end.saturating_sub(1));
+    if quoted != Some(text.as_str()) {
+        return span.clone();
+    }
+    let offset = |offset: usize| span.start + 1 + offset.min(text.len());
+    offset(within.start)..offset(within.end)
 }

@@ -245,6 +245,7 @@ impl<'a> Document<'a> {
     }
 
     fn origin(&self, file: Input<'_>) -> Result<Origin, Error> {
+        let whole = self.definition.as_ref().unwrap_or(&self.basis);
         Ok(Origin {
             name: self.name.optional_string(file)?,
             parts: self.parts(file)?,
@@ -252,6 +253,7 @@ impl<'a> Document<'a> {
                 .source
                 .as_ref()
                 .map_or(Ok(None), |source| source.optional_string(file))?,
+            span: whole.span(file.text),
         })
     }
 

@@ -23,7 +23,7 @@ pub(super) type Matrix = Spanned<Vec<List>>;
 /// A file whose keys and shapes are those of a tableau; what its entries say is not yet looked at.
 pub(crate) struct Document {
     name: Option<String>,
-    provenance: ProvenanceTable,
+    provenance: Spanned<ProvenanceTable>,
     /// What is derived from the definition; a file that a person writes has none of it.
     pub(super) derived: Option<Derived>,
 }
@@ -34,7 +34,7 @@ pub(crate) struct Document {
 struct Keys {
     name: Option<String>,
     stages: Option<Spanned<usize>>,
-    provenance: ProvenanceTable,
+    provenance: Spanned<ProvenanceTable>,
     exact: Option<Exact>,
     decimals: Option<Decimals>,
     properties: Option<Spanned<BTreeMap<Spanned<String>, PropertyEntry>>>,
@@ -212,10 +212,12 @@ impl Document {
 
     /// Name and provenance.
     pub(super) fn origin(&self) -> Origin {
+        let provenance = self.provenance.get_ref();
         Origin {
             name: self.name.clone(),
-            parts: self.provenance.parts(),
-            source: self.provenance.source.clone(),
+            parts: provenance.parts(),
+            source: provenance.source.clone(),
+            span: self.provenance.span(),
         }
     }
 
@@ -233,10 +235,10 @@ impl Document {
             return Vec::new();
         };
         let mut entries = vec![one("stages".to_owned(), &derived.stages)];
-        for Part { key, text, span } in self.provenance.parts() {
+        for Part { key, text, span } in self.provenance.get_ref().parts() {
             entries.push(Entry::new(key.name(), text, span));
         }
-        if let Some(tier) = &self.provenance.tier {
+        if let Some(tier) = &self.provenance.get_ref().tier {
             entries.push(one("tier".to_owned(), tier));
         }
         entries.extend(derived.entries());
