@@ -134,7 +134,7 @@ fn a_composition_of_explicit_methods_is_explicit() {
     assert!(separable.contains("&mut ::symplectic::Evaluations<V>"));
     assert!(separable.contains("if !kept.evaluation {"), "{separable}");
     assert!(!separable.contains("relax") && !separable.contains("combine"));
-    assert_eq!(separable.matches(".force(").count(), 4);
+    assert_eq!(separable.matches(".force::<").count(), 4);
     // Each of them is applied once, with the sum of the weights where two steps meet.
     let moves = [".kick::<", ".drift::<"].map(|call| separable.matches(call).count());
     assert_eq!(moves, [4, 3]);

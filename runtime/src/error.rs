@@ -164,6 +164,20 @@ pub enum Error {
         momentum: f64,
     },
 
+    /// A system makes kicks and a drift in one pass, and what comes out is not what comes out by its force.
+    #[error(
+        "component {component} of the state is {of_pass} in size after `kick_and_drift` and {expected} by `force`: they have to be \
+         the same to the last bit; leave `kick_and_drift` out, or make it from the same operations"
+    )]
+    NotTheSameForce {
+        /// The component of the position or the momentum, from 0.
+        component: usize,
+        /// Its size after the pass.
+        of_pass: f64,
+        /// Its size by the force.
+        expected: f64,
+    },
+
     /// The system gives no energy, which the generating function is made of.
     #[error("the system gives no energy; implement `energy`, or add a closure by `with_energy`")]
     NoEnergy,

@@ -7,7 +7,7 @@ use num_traits::Zero;
 
 use crate::diagnosis::{Attempt, FirstFault};
 use crate::fixed_point::by_stages;
-use crate::integrator::{check_state, check_step_size};
+use crate::integrator::checks::{check_state, check_step_size};
 use crate::stage::{first_mismatch, first_non_finite, first_non_finite_of, is_finite};
 use crate::{
     Change, Class, Coefficient, Coefficients, Error, EvaluationCounts, Hamiltonian, Kept, Method,

@@ -63,6 +63,18 @@ pub trait Hamiltonian<V: Vector> {
     /// Writes −∂H/∂q at `(time, q, p)` into `force`.
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V);
 
+    /// Kicks and a drift in one pass: see [`SeparableHamiltonian::kick_and_drift`].
+    #[inline(always)]
+    fn kick_and_drift(
+        &self,
+        _time: V::Scalar,
+        _state: (&mut V, &mut V),
+        _kicks: &[V::Scalar],
+        _drift: V::Scalar,
+    ) -> bool {
+        false
+    }
+
     /// H at `(time, q, p)`, where the system knows it. No method needs it.
     fn energy(&self, _time: V::Scalar, _q: &V, _p: &V) -> Option<V::Scalar> {
         None
@@ -127,6 +139,29 @@ pub trait SeparableHamiltonian<V: Vector> {
     /// Writes −∂H/∂q at `(time, q)` into `force`.
     fn force(&self, time: V::Scalar, q: &V, force: &mut V);
 
+    /// For a system of [unit masses](Self::UNIT_MASSES) that can do it in one pass over its components, as a [`Chain`](crate::Chain)
+    /// can: kicks by one force, one after the other, and a drift,
+    ///
+    /// ```text
+    /// p = kick_k.fused(force(time, q), p)   for each kick      q = drift.fused(p, q)
+    /// ```
+    ///
+    /// component by component, with the same bits as by [`force`](Self::force) and [`Scalar::fused`](crate::Scalar::fused). `false`
+    /// where it cannot; then nothing has changed, and an integrator makes them one after the other.
+    ///
+    /// Long vectors ask for it in blocks of explicit steps with plain sums. Where other bits come out of it than by `force`,
+    /// [`Error::NotTheSameForce`](crate::Error::NotTheSameForce) is what an integrator is made of.
+    #[inline(always)]
+    fn kick_and_drift(
+        &self,
+        _time: V::Scalar,
+        _state: (&mut V, &mut V),
+        _kicks: &[V::Scalar],
+        _drift: V::Scalar,
+    ) -> bool {
+        false
+    }
+
     /// H at `(time, q, p)`, where the system knows it. No method needs it.
     fn energy(&self, _time: V::Scalar, _q: &V, _p: &V) -> Option<V::Scalar> {
         None
@@ -146,6 +181,17 @@ impl<V: Vector, S: SeparableHamiltonian<V>> Hamiltonian<V> for S {
     #[inline(always)]
     fn force(&self, time: V::Scalar, q: &V, _p: &V, force: &mut V) {
         SeparableHamiltonian::force(self, time, q, force);
+    }
+
+    #[inline(always)]
+    fn kick_and_drift(
+        &self,
+        time: V::Scalar,
+        state: (&mut V, &mut V),
+        kicks: &[V::Scalar],
+        drift: V::Scalar,
+    ) -> bool {
+        SeparableHamiltonian::kick_and_drift(self, time, state, kicks, drift)
     }
 
     #[inline]

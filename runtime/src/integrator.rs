@@ -7,21 +7,22 @@ use core::ops::ControlFlow;
 
 use crate::dense::LastStep;
 use crate::interpolation::Line;
-use crate::stage::is_finite;
 use crate::time::{Clock, uniform};
 use crate::{
     AtOnceInLanes, Class, Compensated, Error, FixedPoint, Hamiltonian, HamiltonianInLanes, InLanes,
-    Inside, Interpolation, Method, Plain, Plan, Quantity, Retry, Scalar, SecondOrderInLanes,
-    Solver, State, States, Statistics, Stopping, Summation, Vector,
+    Inside, Interpolation, Method, Plain, Plan, Retry, Scalar, SecondOrderInLanes, Solver, State,
+    States, Statistics, Stopping, Summation, Vector,
 };
 #[cfg(feature = "alloc")]
 use crate::{GeneratingFunction, Kept, Step, generating_function::generating};
 
 mod advance;
 mod blocks;
+pub(crate) mod checks;
 mod course;
 mod parts;
 
+use checks::{check_masses, check_pass, check_state, check_step_size};
 use course::Course;
 
 /// The plan of the method `M` for the class of the system `S`.
@@ -86,7 +87,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     /// # Errors
     ///
     /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`],
-    /// [`Error::NotUnitMasses`].
+    /// [`Error::NotUnitMasses`], [`Error::NotTheSameForce`].
     pub fn new(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error> {
         Self::with_summation(method, system, state, step_size)
     }
@@ -248,6 +249,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         check_step_size(step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
         check_masses(&system, &state)?;
+        check_pass(&system, &state, step_size)?;
         Ok(Self {
             system,
             clock: Clock::new(state.time, step_size),
@@ -630,55 +632,4 @@ pub(crate) struct NextStep {
     /// Its number, from 1, among all `steps`.
     pub(crate) number: u64,
     pub(crate) steps: u64,
-}
-
-pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {
-    if value.is_finite() && value != 0.0 {
-        Ok(())
-    } else {
-        Err(Error::StepSize { value })
-    }
-}
-
-/// Checks that the velocity is the momentum where the system says so.
-fn check_masses<V: Vector, S: Hamiltonian<V>>(system: &S, state: &State<V>) -> Result<(), Error> {
-    if !S::UNIT_MASSES {
-        return Ok(());
-    }
-    let State { time, q, p } = state;
-    let mut velocity = p.zeros_like();
-    system.velocity(V::Scalar::from_f64(*time), q, p, &mut velocity);
-    let pairs = velocity.as_slice().iter().zip(p.as_slice());
-    for (component, (&velocity, &momentum)) in pairs.enumerate() {
-        if velocity != momentum {
-            return Err(Error::NotUnitMasses {
-                component,
-                velocity: velocity.magnitude(),
-                momentum: momentum.magnitude(),
-            });
-        }
-    }
-    Ok(())
-}
-
-pub(crate) fn check_state<V: Vector>(
-    time: f64,
-    q: &V,
-    p: &V,
-    dimension: usize,
-) -> Result<(), Error> {
-    let (position, momentum) = (q.dimension(), p.dimension());
-    if position != dimension || momentum != dimension {
-        return Err(Error::Dimension { position, momentum });
-    }
-    let what = if !time.is_finite() {
-        Quantity::Time
-    } else if !is_finite(q) {
-        Quantity::Position
-    } else if !is_finite(p) {
-        Quantity::Momentum
-    } else {
-        return Ok(());
-    };
-    Err(Error::NonFiniteState { what })
 }

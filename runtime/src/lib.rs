@@ -76,6 +76,7 @@ extern crate std;
 
 mod array;
 mod at_once;
+mod chain;
 mod change;
 mod class;
 mod closures;
@@ -112,6 +113,7 @@ mod relax;
 pub mod report;
 mod retry;
 mod root;
+mod rows;
 mod scalar;
 mod second_order;
 mod solver;
@@ -132,6 +134,7 @@ mod vector;
 mod work;
 
 pub use at_once::AtOnceInLanes;
+pub use chain::{Bonds, Chain};
 pub use change::{Change, PartChange};
 pub use class::{Class, General, Separable};
 pub use closures::{
@@ -160,7 +163,7 @@ pub use lane_stages::LaneStages;
 pub use lanes::{F64x2, F64x4, F64x8, HamiltonianInLanes, Lanes};
 pub use long_splitting::{SeparableOnly, rows, staircase};
 pub use method::{Method, Plan, StagePlan};
-pub use moves::{Drift, Moves};
+pub use moves::{Drift, Force, Moves};
 pub use nalgebra;
 #[cfg(feature = "alloc")]
 pub use newton::{

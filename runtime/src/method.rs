@@ -63,7 +63,7 @@ pub trait Plan {
         N: Solver<V, S>;
 
     /// Takes a step from `state`, in place, with the evaluations [kept](Kept::evaluation) by the step before; nothing where
-    /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`. `moves` may leave kicks waiting.
+    /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`. `moves` may leave a force and kicks waiting.
     #[inline(always)]
     fn take_in_place<R, V, S, N, K>(
         _span: Span,
@@ -83,6 +83,7 @@ pub trait Plan {
     /// Gives the state what steps [taken in place](Self::take_in_place) have left waiting.
     #[inline(always)]
     fn settle_in_place<R, V, S, N, K>(
+        _system: &S,
         _memory: &mut Self::Memory<V, S, N>,
         _state: Outcome<'_, V>,
         _moves: &mut K,

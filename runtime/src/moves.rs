@@ -18,15 +18,39 @@ pub struct Drift {
     pub known: bool,
 }
 
-/// How the kicks and drifts of a splitting are made: one by one, `()`, or so that kicks wait for the drift after them.
+/// The force of a splitting that makes kicks.
+#[derive(Clone, Copy, Debug)]
+pub struct Force {
+    /// The step.
+    pub span: Span,
+    /// The number of its stage, from 1.
+    pub stage: usize,
+    /// Its time, as a fraction of the step.
+    pub time: Coefficient,
+}
+
+/// How the kicks and drifts of a splitting are made: one by one, `()`, or so that they wait for the drift after them.
 pub trait Moves {
-    /// Adds `(h weight) force` to the momentum.
-    fn kick<R: Summation, V: Vector>(
+    /// Evaluates the force, for the kicks that come next.
+    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
         &mut self,
+        force: Force,
+        system: &S,
+        place: &mut V,
+        position: &V,
         momentum: (&mut V, &mut V),
+        witness: &mut W,
+    );
+
+    /// Adds `(h weight) force` to the momentum.
+    fn kick<R: Summation, V: Vector, S: Hamiltonian<V>>(
+        &mut self,
         h: f64,
         weight: Coefficient,
-        force: &V,
+        system: &S,
+        force: &mut V,
+        position: &V,
+        momentum: (&mut V, &mut V),
     );
 
     /// Evaluates the velocity, and adds it to the position.
@@ -34,24 +58,46 @@ pub trait Moves {
         &mut self,
         drift: Drift,
         system: &S,
-        evaluations: (&mut V, &V),
+        evaluations: (&mut V, &mut V),
         position: (&mut V, &mut V),
         momentum: (&mut V, &mut V),
         witness: &mut W,
     );
 
-    /// Makes the kicks that wait: before there is another force, and in the end.
-    fn settle<R: Summation, V: Vector>(&mut self, momentum: (&mut V, &mut V), force: &V);
+    /// Makes what waits: before there is another force, and in the end.
+    fn settle<R: Summation, V: Vector, S: Hamiltonian<V>>(
+        &mut self,
+        system: &S,
+        force: &mut V,
+        position: &V,
+        momentum: (&mut V, &mut V),
+    );
 }
 
 impl Moves for () {
     #[inline(always)]
-    fn kick<R: Summation, V: Vector>(
+    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
         &mut self,
-        (p, p_low): (&mut V, &mut V),
+        Force { span, stage, time }: Force,
+        system: &S,
+        place: &mut V,
+        q: &V,
+        (p, _p_low): (&mut V, &mut V),
+        witness: &mut W,
+    ) {
+        system.force(span.at(time), q, p, place);
+        witness.evaluation(Quantity::Force, stage, q, place);
+    }
+
+    #[inline(always)]
+    fn kick<R: Summation, V: Vector, S: Hamiltonian<V>>(
+        &mut self,
         h: f64,
         weight: Coefficient,
-        force: &V,
+        _system: &S,
+        force: &mut V,
+        _position: &V,
+        (p, p_low): (&mut V, &mut V),
     ) {
         advance::<R, V>(p, p_low, h, weight, force);
     }
@@ -67,7 +113,7 @@ impl Moves for () {
             known,
         }: Drift,
         system: &S,
-        (place, _force): (&mut V, &V),
+        (place, _force): (&mut V, &mut V),
         (q, q_low): (&mut V, &mut V),
         (p, _p_low): (&mut V, &mut V),
         witness: &mut W,
@@ -78,30 +124,66 @@ impl Moves for () {
     }
 
     #[inline(always)]
-    fn settle<R: Summation, V: Vector>(&mut self, _momentum: (&mut V, &mut V), _force: &V) {}
+    fn settle<R: Summation, V: Vector, S: Hamiltonian<V>>(
+        &mut self,
+        _system: &S,
+        _force: &mut V,
+        _position: &V,
+        _momentum: (&mut V, &mut V),
+    ) {
+    }
 }
 
-/// Kicks by one force that the momentum has not been given yet: they are given to it by the drift that comes next, on its own way
-/// through the momentum. With long vectors every way through memory counts.
+/// A force that has not been evaluated yet, and kicks by one force that the momentum has not been given yet: they wait for the drift
+/// that comes next, which makes them on its own way through the momentum. With long vectors every way through memory counts. The
+/// force too is made on this way if the system [can](Hamiltonian::kick_and_drift).
 ///
 /// The sums are plain, and every component has the same bits as where nothing waits.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Waiting {
-    /// The step size and the weight of each: the last of a step and the first of the next, at most.
+    force: Option<Force>,
+    /// The step size and the weight of each kick: the last of a step and the first of the next, at most.
     kicks: [Option<(f64, Coefficient)>; 2],
 }
 
-impl Moves for Waiting {
+impl Waiting {
+    /// Evaluates the force that waits.
     #[inline(always)]
-    fn kick<R: Summation, V: Vector>(
+    fn evaluate<V: Vector, S: Hamiltonian<V>>(&mut self, system: &S, place: &mut V, q: &V, p: &V) {
+        if let Some(Force { span, time, .. }) = self.force.take() {
+            system.force(span.at(time), q, p, place);
+        }
+    }
+}
+
+impl Moves for Waiting {
+    /// Shows no evaluation to the witness.
+    #[inline(always)]
+    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
         &mut self,
+        force: Force,
+        system: &S,
+        place: &mut V,
+        position: &V,
         momentum: (&mut V, &mut V),
+        _witness: &mut W,
+    ) {
+        self.settle::<R, V, S>(system, place, position, momentum);
+        self.force = Some(force);
+    }
+
+    #[inline(always)]
+    fn kick<R: Summation, V: Vector, S: Hamiltonian<V>>(
+        &mut self,
         h: f64,
         weight: Coefficient,
-        force: &V,
+        system: &S,
+        force: &mut V,
+        position: &V,
+        momentum: (&mut V, &mut V),
     ) {
         if self.kicks[1].is_some() {
-            self.settle::<R, V>(momentum, force);
+            self.settle::<R, V, S>(system, force, position, momentum);
         }
         self.kicks = [Some((h, weight)), self.kicks[0]];
     }
@@ -111,25 +193,52 @@ impl Moves for Waiting {
         &mut self,
         drift: Drift,
         system: &S,
-        evaluations: (&mut V, &V),
+        (velocity, force): (&mut V, &mut V),
         position: (&mut V, &mut V),
         momentum: (&mut V, &mut V),
         witness: &mut W,
     ) {
-        if S::UNIT_MASSES {
-            let factor = |(size, weight)| V::Scalar::weight(size, weight);
-            let [last, first] = self.kicks.map(|kick| kick.map(factor));
-            self.kicks = [None; 2];
-            let drift = factor((drift.span.size, drift.weight));
-            kick_and_drift(position.0, momentum.0, evaluations.1, [first, last], drift);
-        } else {
-            self.settle::<R, V>((&mut *momentum.0, &mut *momentum.1), evaluations.1);
-            ().drift::<R, V, S, W>(drift, system, evaluations, position, momentum, witness);
+        let (q, p) = (&mut *position.0, &mut *momentum.0);
+        if !S::UNIT_MASSES {
+            self.settle::<R, V, S>(system, force, q, (p, &mut *momentum.1));
+            return ().drift::<R, V, S, W>(
+                drift,
+                system,
+                (velocity, force),
+                position,
+                momentum,
+                witness,
+            );
         }
+        let factor = |(size, weight)| V::Scalar::weight(size, weight);
+        let [last, first] = self.kicks.map(|kick| kick.map(factor));
+        let drift = factor((drift.span.size, drift.weight));
+        if let (Some(Force { span, time, .. }), Some(kick)) = (self.force, last) {
+            let kicks = [first.unwrap_or(kick), kick];
+            let kicks = if first.is_some() {
+                &kicks[..]
+            } else {
+                &kicks[1..]
+            };
+            if system.kick_and_drift(span.at(time), (q, p), kicks, drift) {
+                *self = Self::default();
+                return;
+            }
+        }
+        self.evaluate(system, force, q, p);
+        self.kicks = [None; 2];
+        kick_and_drift(q, p, force, [first, last], drift);
     }
 
     #[inline(always)]
-    fn settle<R: Summation, V: Vector>(&mut self, (p, p_low): (&mut V, &mut V), force: &V) {
+    fn settle<R: Summation, V: Vector, S: Hamiltonian<V>>(
+        &mut self,
+        system: &S,
+        force: &mut V,
+        position: &V,
+        (p, p_low): (&mut V, &mut V),
+    ) {
+        self.evaluate(system, force, position, p);
         let [last, first] = self.kicks;
         for (h, weight) in [first, last].into_iter().flatten() {
             advance::<R, V>(p, p_low, h, weight, force);
@@ -148,12 +257,12 @@ mod tests {
     #[test]
     fn kicks_that_wait_are_made_as_those_that_do_not() {
         let unit = acceleration(|_time, q: &Vector2<f64>, a: &mut Vector2<f64>| *a = *q);
-        let force = Vector2::new(0.1, -0.7);
+        let mut force = Vector2::new(0.1, -0.7);
         fn all<K: Moves>(
             mut moves: K,
             [q, q_low, p, p_low]: &mut [Vector2<f64>; 4],
             system: &impl Hamiltonian<Vector2<f64>>,
-            force: &Vector2<f64>,
+            force: &mut Vector2<f64>,
         ) {
             let span = Span {
                 time: 0.0,
@@ -162,7 +271,14 @@ mod tests {
             for kicks in [0, 1, 2, 3, 5] {
                 for kick in 0..kicks {
                     let weight = Coefficient::exact(0.25 * f64::from(kick + 1));
-                    moves.kick::<Plain, _>((&mut *p, &mut *p_low), span.size, weight, force);
+                    moves.kick::<Plain, _, _>(
+                        span.size,
+                        weight,
+                        system,
+                        force,
+                        &*q,
+                        (&mut *p, &mut *p_low),
+                    );
                 }
                 let drift = Drift {
                     span,
@@ -174,7 +290,7 @@ mod tests {
                 moves.drift::<Plain, _, _, _>(
                     drift,
                     system,
-                    (&mut Vector2::zeros(), force),
+                    (&mut Vector2::zeros(), &mut *force),
                     (&mut *q, &mut *q_low),
                     (&mut *p, &mut *p_low),
                     &mut (),
@@ -182,16 +298,24 @@ mod tests {
             }
             for weight in [0.5, -1.5] {
                 let weight = Coefficient::exact(weight);
-                moves.kick::<Plain, _>((&mut *p, &mut *p_low), span.size, weight, force);
+                moves.kick::<Plain, _, _>(
+                    span.size,
+                    weight,
+                    system,
+                    force,
+                    &*q,
+                    (&mut *p, &mut *p_low),
+                );
             }
-            moves.settle::<Plain, _>((&mut *p, &mut *p_low), force);
-            moves.settle::<Plain, _>((p, p_low), force);
+            for _ in 0..2 {
+                moves.settle::<Plain, _, _>(system, force, &*q, (&mut *p, &mut *p_low));
+            }
         }
         let zero = Vector2::zeros();
         let mut waiting = [Vector2::new(1.0, 2.0), zero, Vector2::new(3.0, 0.3), zero];
         let mut at_once = waiting;
-        all(Waiting::default(), &mut waiting, &unit, &force);
-        all((), &mut at_once, &unit, &force);
+        all(Waiting::default(), &mut waiting, &unit, &mut force);
+        all((), &mut at_once, &unit, &mut force);
         assert_eq!(waiting, at_once);
     }
 }

@@ -97,6 +97,20 @@ pub trait Scalar:
         self * factor + term
     }
 
+    /// The numbers, where they are doubles: those have rows, see [`Chain`](crate::Chain).
+    #[doc(hidden)]
+    #[inline(always)]
+    fn doubles(_numbers: &[Self]) -> Option<&[f64]> {
+        None
+    }
+
+    /// [`doubles`](Self::doubles), to be written.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn doubles_mut(_numbers: &mut [Self]) -> Option<&mut [f64]> {
+        None
+    }
+
     /// Square root.
     fn sqrt(self) -> Self;
     /// 1/x.
@@ -161,7 +175,7 @@ macro_rules! forward {
 }
 
 macro_rules! float {
-    ($float:ident, $from:expr, $into:expr, $coefficient:ident) => {
+    ($float:ident, $from:expr, $into:expr, $coefficient:ident $(, $doubles:item)*) => {
         impl Scalar for $float {
             const EPSILON: f64 = $into($float::EPSILON);
 
@@ -194,6 +208,8 @@ macro_rules! float {
                 Float::sin_cos(self)
             }
 
+            $($doubles)*
+
             forward! { sqrt recip abs exp ln sin cos tan asin acos atan sinh cosh tanh }
         }
     };
@@ -211,5 +227,18 @@ const fn widen(value: f32) -> f64 {
     value as f64
 }
 
-float!(f64, same, same, double);
+float!(
+    f64,
+    same,
+    same,
+    double,
+    #[inline(always)]
+    fn doubles(numbers: &[f64]) -> Option<&[f64]> {
+        Some(numbers)
+    },
+    #[inline(always)]
+    fn doubles_mut(numbers: &mut [f64]) -> Option<&mut [f64]> {
+        Some(numbers)
+    }
+);
 float!(f32, narrow, widen, single);

@@ -140,6 +140,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
 
     #[inline(always)]
     fn settle_in_place<R, V, S, N, K>(
+        system: &S,
         memory: &mut Evaluations<V>,
         state: Outcome<'_, V>,
         moves: &mut K,
@@ -150,6 +151,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         N: Solver<V, S>,
         K: Moves,
     {
-        moves.settle::<R, V>((state.p, state.p_low), &memory.force);
+        let momentum = (state.p, state.p_low);
+        moves.settle::<R, V, S>(system, &mut memory.force, state.q, momentum);
     }
 }

@@ -169,7 +169,7 @@ fn the_library_comes_as_near_as_the_orbits_let_it() -> Result<(), Box<dyn Error>
         (
             "FPUT chain",
             error(
-                fput_chain::FputChain,
+                fput_chain::system(),
                 fput_chain::start(16),
                 fput_chain::recorded(16, 100.0),
                 0.125,

@@ -877,29 +877,41 @@ const _: () = {
             let ::symplectic::Evaluations { velocity, force } = evaluations;
             let ::symplectic::Outcome { q, q_low, p, p_low } = state;
             if !kept.evaluation {
-                moves.settle::<R, V>((&mut *p, &mut *p_low), &*force);
-                system
-                    .force(
-                        span.at(::symplectic::Coefficient::exact(0.0)),
+                moves
+                    .force::<
+                        R,
+                        V,
+                        S,
+                        W,
+                    >(
+                        ::symplectic::Force {
+                            span,
+                            stage: 1,
+                            time: ::symplectic::Coefficient::exact(0.0),
+                        },
+                        system,
+                        &mut *force,
                         &*q,
-                        &*p,
-                        force,
+                        (&mut *p, &mut *p_low),
+                        witness,
                     );
-                witness.evaluation(::symplectic::Quantity::Force, 1, &*q, force);
             }
             moves
                 .kick::<
                     R,
                     V,
+                    S,
                 >(
-                    (&mut *p, &mut *p_low),
                     span.size,
                     ::symplectic::Coefficient::new(
                         0.6756035959798288,
                         4.21370887772588e-17,
                         0.67560357,
                     ),
-                    &*force,
+                    system,
+                    &mut *force,
+                    &*q,
+                    (&mut *p, &mut *p_low),
                 );
             moves
                 .drift::<
@@ -924,40 +936,49 @@ const _: () = {
                         known: false,
                     },
                     system,
-                    (&mut *velocity, &*force),
+                    (&mut *velocity, &mut *force),
                     (&mut *q, &mut *q_low),
                     (&mut *p, &mut *p_low),
                     witness,
                 );
-            moves.settle::<R, V>((&mut *p, &mut *p_low), &*force);
-            system
-                .force(
-                    span
-                        .at(
-                            ::symplectic::Coefficient::new(
-                                1.3512071919596575,
-                                8.42741775545176e-17,
-                                1.3512071,
-                            ),
+            moves
+                .force::<
+                    R,
+                    V,
+                    S,
+                    W,
+                >(
+                    ::symplectic::Force {
+                        span,
+                        stage: 2,
+                        time: ::symplectic::Coefficient::new(
+                            1.3512071919596575,
+                            8.42741775545176e-17,
+                            1.3512071,
                         ),
+                    },
+                    system,
+                    &mut *force,
                     &*q,
-                    &*p,
-                    force,
+                    (&mut *p, &mut *p_low),
+                    witness,
                 );
-            witness.evaluation(::symplectic::Quantity::Force, 2, &*q, force);
             moves
                 .kick::<
                     R,
                     V,
+                    S,
                 >(
-                    (&mut *p, &mut *p_low),
                     span.size,
                     ::symplectic::Coefficient::new(
                         (-0.17560359597982883),
                         1.337406245399903e-17,
                         (-0.1756036),
                     ),
-                    &*force,
+                    system,
+                    &mut *force,
+                    &*q,
+                    (&mut *p, &mut *p_low),
                 );
             moves
                 .drift::<
@@ -978,40 +999,49 @@ const _: () = {
                         known: false,
                     },
                     system,
-                    (&mut *velocity, &*force),
+                    (&mut *velocity, &mut *force),
                     (&mut *q, &mut *q_low),
                     (&mut *p, &mut *p_low),
                     witness,
                 );
-            moves.settle::<R, V>((&mut *p, &mut *p_low), &*force);
-            system
-                .force(
-                    span
-                        .at(
-                            ::symplectic::Coefficient::new(
-                                (-0.35120719195965766),
-                                2.674812490799806e-17,
-                                (-0.3512072),
-                            ),
+            moves
+                .force::<
+                    R,
+                    V,
+                    S,
+                    W,
+                >(
+                    ::symplectic::Force {
+                        span,
+                        stage: 3,
+                        time: ::symplectic::Coefficient::new(
+                            (-0.35120719195965766),
+                            2.674812490799806e-17,
+                            (-0.3512072),
                         ),
+                    },
+                    system,
+                    &mut *force,
                     &*q,
-                    &*p,
-                    force,
+                    (&mut *p, &mut *p_low),
+                    witness,
                 );
-            witness.evaluation(::symplectic::Quantity::Force, 3, &*q, force);
             moves
                 .kick::<
                     R,
                     V,
+                    S,
                 >(
-                    (&mut *p, &mut *p_low),
                     span.size,
                     ::symplectic::Coefficient::new(
                         (-0.17560359597982883),
                         1.337406245399903e-17,
                         (-0.1756036),
                     ),
-                    &*force,
+                    system,
+                    &mut *force,
+                    &*q,
+                    (&mut *p, &mut *p_low),
                 );
             moves
                 .drift::<
@@ -1036,28 +1066,45 @@ const _: () = {
                         known: false,
                     },
                     system,
-                    (&mut *velocity, &*force),
+                    (&mut *velocity, &mut *force),
                     (&mut *q, &mut *q_low),
                     (&mut *p, &mut *p_low),
                     witness,
                 );
-            moves.settle::<R, V>((&mut *p, &mut *p_low), &*force);
-            system
-                .force(span.at(::symplectic::Coefficient::exact(1.0)), &*q, &*p, force);
-            witness.evaluation(::symplectic::Quantity::Force, 4, &*q, force);
+            moves
+                .force::<
+                    R,
+                    V,
+                    S,
+                    W,
+                >(
+                    ::symplectic::Force {
+                        span,
+                        stage: 4,
+                        time: ::symplectic::Coefficient::exact(1.0),
+                    },
+                    system,
+                    &mut *force,
+                    &*q,
+                    (&mut *p, &mut *p_low),
+                    witness,
+                );
             moves
                 .kick::<
                     R,
                     V,
+                    S,
                 >(
-                    (&mut *p, &mut *p_low),
                     span.size,
                     ::symplectic::Coefficient::new(
                         0.6756035959798288,
                         4.21370887772588e-17,
                         0.67560357,
                     ),
-                    &*force,
+                    system,
+                    &mut *force,
+                    &*q,
+                    (&mut *p, &mut *p_low),
                 );
         }
     }

@@ -339,25 +339,37 @@ const _: () = {
             let ::symplectic::Evaluations { velocity, force } = evaluations;
             let ::symplectic::Outcome { q, q_low, p, p_low } = state;
             if !kept.evaluation {
-                moves.settle::<R, V>((&mut *p, &mut *p_low), &*force);
-                system
-                    .force(
-                        span.at(::symplectic::Coefficient::exact(0.0)),
+                moves
+                    .force::<
+                        R,
+                        V,
+                        S,
+                        W,
+                    >(
+                        ::symplectic::Force {
+                            span,
+                            stage: 1,
+                            time: ::symplectic::Coefficient::exact(0.0),
+                        },
+                        system,
+                        &mut *force,
                         &*q,
-                        &*p,
-                        force,
+                        (&mut *p, &mut *p_low),
+                        witness,
                     );
-                witness.evaluation(::symplectic::Quantity::Force, 1, &*q, force);
             }
             moves
                 .kick::<
                     R,
                     V,
+                    S,
                 >(
-                    (&mut *p, &mut *p_low),
                     span.size,
                     ::symplectic::Coefficient::exact(0.5),
-                    &*force,
+                    system,
+                    &mut *force,
+                    &*q,
+                    (&mut *p, &mut *p_low),
                 );
             moves
                 .drift::<
@@ -374,24 +386,41 @@ const _: () = {
                         known: false,
                     },
                     system,
-                    (&mut *velocity, &*force),
+                    (&mut *velocity, &mut *force),
                     (&mut *q, &mut *q_low),
                     (&mut *p, &mut *p_low),
                     witness,
                 );
-            moves.settle::<R, V>((&mut *p, &mut *p_low), &*force);
-            system
-                .force(span.at(::symplectic::Coefficient::exact(1.0)), &*q, &*p, force);
-            witness.evaluation(::symplectic::Quantity::Force, 2, &*q, force);
+            moves
+                .force::<
+                    R,
+                    V,
+                    S,
+                    W,
+                >(
+                    ::symplectic::Force {
+                        span,
+                        stage: 2,
+                        time: ::symplectic::Coefficient::exact(1.0),
+                    },
+                    system,
+                    &mut *force,
+                    &*q,
+                    (&mut *p, &mut *p_low),
+                    witness,
+                );
             moves
                 .kick::<
                     R,
                     V,
+                    S,
                 >(
-                    (&mut *p, &mut *p_low),
                     span.size,
                     ::symplectic::Coefficient::exact(0.5),
-                    &*force,
+                    system,
+                    &mut *force,
+                    &*q,
+                    (&mut *p, &mut *p_low),
                 );
         }
     }

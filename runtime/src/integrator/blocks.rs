@@ -17,7 +17,7 @@ fn block(dimension: usize) -> u64 {
     (1 << 18) / (dimension as u64).clamp(16, 1 << 10)
 }
 
-/// Components of a vector from which on kicks wait for the drift after them.
+/// Components of a vector from which on forces and kicks wait for the drift after them.
 const LONG: usize = 1 << 6;
 
 /// Bytes that may be moved for a block of coupled steps.
@@ -178,7 +178,9 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             );
         }
         let state = Outcome { q, q_low, p, p_low };
-        <PlanOf<M, S, V> as Plan>::settle_in_place::<R, V, S, N, _>(memory, state, &mut moves);
+        <PlanOf<M, S, V> as Plan>::settle_in_place::<R, V, S, N, _>(
+            system, memory, state, &mut moves,
+        );
     }
 
     /// Whether what steps change is little and all in one place: copies of it do not show beside a few steps.

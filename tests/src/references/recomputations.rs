@@ -9,7 +9,7 @@ use crate::scenes::argon_crystal::{self, ArgonCrystal};
 use crate::scenes::charged_particle::{self, ChargedParticle};
 use crate::scenes::damped_particle::{self, DampedParticle};
 use crate::scenes::double_pendulum::{self, DoublePendulum};
-use crate::scenes::fput_chain::{self, FputChain};
+use crate::scenes::fput_chain;
 use crate::scenes::fput_springs::{self, FputSprings};
 use crate::scenes::henon_heiles::{self, HenonHeiles};
 use crate::scenes::nonseparable::{self, Nonseparable};
@@ -135,7 +135,7 @@ pub const ALL: &[Recomputation] = &[
                 DVector::from_element(16, Wide::from_f64(0.0)),
                 DVector::from_iterator(16, fput_chain::momenta(16)),
             );
-            uniform(method, FputChain, start, time, step)
+            uniform(method, fput_chain::system(), start, time, step)
         },
     },
     Recomputation {

@@ -8,7 +8,7 @@
 //! *Reference:* recorded for few particles, [`recorded`]; for many a finer run.
 
 use symplectic::nalgebra::DVector;
-use symplectic::{Scalar, SeparableHamiltonian, State, Vector};
+use symplectic::{Bonds, Chain, Scalar, State};
 
 use super::Needs;
 use crate::references;
@@ -20,57 +20,28 @@ pub const NEEDS: Needs = Needs::NOTHING;
 pub const PARTICLES: usize = 1024;
 
 /// The system, for vectors of any kind and dimension.
-#[derive(Clone, Copy, Debug)]
-pub struct FputChain;
+pub type FputChain = Chain<Beta>;
 
-impl<V: Vector> SeparableHamiltonian<V> for FputChain {
-    const UNIT_MASSES: bool = true;
-
-    #[inline]
-    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
-        symplectic::copy(velocity, p);
-    }
-
-    #[inline]
-    fn force(&self, _time: V::Scalar, q: &V, force: &mut V) {
-        let q = q.as_slice();
-        let force = &mut force.as_mut_slice()[..q.len()];
-        let ([first, ..], [.., last]) = (q, q) else {
-            return;
-        };
-        if let [second, ..] = q[1..] {
-            force[0] = tension(second - *first) - tension(*first);
-        } else {
-            force[0] = tension(-*first) - tension(*first);
-            return;
-        }
-        for (force, neighbours) in force[1..].iter_mut().zip(q.windows(3)) {
-            let (left, right) = (neighbours[1] - neighbours[0], neighbours[2] - neighbours[1]);
-            *force = tension(right) - tension(left);
-        }
-        force[q.len() - 1] = tension(-*last) - tension(*last - q[q.len() - 2]);
-    }
-
-    fn energy(&self, _time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
-        let half = V::Scalar::from_f64(0.5);
-        let bond = |d: V::Scalar| {
-            let square = d * d;
-            half * square + half * half * square * square
-        };
-        let mut energy = V::Scalar::from_f64(0.0);
-        let mut before = V::Scalar::from_f64(0.0);
-        for (&q, &p) in q.as_slice().iter().zip(p.as_slice()) {
-            energy += half * p * p + bond(q - before);
-            before = q;
-        }
-        Some(energy + bond(-before))
-    }
+/// The system.
+pub const fn system() -> FputChain {
+    Chain::between_walls(Beta)
 }
 
-/// The derivative `d + d³` of the energy of a bond.
-#[inline(always)]
-fn tension<T: Scalar>(d: T) -> T {
-    (d * d).fused(d, d)
+/// The bonds of the β chain.
+#[derive(Clone, Copy, Debug)]
+pub struct Beta;
+
+impl Bonds for Beta {
+    #[inline(always)]
+    fn tension<T: Scalar>(&self, _time: T, d: T) -> T {
+        (d * d).fused(d, d)
+    }
+
+    fn bond_energy<T: Scalar>(&self, _time: T, d: T) -> Option<T> {
+        let half = T::from_f64(0.5);
+        let square = d * d;
+        Some(half * square + half * half * square * square)
+    }
 }
 
 /// At rest position, with momenta `p_i = ((7919 i mod n) − n/2)/n`: equally spaced numbers in a scattered order.
@@ -100,14 +71,14 @@ mod tests {
         for particles in [1, 2, 3, 16] {
             let mut state = start(particles);
             state.q = state.p.map(|p| (7.0 * p).sin());
-            check::derivatives(&FputChain, &state, 1e-5, 1e-8);
-            check::needs(NEEDS, &FputChain, &state);
+            check::derivatives(&system(), &state, 1e-5, 1e-8);
+            check::needs(NEEDS, &system(), &state);
         }
     }
 
     #[test]
     fn the_energy_is_conserved() {
-        check::conservation(FputChain, start(16), 1.0 / 16.0, 4.0, 1e-13);
+        check::conservation(system(), start(16), 1.0 / 16.0, 4.0, 1e-13);
     }
 
     #[test]

@@ -80,14 +80,15 @@ impl<'g, 'a> Chain<'g, 'a> {
             return quote! {
                 moves.drift::<R, V, S, W>(
                     ::symplectic::Drift { span, stage: #stage, time: #time, weight: #weight, known: #known },
-                    system, (&mut *velocity, &*force), (&mut *q, &mut *q_low), (&mut *p, &mut *p_low), witness,
+                    system, (&mut *velocity, &mut *force), (&mut *q, &mut *q_low), (&mut *p, &mut *p_low), witness,
                 );
             };
         }
         let evaluate = quote! {
-            moves.settle::<R, V>((&mut *p, &mut *p_low), &*force);
-            system.force(span.at(#time), &*q, &*p, force);
-            witness.evaluation(::symplectic::Quantity::Force, #stage, &*q, force);
+            moves.force::<R, V, S, W>(
+                ::symplectic::Force { span, stage: #stage, time: #time },
+                system, &mut *force, &*q, (&mut *p, &mut *p_low), witness,
+            );
         };
         let evaluate = match carried {
             true => quote!(if !kept.evaluation { #evaluate }),
@@ -95,7 +96,7 @@ impl<'g, 'a> Chain<'g, 'a> {
         };
         quote! {
             #evaluate
-            moves.kick::<R, V>((&mut *p, &mut *p_low), span.size, #weight, &*force);
+            moves.kick::<R, V, S>(span.size, #weight, system, &mut *force, &*q, (&mut *p, &mut *p_low));
         }
     }
 }

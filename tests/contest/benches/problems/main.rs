@@ -191,11 +191,11 @@ fn long_chain() -> Vec<Entry> {
         chain::Blocks::new(dynamic.q.as_slice()),
         chain::Blocks::new(dynamic.p.as_slice()),
     );
-    let mut entries = others::<_, N, { 2 * N }>(&settings, fput_chain::FputChain, &start);
+    let mut entries = others::<_, N, { 2 * N }>(&settings, fput_chain::system(), &start);
     entries.push(library::<_, _, _, Compensated>(
         "Gauss 8, library",
         Gauss8,
-        fput_chain::FputChain,
+        fput_chain::system(),
         dynamic.clone(),
         settings.end,
         settings.gauss,
@@ -203,7 +203,7 @@ fn long_chain() -> Vec<Entry> {
     entries.push(library::<_, _, _, Plain>(
         "Blanes–Moan, library, plain",
         BlanesMoanSrkn14a,
-        fput_chain::FputChain,
+        fput_chain::system(),
         dynamic,
         settings.end,
         settings.blanes_moan,

@@ -7,7 +7,7 @@ use super::{Pair, Problem, TO_ROUNDING, rule};
 use crate::baseline::chain::{self, Blocks};
 use crate::baseline::explicit::{self, Splitting};
 use symplectic_tests::methods::{BlanesMoanSrkn14a, ForestRuth, Gauss8, VelocityVerlet};
-use symplectic_tests::scenes::fput_chain::{FputChain, PARTICLES, start};
+use symplectic_tests::scenes::fput_chain::{FputChain, PARTICLES, start, system};
 
 type Chain = Problem<FputChain, (), DVector<f64>>;
 
@@ -15,7 +15,7 @@ type Chain = Problem<FputChain, (), DVector<f64>>;
 pub(super) fn chain(pairs: &mut Vec<Pair>) {
     let problem = Problem {
         name: "FPUT chain, N = 1024",
-        system: FputChain,
+        system: system(),
         by_hand: (),
         start: start(PARTICLES),
         step_size: 0.5,
@@ -85,15 +85,20 @@ impl Chain {
         step_size: f64,
     ) -> Pair {
         let begin = self.blocks();
-        self.pair(
-            method,
-            step_size,
-            Ok::<Integrator<_, _, _, Plain>, _>,
-            move |steps| {
-                let (mut q, mut p) = begin.clone();
-                chain::explicit::<K>(&mut q, &mut p, step_size, steps);
-                q.values().chain(p.values()).collect()
-            },
-        )
+        let by_hand = move |steps| {
+            let (mut q, mut p) = begin.clone();
+            chain::explicit::<K>(&mut q, &mut p, step_size, steps);
+            q.values().chain(p.values()).collect()
+        };
+        Pair {
+            // To the same time.
+            steps: (self.steps as f64 * self.step_size / step_size).round() as u64,
+            ..self.pair(
+                method,
+                step_size,
+                Ok::<Integrator<_, _, _, Plain>, _>,
+                by_hand,
+            )
+        }
     }
 }

@@ -174,7 +174,7 @@ fn springs(study: Study, omega: f64, end: f64, largest: f64) -> Result<Study, Er
 fn fput_chain(study: Study) -> Result<Study, Error> {
     const N: usize = fput_chain::PARTICLES;
     let (start, end) = (fput_chain::start(N), 100.0);
-    let system = fput_chain::FputChain;
+    let system = fput_chain::system();
     let reference = Reference::computed(Gauss8, system, &start, end, 0.2)?;
     let problem = Problem::new(
         "FPUT chain, N = 1024",
@@ -196,7 +196,7 @@ const FPUT_CHAIN: &str = "H = Σ p²/2 + Σ (d²/2 + d⁴/4), d the differences 
 
 fn short_fput_chain(study: Study) -> Result<Study, Error> {
     let (start, end) = (fput_chain::start(16), 100.0);
-    let system = fput_chain::FputChain;
+    let system = fput_chain::system();
     let reference = recorded(fput_chain::recorded(16, end));
     let problem = Problem::new("FPUT chain, N = 16", system, start.clone(), reference, 2.0)
         .described(FPUT_CHAIN)
@@ -211,7 +211,7 @@ fn short_fput_chain(study: Study) -> Result<Study, Error> {
 fn long_fput_chain(study: Study) -> Result<Study, Error> {
     const N: usize = 65_536;
     let (start, end) = (fput_chain::start(N), 1.0);
-    let system = fput_chain::FputChain;
+    let system = fput_chain::system();
     let reference = Reference::computed(Gauss8, system, &start, end, 0.2)?;
     let problem = Problem::new("FPUT chain, N = 65536", system, start.clone(), reference, 1.0)
         .described(FPUT_CHAIN)

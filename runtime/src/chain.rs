@@ -1,0 +1,380 @@
+//! Chains of particles that feel their neighbours.
+
+use num_traits::Zero;
+
+use crate::rows::{Eight, Row, Single, splats};
+use crate::{Scalar, SeparableHamiltonian, Vector, copy};
+
+/// What the particles of a [`Chain`] feel.
+pub trait Bonds {
+    /// The derivative `V′` of the energy of a bond, at `stretch = q_{i+1} − q_i`: it pulls the left particle to the right and
+    /// the right one to the left.
+    fn tension<T: Scalar>(&self, time: T, stretch: T) -> T;
+
+    /// The force `−W′` on a particle at `position` that is not from a bond; `None` where there is none.
+    fn outer_force<T: Scalar>(&self, _time: T, _position: T) -> Option<T> {
+        None
+    }
+
+    /// The energy `V` of a bond, where it is known.
+    fn bond_energy<T: Scalar>(&self, _time: T, _stretch: T) -> Option<T> {
+        None
+    }
+
+    /// The energy `W` of a particle, where it is known.
+    fn outer_energy<T: Scalar>(&self, _time: T, _position: T) -> Option<T> {
+        None
+    }
+}
+
+/// What is beyond the first and the last particle of a [`Chain`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ends {
+    /// A bond to a wall at the place zero.
+    Walls,
+    /// Nothing.
+    Free,
+    /// The other end.
+    Ring,
+}
+
+/// Particles of mass one in a row, each bound to its two neighbours: Fermi–Pasta–Ulam–Tsingou, Toda, Klein–Gordon and
+/// sine-Gordon chains, wave equations on a grid. With as many particles as vectors have components,
+///
+/// ```text
+/// H = Σ p_i²/2 + Σ W(t, q_i) + Σ V(t, q_{i+1} − q_i)
+/// ```
+///
+/// The last sum goes over all bonds: with [walls](Self::between_walls) one more than particles, for `q_0 = q_{n+1} = 0`, with
+/// [free ends](Self::with_free_ends) one less, and in a [ring](Self::ring) as many, for `q_{n+1} = q_1`.
+///
+/// Of a system that is a chain an integrator knows who feels whom. In blocks of explicit steps with plain sums and 64
+/// components or more, force, kicks and drift are made in one pass through the chain, with eight particles of doubles side by side;
+/// steps one by one have the same bits.
+///
+/// ```
+/// use symplectic::nalgebra::DVector;
+/// use symplectic::{Bonds, Chain, Error, Integrator, Scalar, State};
+///
+/// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+///
+/// /// V(d) = d²/2 + d⁴/4
+/// struct Beta;
+///
+/// impl Bonds for Beta {
+///     fn tension<T: Scalar>(&self, _time: T, d: T) -> T {
+///         d + d * d * d
+///     }
+/// }
+///
+/// # fn main() -> Result<(), Error> {
+/// let n = 1000;
+/// let pushed = DVector::from_fn(n, |i, _| if i == n / 2 { 1.0 } else { 0.0 });
+/// let start = State::new(0.0, DVector::zeros(n), pushed);
+/// let mut chain = Integrator::plain(StoermerVerlet, Chain::between_walls(Beta), start, 0.05)?;
+/// let end = chain.integrate_to(100.0)?;
+/// assert!(end.q.iter().all(|q| q.is_finite()));
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Chain<B> {
+    bonds: B,
+    ends: Ends,
+}
+
+impl<B: Bonds> Chain<B> {
+    /// The chain with its first and last particle bound to walls at the place zero.
+    pub const fn between_walls(bonds: B) -> Self {
+        Self {
+            bonds,
+            ends: Ends::Walls,
+        }
+    }
+
+    /// The chain with a first particle that only feels the second, and a last one that only feels the one before.
+    pub const fn with_free_ends(bonds: B) -> Self {
+        Self {
+            bonds,
+            ends: Ends::Free,
+        }
+    }
+
+    /// The chain with its last particle bound to the first.
+    pub const fn ring(bonds: B) -> Self {
+        Self {
+            bonds,
+            ends: Ends::Ring,
+        }
+    }
+
+    /// The bonds.
+    pub const fn bonds(&self) -> &B {
+        &self.bonds
+    }
+
+    /// What is right of the last particle; `None` for no bond.
+    #[inline(always)]
+    fn beyond<T: Scalar>(&self, q: &[T]) -> Option<T> {
+        match self.ends {
+            Ends::Walls => Some(T::zero()),
+            Ends::Free => None,
+            Ends::Ring => q.first().copied(),
+        }
+    }
+
+    /// The tension left of the first particle.
+    #[inline(always)]
+    fn first_tension<T: Scalar>(&self, time: T, first: T, last: T) -> T {
+        match self.ends {
+            Ends::Walls => self.bonds.tension(time, first),
+            Ends::Free => T::zero(),
+            Ends::Ring => self.bonds.tension(time, first - last),
+        }
+    }
+
+    /// The force on particles between two tensions.
+    #[inline(always)]
+    fn between<T: Scalar>(&self, time: T, left: T, here: T, right: T) -> T {
+        match self.bonds.outer_force(time, here) {
+            Some(outer) => outer + (right - left),
+            None => right - left,
+        }
+    }
+
+    /// Makes a pass from the first particle to the last, in rows as far as they are filled.
+    #[inline(always)]
+    fn walk<T: Scalar, R: Row<T>>(&self, time: T, pass: &mut impl Pass<T>) {
+        let q = pass.positions();
+        let n = q.len();
+        let (Some(&first), Some(&last)) = (q.first(), q.last()) else {
+            return;
+        };
+        let beyond = self.beyond(q);
+        let mut tension = self.first_tension(time, first, last);
+        // With no bond to the right of it the last particle is apart.
+        let bound = if beyond.is_some() { n } else { n - 1 };
+        let begin = R::misaligned(q).min(bound);
+        let end = bound - (bound - begin) % R::WIDTH;
+        self.part::<T, Single>(time, pass, (0, begin), beyond, &mut tension);
+        self.part::<T, R>(time, pass, (begin, end), beyond, &mut tension);
+        self.part::<T, Single>(time, pass, (end, bound), beyond, &mut tension);
+        pass.rows::<Single>((bound, n), last, |here, _after| {
+            self.between(time, tension, here, T::zero())
+        });
+    }
+
+    /// Kicks and a drift in one pass; `false` where there are more kicks than one has before a drift.
+    #[inline(always)]
+    fn kicks_and_drift<T: Scalar, R: Row<T>>(
+        &self,
+        time: T,
+        (q, p): (&mut [T], &mut [T]),
+        kicks: &[T],
+        drift: T,
+    ) -> bool {
+        match *kicks {
+            [kick] => self.walk::<T, R>(
+                time,
+                &mut KicksAndDrift {
+                    q,
+                    p,
+                    kicks: [kick],
+                    drift,
+                },
+            ),
+            [last, first] => {
+                let kicks = [last, first];
+                self.walk::<T, R>(time, &mut KicksAndDrift { q, p, kicks, drift });
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    /// The particles `begin..end` of a pass, with the tension left of them; in the end it is that right of them.
+    #[inline(always)]
+    fn part<T: Scalar, R: Row<T>>(
+        &self,
+        time: T,
+        pass: &mut impl Pass<T>,
+        (begin, end): (usize, usize),
+        beyond: Option<T>,
+        tension: &mut T,
+    ) {
+        let after = pass.positions().get(end).copied().or(beyond);
+        let (time, after) = (R::splat(time), R::splat(after.unwrap_or(T::zero())));
+        let mut before = R::splat(*tension);
+        pass.rows::<R>((begin, end), after, |here, next| {
+            let right = self.bonds.tension(time, R::right(here, next) - here);
+            let left = R::left(before, right);
+            before = right;
+            self.between(time, left, here, right)
+        });
+        *tension = R::last(before);
+    }
+}
+
+/// What a way through a chain is for.
+trait Pass<T: Scalar> {
+    /// The positions; of those behind, which the way has not come to, the old ones.
+    fn positions(&self) -> &[T];
+
+    /// Does it to the particles `begin..end`, which are whole rows, from left to right, with the force that a row has by its
+    /// positions and those of the next; the next of the last row is `after`.
+    fn rows<R: Row<T>>(
+        &mut self,
+        span: (usize, usize),
+        after: R::Numbers,
+        force: impl FnMut(R::Numbers, R::Numbers) -> R::Numbers,
+    );
+}
+
+/// Writes the forces.
+struct Forces<'a, T> {
+    q: &'a [T],
+    force: &'a mut [T],
+}
+
+impl<T: Scalar> Pass<T> for Forces<'_, T> {
+    #[inline(always)]
+    fn positions(&self) -> &[T] {
+        self.q
+    }
+
+    #[inline(always)]
+    fn rows<R: Row<T>>(
+        &mut self,
+        (begin, end): (usize, usize),
+        after: R::Numbers,
+        mut force: impl FnMut(R::Numbers, R::Numbers) -> R::Numbers,
+    ) {
+        let (q, _) = R::rows(&self.q[begin..end]);
+        let (out, _) = R::rows_mut(&mut self.force[begin..end]);
+        let n = q.len().min(out.len());
+        let (q, out) = (&q[..n], &mut out[..n]);
+        let mut here = if n > 0 { R::load(&q[0]) } else { after };
+        for i in 0..n {
+            let next = if i + 1 < n { R::load(&q[i + 1]) } else { after };
+            out[i] = R::store(force(here, next));
+            here = next;
+        }
+    }
+}
+
+/// Kicks, one after the other, and a drift.
+struct KicksAndDrift<'a, T, const K: usize> {
+    q: &'a mut [T],
+    p: &'a mut [T],
+    kicks: [T; K],
+    drift: T,
+}
+
+impl<T: Scalar, const K: usize> Pass<T> for KicksAndDrift<'_, T, K> {
+    #[inline(always)]
+    fn positions(&self) -> &[T] {
+        self.q
+    }
+
+    #[inline(always)]
+    fn rows<R: Row<T>>(
+        &mut self,
+        (begin, end): (usize, usize),
+        after: R::Numbers,
+        mut force: impl FnMut(R::Numbers, R::Numbers) -> R::Numbers,
+    ) {
+        let (q, _) = R::rows_mut(&mut self.q[begin..end]);
+        let (p, _) = R::rows_mut(&mut self.p[begin..end]);
+        let n = q.len().min(p.len());
+        let (q, p) = (&mut q[..n], &mut p[..n]);
+        let (kicks, drift) = (splats::<T, R, K>(self.kicks), R::splat(self.drift));
+        let mut here = if n > 0 { R::load(&q[0]) } else { after };
+        for i in 0..n {
+            let next = if i + 1 < n { R::load(&q[i + 1]) } else { after };
+            let force = force(here, next);
+            let mut momentum = R::load(&p[i]);
+            for kick in kicks {
+                momentum = kick.fused(force, momentum);
+            }
+            p[i] = R::store(momentum);
+            q[i] = R::store(drift.fused(momentum, here));
+            here = next;
+        }
+    }
+}
+
+impl<V: Vector, B: Bonds> SeparableHamiltonian<V> for Chain<B> {
+    const UNIT_MASSES: bool = true;
+
+    #[inline]
+    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
+        copy(velocity, p);
+    }
+
+    #[inline]
+    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
+        let (q, force) = (q.as_slice(), force.as_mut_slice());
+        let n = q.len().min(force.len());
+        let (q, force) = (&q[..n], &mut force[..n]);
+        match (V::Scalar::doubles(&[time]), V::Scalar::doubles(q)) {
+            (Some(&[time]), Some(q)) => {
+                if let Some(force) = V::Scalar::doubles_mut(force) {
+                    self.walk::<f64, Eight>(time, &mut Forces { q, force });
+                }
+            }
+            _ => self.walk::<V::Scalar, Single>(time, &mut Forces { q, force }),
+        }
+    }
+
+    #[inline]
+    fn kick_and_drift(
+        &self,
+        time: V::Scalar,
+        (q, p): (&mut V, &mut V),
+        kicks: &[V::Scalar],
+        drift: V::Scalar,
+    ) -> bool {
+        let (q, p) = (q.as_mut_slice(), p.as_mut_slice());
+        let n = q.len().min(p.len());
+        let (q, p) = (&mut q[..n], &mut p[..n]);
+        match (
+            V::Scalar::doubles(&[time, drift]),
+            V::Scalar::doubles(kicks),
+        ) {
+            (Some(&[time, drift]), Some(kicks)) => {
+                let (q, p) = (V::Scalar::doubles_mut(q), V::Scalar::doubles_mut(p));
+                let (Some(q), Some(p)) = (q, p) else {
+                    return false;
+                };
+                self.kicks_and_drift::<f64, Eight>(time, (q, p), kicks, drift)
+            }
+            _ => self.kicks_and_drift::<V::Scalar, Single>(time, (q, p), kicks, drift),
+        }
+    }
+
+    fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
+        let zero = V::Scalar::zero();
+        let (q, p) = (q.as_slice(), p.as_slice());
+        let bond = |stretch| self.bonds.bond_energy(time, stretch);
+        let (Some(&first), Some(beyond)) = (q.first(), q.last()) else {
+            return Some(zero);
+        };
+        // Those right of a particle, and that left of the first, which a ring has counted then.
+        let mut energy = match self.ends {
+            Ends::Walls => bond(first)? + bond(-*beyond)?,
+            Ends::Free => zero,
+            Ends::Ring => bond(first - *beyond)?,
+        };
+        for pair in q.windows(2) {
+            energy += bond(pair[1] - pair[0])?;
+        }
+        let half = V::Scalar::from_f64(0.5);
+        for (&q, &p) in q.iter().zip(p) {
+            energy += half * p * p;
+            if self.bonds.outer_force(time, q).is_some() {
+                energy += self.bonds.outer_energy(time, q)?;
+            }
+        }
+        Some(energy)
+    }
+}

@@ -1,0 +1,157 @@
+//! Long vectors, row by row: the lanes run along the components.
+
+use num_traits::Zero;
+
+use crate::array::array;
+use crate::{F64x8, Lanes, Scalar};
+
+/// Components side by side.
+pub(crate) trait Row<T: Scalar> {
+    /// Them as they are in memory.
+    type Array;
+    /// Them as one number.
+    type Numbers: Scalar;
+
+    /// How many.
+    const WIDTH: usize;
+
+    /// How many components of a vector there are before those from which on rows lie well in memory.
+    fn misaligned(vector: &[T]) -> usize;
+
+    /// The rows of a vector, and what does not fill one.
+    fn rows(vector: &[T]) -> (&[Self::Array], &[T]);
+    /// [`rows`](Self::rows), to be written.
+    fn rows_mut(vector: &mut [T]) -> (&mut [Self::Array], &mut [T]);
+
+    /// A row out of memory.
+    fn load(row: &Self::Array) -> Self::Numbers;
+    /// A row for memory.
+    fn store(numbers: Self::Numbers) -> Self::Array;
+    /// The same number everywhere.
+    fn splat(number: T) -> Self::Numbers;
+
+    /// The last one.
+    fn last(numbers: Self::Numbers) -> T;
+    /// The right neighbour of each in two rows that follow each other.
+    fn right(numbers: Self::Numbers, next: Self::Numbers) -> Self::Numbers;
+    /// The left neighbour of each in two rows that follow each other.
+    fn left(previous: Self::Numbers, numbers: Self::Numbers) -> Self::Numbers;
+}
+
+/// One by one.
+pub(crate) struct Single;
+
+impl<T: Scalar> Row<T> for Single {
+    type Array = [T; 1];
+    type Numbers = T;
+
+    const WIDTH: usize = 1;
+
+    #[inline(always)]
+    fn misaligned(_vector: &[T]) -> usize {
+        0
+    }
+
+    #[inline(always)]
+    fn rows(vector: &[T]) -> (&[[T; 1]], &[T]) {
+        vector.as_chunks()
+    }
+
+    #[inline(always)]
+    fn rows_mut(vector: &mut [T]) -> (&mut [[T; 1]], &mut [T]) {
+        vector.as_chunks_mut()
+    }
+
+    #[inline(always)]
+    fn load(&[number]: &[T; 1]) -> T {
+        number
+    }
+
+    #[inline(always)]
+    fn store(number: T) -> [T; 1] {
+        [number]
+    }
+
+    #[inline(always)]
+    fn splat(number: T) -> T {
+        number
+    }
+
+    #[inline(always)]
+    fn last(number: T) -> T {
+        number
+    }
+
+    #[inline(always)]
+    fn right(_number: T, next: T) -> T {
+        next
+    }
+
+    #[inline(always)]
+    fn left(previous: T, _number: T) -> T {
+        previous
+    }
+}
+
+/// Eight doubles side by side.
+pub(crate) struct Eight;
+
+impl Row<f64> for Eight {
+    type Array = [f64; 8];
+    type Numbers = F64x8;
+
+    const WIDTH: usize = 8;
+
+    #[inline(always)]
+    fn misaligned(vector: &[f64]) -> usize {
+        vector.as_ptr().align_offset(align_of::<F64x8>())
+    }
+
+    #[inline(always)]
+    fn rows(vector: &[f64]) -> (&[[f64; 8]], &[f64]) {
+        vector.as_chunks()
+    }
+
+    #[inline(always)]
+    fn rows_mut(vector: &mut [f64]) -> (&mut [[f64; 8]], &mut [f64]) {
+        vector.as_chunks_mut()
+    }
+
+    #[inline(always)]
+    fn load(row: &[f64; 8]) -> F64x8 {
+        F64x8::from_fn(|lane| row[lane])
+    }
+
+    #[inline(always)]
+    fn store(numbers: F64x8) -> [f64; 8] {
+        numbers.to_array()
+    }
+
+    #[inline(always)]
+    fn splat(number: f64) -> F64x8 {
+        F64x8::from_f64(number)
+    }
+
+    #[inline(always)]
+    fn last(numbers: F64x8) -> f64 {
+        numbers.to_array()[7]
+    }
+
+    #[inline(always)]
+    fn right(numbers: F64x8, next: F64x8) -> F64x8 {
+        let (numbers, [after, ..]) = (numbers.to_array(), next.to_array());
+        F64x8::from_fn(|lane| if lane < 7 { numbers[lane + 1] } else { after })
+    }
+
+    #[inline(always)]
+    fn left(previous: F64x8, numbers: F64x8) -> F64x8 {
+        let ([.., before], numbers) = (previous.to_array(), numbers.to_array());
+        F64x8::from_fn(|lane| if lane > 0 { numbers[lane - 1] } else { before })
+    }
+}
+
+/// Factors as rows.
+#[inline(always)]
+pub(crate) fn splats<T: Scalar, R: Row<T>, const N: usize>(factors: [T; N]) -> [R::Numbers; N] {
+    array(R::Numbers::zero(), |i| R::splat(factors[i]))
+}

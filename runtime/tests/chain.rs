@@ -1,0 +1,266 @@
+//! Chains: forces, energies, and one pass for all.
+
+use symplectic::nalgebra::{DVector, SVector};
+use symplectic::{
+    Bonds, Chain, Compensated, Error, F64x4, Hamiltonian, Integrator, Lanes, Method, Plain, Scalar,
+    SeparableHamiltonian, State, Vector, composition, copy, tableau,
+};
+
+tableau! { VelocityVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+tableau! { SymplecticEuler { basis: polynomial(1), nodes: [0] } }
+tableau! { AdjointEuler { basis: polynomial(1), nodes: [1] } }
+tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
+composition! { TripleJump { base: velocity-verlet, weights: triple_jump(4) } }
+composition! { PositionJump { base: position-verlet, weights: triple_jump(4) } }
+
+/// `V(d) = d²/2 + d³/3`, which pulls at rest length too once it is moved by a quarter; a driven pendulum on every particle.
+#[derive(Clone, Copy)]
+struct Driven;
+
+impl Bonds for Driven {
+    fn tension<T: Scalar>(&self, time: T, stretch: T) -> T {
+        stretch.fused(stretch, stretch + T::from_f64(0.25)) + time * T::from_f64(0.01)
+    }
+
+    fn outer_force<T: Scalar>(&self, time: T, position: T) -> Option<T> {
+        Some(time * T::from_f64(0.125) - position.sin())
+    }
+
+    fn bond_energy<T: Scalar>(&self, time: T, d: T) -> Option<T> {
+        let third = T::from_f64(1.0 / 3.0);
+        let pull = T::from_f64(0.25) + time * T::from_f64(0.01);
+        Some(d * d * T::from_f64(0.5) + d * d * d * third + pull * d)
+    }
+
+    fn outer_energy<T: Scalar>(&self, time: T, position: T) -> Option<T> {
+        Some(-position.cos() - time * T::from_f64(0.125) * position)
+    }
+}
+
+/// Harmonic bonds, and nothing else; no energy is known.
+#[derive(Clone, Copy)]
+struct Springs;
+
+impl Bonds for Springs {
+    fn tension<T: Scalar>(&self, _time: T, stretch: T) -> T {
+        stretch
+    }
+}
+
+fn chains<B: Bonds + Copy>(bonds: B) -> [Chain<B>; 3] {
+    [
+        Chain::between_walls(bonds),
+        Chain::with_free_ends(bonds),
+        Chain::ring(bonds),
+    ]
+}
+
+fn waves(n: usize, phase: f64) -> DVector<f64> {
+    DVector::from_fn(n, |i, _| 0.3 * (phase + 1.7 * i as f64).sin())
+}
+
+fn force<V: Vector, S: SeparableHamiltonian<V>>(system: &S, time: f64, q: &V) -> V {
+    let mut force = q.zeros_like();
+    SeparableHamiltonian::force(system, V::Scalar::from_f64(time), q, &mut force);
+    force
+}
+
+#[test]
+fn forces_are_those_of_the_energy() {
+    for n in [1, 2, 3, 7, 8, 9, 64, 71] {
+        let (q, p) = (waves(n, 0.2), waves(n, 1.1));
+        for chain in chains(Driven) {
+            let force = force(&chain, 0.7, &q);
+            for i in 0..n {
+                let energy = |by: f64| {
+                    let mut q = q.clone();
+                    q[i] += by;
+                    Hamiltonian::energy(&chain, 0.7, &q, &p).expect("an energy")
+                };
+                let slope = (energy(1e-5) - energy(-1e-5)) / 2e-5;
+                assert!((force[i] + slope).abs() < 1e-8, "{n} {i}");
+            }
+        }
+    }
+}
+
+/// Written out, particle by particle.
+#[test]
+fn ends_are_what_they_are_called() {
+    let q = DVector::from_vec(vec![1.0, 3.0, 7.0]);
+    let [walls, free, ring] = chains(Springs).map(|chain| force(&chain, 0.0, &q));
+    assert_eq!(walls.as_slice(), [1.0, 2.0, -11.0]);
+    assert_eq!(free.as_slice(), [2.0, 2.0, -4.0]);
+    assert_eq!(ring.as_slice(), [8.0, 2.0, -10.0]);
+    let q = DVector::from_element(1, 5.0);
+    let forces = chains(Springs).map(|chain| force(&chain, 0.0, &q)[0]);
+    assert_eq!(forces, [-10.0, 0.0, 0.0]);
+    for chain in chains(Springs) {
+        assert_eq!(force(&chain, 0.0, &DVector::<f64>::zeros(0)).len(), 0);
+    }
+    assert_eq!(Hamiltonian::energy(&chains(Springs)[0], 0.0, &q, &q), None);
+}
+
+/// Doubles go in rows, numbers of other kinds one by one.
+#[test]
+fn rows_have_the_bits_of_single_particles() {
+    for n in (1..40).chain([64, 127, 200]) {
+        for chain in chains(Driven) {
+            let q = waves(n, 0.4);
+            let side_by_side = q.map(|q| F64x4::from_fn(|lane| q + 0.01 * lane as f64));
+            let expected = force(&chain, 0.7, &side_by_side);
+            for lane in 0..4 {
+                let q = side_by_side.map(|q| q.to_array()[lane]);
+                let force = force(&chain, 0.7, &q);
+                assert_eq!(force, expected.map(|force| force.to_array()[lane]), "{n}");
+            }
+        }
+    }
+}
+
+/// Rows begin at several places in memory.
+#[test]
+fn one_pass_has_the_bits_of_three() {
+    fn check<V: Vector>(chain: &impl SeparableHamiltonian<V>, q: &V, p: &V, kicks: &[f64]) {
+        let (time, kicks): (_, Vec<V::Scalar>) = (
+            V::Scalar::from_f64(0.7),
+            kicks.iter().copied().map(V::Scalar::from_f64).collect(),
+        );
+        let drift = V::Scalar::from_f64(0.011);
+        let (mut q_pass, mut p_pass) = (q.clone(), p.clone());
+        let made = chain.kick_and_drift(time, (&mut q_pass, &mut p_pass), &kicks, drift);
+        assert_eq!(made, (1..=2).contains(&kicks.len()));
+        let (mut q, mut p) = (q.clone(), p.clone());
+        if made {
+            let force = force(chain, 0.7, &q);
+            for (i, p) in p.as_mut_slice().iter_mut().enumerate() {
+                for &kick in &kicks {
+                    *p = kick.fused(force.as_slice()[i], *p);
+                }
+            }
+            for (q, &p) in q.as_mut_slice().iter_mut().zip(p.as_slice()) {
+                *q = drift.fused(p, *q);
+            }
+        }
+        assert!((q_pass, p_pass) == (q, p));
+    }
+    for n in (0..40).chain([64, 127, 200]) {
+        let (q, p) = (waves(n, 0.4), waves(n, 2.0));
+        for kicks in [&[0.03][..], &[0.02, 0.007], &[], &[0.1, 0.2, 0.3]] {
+            for chain in chains(Driven) {
+                check(&chain, &q, &p, kicks);
+                check(&chain, &q.map(|q| q as f32), &p.map(|p| p as f32), kicks);
+            }
+            for chain in chains(Springs) {
+                check(&chain, &q, &p, kicks);
+            }
+        }
+    }
+    let fixed = |x: DVector<f64>| SVector::<f64, 33>::from_column_slice(x.as_slice());
+    check(
+        &chains(Driven)[2],
+        &fixed(waves(33, 0.0)),
+        &fixed(waves(33, 1.0)),
+        &[0.1],
+    );
+}
+
+#[test]
+fn many_steps_are_the_steps_one_by_one() -> Result<(), Error> {
+    fn check<M: Method>(method: M, n: usize) -> Result<(), Error> {
+        for chain in chains(Driven) {
+            let start = State::new(0.5, waves(n, 0.1), waves(n, 1.3));
+            let made = || Integrator::plain(method, chain, start.clone(), 0.02);
+            let (mut at_once, mut one_by_one) = (made()?, made()?);
+            for count in [2, 3, 300] {
+                at_once.take_steps(count)?;
+                for _ in 0..count {
+                    one_by_one.step()?;
+                }
+                assert_eq!(at_once.state(), one_by_one.state(), "{} {n}", M::NAME);
+                assert_eq!(at_once.statistics(), one_by_one.statistics());
+            }
+        }
+        Ok(())
+    }
+    for n in [63, 64, 70, 257] {
+        check(VelocityVerlet, n)?;
+        check(SymplecticEuler, n)?;
+        check(AdjointEuler, n)?;
+        check(TripleJump, n)?;
+        check(PositionJump, n)?;
+    }
+    Ok(())
+}
+
+/// Rings and chains with free ends push nobody.
+#[test]
+fn the_momentum_of_a_chain_without_walls_is_kept() -> Result<(), Error> {
+    for chain in &chains(Springs)[1..] {
+        let start = State::new(0.0, waves(100, 0.0), waves(100, 0.5));
+        let total = start.p.sum();
+        let mut plain = Integrator::plain(TripleJump, *chain, start.clone(), 0.05)?;
+        assert!((plain.take_steps(4000)?.p.sum() - total).abs() < 1e-12);
+        let mut implicit = Integrator::<_, _, _, Compensated>::new(Gauss2, *chain, start, 0.05)?;
+        assert!((implicit.take_steps(400)?.p.sum() - total).abs() < 1e-13);
+    }
+    Ok(())
+}
+
+/// A force that is not finite among many steps: the error, and the state, of the step that has it.
+#[test]
+fn a_step_that_fails_among_many_is_found() -> Result<(), Error> {
+    #[derive(Clone, Copy)]
+    struct Breaking;
+    impl Bonds for Breaking {
+        fn tension<T: Scalar>(&self, _time: T, stretch: T) -> T {
+            (T::one() - stretch).sqrt()
+        }
+    }
+    let start = State::new(0.0, DVector::zeros(80), waves(80, 0.0));
+    let made = || Integrator::plain(VelocityVerlet, Chain::ring(Breaking), start.clone(), 0.01);
+    let (mut at_once, mut one_by_one) = (made()?, made()?);
+    let expected = loop {
+        if let Err(error) = one_by_one.step() {
+            break error;
+        }
+    };
+    assert_eq!(at_once.take_steps(100_000).expect_err("a break"), expected);
+    assert_eq!(at_once.state(), one_by_one.state());
+    assert!(at_once.steps() > 100);
+    Ok(())
+}
+
+#[test]
+fn a_pass_with_another_force_is_refused() {
+    struct Wrong;
+    impl SeparableHamiltonian<DVector<f64>> for Wrong {
+        const UNIT_MASSES: bool = true;
+
+        fn velocity(&self, _time: f64, p: &DVector<f64>, velocity: &mut DVector<f64>) {
+            copy(velocity, p);
+        }
+
+        fn force(&self, _time: f64, q: &DVector<f64>, force: &mut DVector<f64>) {
+            force.zip_apply(q, |force, q| *force = -q);
+        }
+
+        fn kick_and_drift(
+            &self,
+            _time: f64,
+            (q, p): (&mut DVector<f64>, &mut DVector<f64>),
+            kicks: &[f64],
+            drift: f64,
+        ) -> bool {
+            // All kicks in one product.
+            let kick: f64 = kicks.iter().sum();
+            p.zip_apply(q, |p, q| *p = kick.fused(-q, *p));
+            q.zip_apply(p, |q, p| *q = drift.fused(p, *q));
+            true
+        }
+    }
+    let start = State::new(0.0, waves(20, 0.3), waves(20, 0.9));
+    let refused = Integrator::<_, _, _, Plain>::with_summation(VelocityVerlet, Wrong, start, 0.1);
+    let error = refused.map(|_| ()).expect_err("other bits");
+    assert!(matches!(error, Error::NotTheSameForce { .. }), "{error}");
+}
