@@ -18,7 +18,8 @@ use crate::{
 ///
 /// A sweep of [`InLanes`] takes the velocities where its forces have moved the momenta to (Gauss–Seidel); here both halves are
 /// taken where the sweep before has left the stages (Jacobi). Neither half waits for the other, and there may be more sweeps:
-/// it pays where `∂²H/∂q∂p` is as large as the other second derivatives and where evaluations cost little.
+/// it pays where `∂²H/∂q∂p` is as large as the other second derivatives, where evaluations cost little, and where velocity and force
+/// have costly parts in common: they are evaluated by [`Hamiltonian::slopes`].
 /// The stages are those of [`InLanes`] up to rounding.
 ///
 /// Separable systems are taken as by [`InLanes`]: for these there would be twice as many sweeps.
@@ -97,6 +98,9 @@ where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
+    /// Whether force and velocity of a stage have one time.
+    const AT_ONE_TIME: bool = same(P::POSITIONS.times, P::MOMENTA.times);
+
     /// Both evaluations become increments.
     #[inline(always)]
     fn increments(&mut self) {
@@ -185,6 +189,15 @@ where
     }
 }
 
+/// Whether two lists are the same.
+const fn same(left: &[f64], right: &[f64]) -> bool {
+    let mut i = 0;
+    while i < left.len() && i < right.len() && left[i] == right[i] {
+        i += 1;
+    }
+    i == left.len() && i == right.len()
+}
+
 impl<P, R, V, S> Sweeps for Halves<'_, P, R, V, S>
 where
     P: StageTableau,
@@ -246,8 +259,12 @@ where
 
     #[inline(always)]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
-        self.0.forces();
-        self.0.velocities();
+        if Self::AT_ONE_TIME {
+            self.0.slopes();
+        } else {
+            self.0.forces();
+            self.0.velocities();
+        }
         self.stages()
     }
 

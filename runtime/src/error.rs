@@ -178,6 +178,22 @@ pub enum Error {
         expected: f64,
     },
 
+    /// A system evaluates velocity and force at once, and one of them is not what comes out alone.
+    #[error(
+        "component {component} of the {what} is {at_once} in size by `slopes` and {alone} alone: they have to be the same to the \
+         last bit; leave `slopes` out, or make it from the same operations"
+    )]
+    NotTheSameSlopes {
+        /// The velocity or the force.
+        what: Quantity,
+        /// The component, from 0.
+        component: usize,
+        /// Its size by [`Hamiltonian::slopes`](crate::Hamiltonian::slopes).
+        at_once: f64,
+        /// Its size alone.
+        alone: f64,
+    },
+
     /// The system gives no energy, which the generating function is made of.
     #[error("the system gives no energy; implement `energy`, or add a closure by `with_energy`")]
     NoEnergy,

@@ -63,6 +63,49 @@ pub trait Hamiltonian<V: Vector> {
     /// Writes −∂H/∂q at `(time, q, p)` into `force`.
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V);
 
+    /// [`velocity`](Self::velocity) and [`force`](Self::force) at one time and place, with the same bits: to be written out where they
+    /// have costly parts in common. [`AtOnceInLanes`](crate::AtOnceInLanes) asks for it; where other bits come out of it,
+    /// [`Error::NotTheSameSlopes`](crate::Error::NotTheSameSlopes) is what an integrator is made of.
+    ///
+    /// ```
+    /// use symplectic::nalgebra::SVector;
+    /// use symplectic::{General, Hamiltonian, Scalar};
+    ///
+    /// /// H = p² exp(−q²)/2
+    /// struct Damped;
+    ///
+    /// type Vector1<T> = SVector<T, 1>;
+    ///
+    /// impl<T: Scalar> Hamiltonian<Vector1<T>> for Damped {
+    ///     type Class = General;
+    ///
+    ///     fn velocity(&self, _time: T, q: &Vector1<T>, p: &Vector1<T>, velocity: &mut Vector1<T>) {
+    ///         velocity[0] = p[0] * (-q[0] * q[0]).exp();
+    ///     }
+    ///
+    ///     fn force(&self, time: T, q: &Vector1<T>, p: &Vector1<T>, force: &mut Vector1<T>) {
+    ///         self.slopes(time, q, p, (&mut q.clone(), force));
+    ///     }
+    ///
+    ///     // One exponential for both.
+    ///     fn slopes(
+    ///         &self,
+    ///         time: T,
+    ///         q: &Vector1<T>,
+    ///         p: &Vector1<T>,
+    ///         (velocity, force): (&mut Vector1<T>, &mut Vector1<T>),
+    ///     ) {
+    ///         self.velocity(time, q, p, velocity);
+    ///         force[0] = q[0] * p[0] * velocity[0];
+    ///     }
+    /// }
+    /// ```
+    #[inline(always)]
+    fn slopes(&self, time: V::Scalar, q: &V, p: &V, (velocity, force): (&mut V, &mut V)) {
+        self.velocity(time, q, p, velocity);
+        self.force(time, q, p, force);
+    }
+
     /// Kicks and a drift in one pass: see [`SeparableHamiltonian::kick_and_drift`].
     #[inline(always)]
     fn kick_and_drift(

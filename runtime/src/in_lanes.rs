@@ -271,6 +271,25 @@ where
         }
     }
 
+    /// Evaluates all velocities and forces, which are no increments yet; they have one time.
+    #[inline(always)]
+    pub(crate) fn slopes(&mut self) {
+        let LaneStages {
+            q,
+            p,
+            velocity,
+            force,
+        } = &mut *self.stages;
+        let (q, p, velocity, force) = (q.as_ref(), p.as_ref(), velocity.as_mut(), force.as_mut());
+        let n = velocity.len().min(force.len());
+        let (velocity, force) = (&mut velocity[..n], &mut force[..n]);
+        for group in 0..n {
+            let time = times::<P, V>(&P::POSITIONS, self.step, group);
+            let slopes = (&mut velocity[group], &mut force[group]);
+            P::Lanes::slopes::<V, S>(self.system, time, &q[group], &p[group], slopes);
+        }
+    }
+
     /// The forces become increments.
     #[inline(always)]
     pub(crate) fn scale_forces(&mut self) {

@@ -22,7 +22,7 @@ pub(crate) mod checks;
 mod course;
 mod parts;
 
-use checks::{check_masses, check_pass, check_state, check_step_size};
+use checks::{check_masses, check_pass, check_slopes, check_state, check_step_size};
 use course::Course;
 
 /// The plan of the method `M` for the class of the system `S`.
@@ -87,7 +87,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     /// # Errors
     ///
     /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`],
-    /// [`Error::NotUnitMasses`], [`Error::NotTheSameForce`].
+    /// [`Error::NotUnitMasses`], [`Error::NotTheSameForce`], [`Error::NotTheSameSlopes`].
     pub fn new(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error> {
         Self::with_summation(method, system, state, step_size)
     }
@@ -250,6 +250,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
         check_masses(&system, &state)?;
         check_pass(&system, &state, step_size)?;
+        check_slopes(&system, &state)?;
         Ok(Self {
             system,
             clock: Clock::new(state.time, step_size),

@@ -67,6 +67,17 @@ pub trait Lanes: Scalar {
     ) where
         V: Vector,
         S: HamiltonianInLanes<V>;
+
+    /// [`Hamiltonian::slopes`] in every lane at once.
+    fn slopes<V, S>(
+        system: &S,
+        time: Self,
+        q: &V::With<Self>,
+        p: &V::With<Self>,
+        slopes: (&mut V::With<Self>, &mut V::With<Self>),
+    ) where
+        V: Vector,
+        S: HamiltonianInLanes<V>;
 }
 
 /// A system over vectors of doubles and over vectors of [`Lanes`]: every one that is generic over its scalar.
@@ -313,6 +324,20 @@ macro_rules! lanes {
                 S: HamiltonianInLanes<V>,
             {
                 Hamiltonian::<V::With<Self>>::force(system, time, q, p, force);
+            }
+
+            #[inline(always)]
+            fn slopes<V, S>(
+                system: &S,
+                time: Self,
+                q: &V::With<Self>,
+                p: &V::With<Self>,
+                slopes: (&mut V::With<Self>, &mut V::With<Self>),
+            ) where
+                V: Vector,
+                S: HamiltonianInLanes<V>,
+            {
+                Hamiltonian::<V::With<Self>>::slopes(system, time, q, p, slopes);
             }
         }
     };

@@ -2,7 +2,7 @@
 
 use crate::kernel::kick_and_drift;
 use crate::stage::is_finite;
-use crate::{Error, Hamiltonian, Quantity, Scalar, State, Vector};
+use crate::{Class, Error, Hamiltonian, Quantity, Scalar, State, Vector};
 
 pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {
     if value.is_finite() && value != 0.0 {
@@ -23,17 +23,13 @@ pub(super) fn check_masses<V: Vector, S: Hamiltonian<V>>(
     let State { time, q, p } = state;
     let mut velocity = p.zeros_like();
     system.velocity(V::Scalar::from_f64(*time), q, p, &mut velocity);
-    let pairs = velocity.as_slice().iter().zip(p.as_slice());
-    for (component, (&velocity, &momentum)) in pairs.enumerate() {
-        if velocity != momentum {
-            return Err(Error::NotUnitMasses {
-                component,
-                velocity: velocity.magnitude(),
-                momentum: momentum.magnitude(),
-            });
-        }
-    }
-    Ok(())
+    first_difference(&velocity, p).map_or(Ok(()), |(component, velocity, momentum)| {
+        Err(Error::NotUnitMasses {
+            component,
+            velocity,
+            momentum,
+        })
+    })
 }
 
 /// Checks that kicks and a drift in one pass are those by the force, where the system makes such a pass.
@@ -42,33 +38,70 @@ pub(super) fn check_pass<V: Vector, S: Hamiltonian<V>>(
     state: &State<V>,
     step_size: f64,
 ) -> Result<(), Error> {
+    if !S::UNIT_MASSES {
+        return Ok(());
+    }
     let State { time, q, p } = state;
     let time = V::Scalar::from_f64(*time);
     let [half, whole] = [0.5 * step_size, step_size].map(V::Scalar::from_f64);
     let (mut q_pass, mut p_pass) = (q.clone(), p.clone());
-    if !S::UNIT_MASSES
-        || !system.kick_and_drift(time, (&mut q_pass, &mut p_pass), &[half, whole], whole)
-    {
+    if !system.kick_and_drift(time, (&mut q_pass, &mut p_pass), &[half, whole], whole) {
         return Ok(());
     }
     let (mut q, mut p, mut force) = (q.clone(), p.clone(), q.zeros_like());
     system.force(time, &q, &p, &mut force);
     let kicks = [Some(half), Some(whole)];
     kick_and_drift(&mut q, &mut p, &force, kicks, whole);
-    for (of_pass, expected) in [(&p_pass, &p), (&q_pass, &q)] {
-        let pairs = of_pass.as_slice().iter().zip(expected.as_slice());
-        for (component, (&of_pass, &expected)) in pairs.enumerate() {
-            // A force that is not finite is an error of the first step.
-            if of_pass != expected && (of_pass.is_finite() || expected.is_finite()) {
-                return Err(Error::NotTheSameForce {
-                    component,
-                    of_pass: of_pass.magnitude(),
-                    expected: expected.magnitude(),
-                });
-            }
+    let differing = first_difference(&p_pass, &p).or_else(|| first_difference(&q_pass, &q));
+    differing.map_or(Ok(()), |(component, of_pass, expected)| {
+        Err(Error::NotTheSameForce {
+            component,
+            of_pass,
+            expected,
+        })
+    })
+}
+
+/// Checks that velocity and force at once are those one by one, where the halves of a step may be iterated at once.
+pub(super) fn check_slopes<V: Vector, S: Hamiltonian<V>>(
+    system: &S,
+    state: &State<V>,
+) -> Result<(), Error> {
+    if S::Class::SEPARABLE {
+        return Ok(());
+    }
+    let State { time, q, p } = state;
+    let time = V::Scalar::from_f64(*time);
+    let blank = || (q.zeros_like(), q.zeros_like());
+    let (mut slopes, mut alone) = (blank(), blank());
+    system.slopes(time, q, p, (&mut slopes.0, &mut slopes.1));
+    system.velocity(time, q, p, &mut alone.0);
+    system.force(time, q, p, &mut alone.1);
+    for (what, slopes, alone) in [
+        (Quantity::Velocity, &slopes.0, &alone.0),
+        (Quantity::Force, &slopes.1, &alone.1),
+    ] {
+        if let Some((component, at_once, alone)) = first_difference(slopes, alone) {
+            return Err(Error::NotTheSameSlopes {
+                what,
+                component,
+                at_once,
+                alone,
+            });
         }
     }
     Ok(())
+}
+
+/// The first component in which two vectors differ and are not both other than finite, which is an error of the first step; and how
+/// large it is in them.
+fn first_difference<V: Vector>(left: &V, right: &V) -> Option<(usize, f64, f64)> {
+    let pairs = left.as_slice().iter().zip(right.as_slice());
+    let differ = |(_, (left, right)): &(usize, (&V::Scalar, &V::Scalar))| {
+        left != right && (left.is_finite() || right.is_finite())
+    };
+    let (component, (left, right)) = pairs.enumerate().find(differ)?;
+    Some((component, left.magnitude(), right.magnitude()))
 }
 
 pub(crate) fn check_state<V: Vector>(

@@ -83,8 +83,17 @@ struct Problem<S, B, V> {
     compared: u64,
     /// What no stage of the iteration by hand may move by in the end; rounding errors are smaller.
     tolerance: f64,
-    /// Whether the library iterates positions and momenta at once, as it is done by hand for Hamiltonians that are not separable.
-    at_once: bool,
+    /// With which sums the library iterates positions and momenta at once, as it is done by hand for Hamiltonians that are not
+    /// separable.
+    at_once: AtOnce,
+}
+
+/// With which sums.
+#[derive(Clone, Copy)]
+enum AtOnce {
+    Never,
+    Plain,
+    Always,
 }
 
 /// Every pair.
@@ -102,7 +111,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 641,
             compared: 128,
             tolerance: 1e-14,
-            at_once: false,
+            at_once: AtOnce::Never,
         },
     );
     few::separable(
@@ -117,7 +126,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 1025,
             compared: 20,
             tolerance: 1e-12,
-            at_once: false,
+            at_once: AtOnce::Never,
         },
     );
     few::separable(
@@ -132,7 +141,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 25641,
             compared: 100,
             tolerance: 1e-14,
-            at_once: false,
+            at_once: AtOnce::Never,
         },
     );
     few::separable(
@@ -151,7 +160,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 5000,
             compared: 100,
             tolerance: 1e-14,
-            at_once: false,
+            at_once: AtOnce::Never,
         },
     );
     few::general(
@@ -166,7 +175,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 1000,
             compared: 100,
             tolerance: 1e-13,
-            at_once: false,
+            at_once: AtOnce::Plain,
         },
     );
     few::general(
@@ -181,7 +190,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 1000,
             compared: 100,
             tolerance: 1e-14,
-            at_once: true,
+            at_once: AtOnce::Always,
         },
     );
     many::chain(&mut pairs);

@@ -34,24 +34,25 @@ impl<T: Scalar> Hamiltonian<SVector<T, 2>> for DoublePendulum {
         p: &SVector<T, 2>,
         velocity: &mut SVector<T, 2>,
     ) {
-        let cosine = (q[0] - q[1]).cos();
-        // 1 + sin² δ
-        let inverse = (T::from_f64(2.0) - cosine * cosine).recip();
-        velocity[0] = (p[0] - p[1] * cosine) * inverse;
-        velocity[1] = (p[1] + p[1] - p[0] * cosine) * inverse;
+        *velocity = velocities((q[0] - q[1]).cos(), p);
     }
 
     #[inline]
     fn force(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+        *force = forces((q[0] - q[1]).sin_cos(), q, p);
+    }
+
+    #[inline]
+    fn slopes(
+        &self,
+        _time: T,
+        q: &SVector<T, 2>,
+        p: &SVector<T, 2>,
+        (velocity, force): (&mut SVector<T, 2>, &mut SVector<T, 2>),
+    ) {
         let (sine, cosine) = (q[0] - q[1]).sin_cos();
-        let inverse = (T::from_f64(2.0) - cosine * cosine).recip();
-        let product = p[0] * p[1];
-        let twice_kinetic =
-            (p[0] * p[0] + (p[1] * p[1] - product * cosine) * T::from_f64(2.0)) * inverse;
-        // ∂H/∂δ
-        let coupling = sine * inverse * (product - twice_kinetic * cosine);
-        force[0] = -coupling - q[0].sin() * T::from_f64(2.0 * GRAVITY);
-        force[1] = coupling - q[1].sin() * T::from_f64(GRAVITY);
+        *velocity = velocities(cosine, p);
+        *force = forces((sine, cosine), q, p);
     }
 
     fn energy(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
@@ -61,6 +62,41 @@ impl<T: Scalar> Hamiltonian<SVector<T, 2>> for DoublePendulum {
         let kinetic = numerator / (two * (T::one() + sine * sine));
         Some(kinetic - T::from_f64(GRAVITY) * (two * q[0].cos() + q[1].cos()))
     }
+}
+
+/// `1/(1 + sin² δ)`
+#[inline(always)]
+fn inverse<T: Scalar>(cosine: T) -> T {
+    (T::from_f64(2.0) - cosine * cosine).recip()
+}
+
+/// The velocities by `cos δ`.
+#[inline(always)]
+fn velocities<T: Scalar>(cosine: T, p: &SVector<T, 2>) -> SVector<T, 2> {
+    let inverse = inverse(cosine);
+    SVector::from([
+        (p[0] - p[1] * cosine) * inverse,
+        (p[1] + p[1] - p[0] * cosine) * inverse,
+    ])
+}
+
+/// The forces by `sin δ` and `cos δ`.
+#[inline(always)]
+fn forces<T: Scalar>(
+    (sine, cosine): (T, T),
+    q: &SVector<T, 2>,
+    p: &SVector<T, 2>,
+) -> SVector<T, 2> {
+    let inverse = inverse(cosine);
+    let product = p[0] * p[1];
+    let twice_kinetic =
+        (p[0] * p[0] + (p[1] * p[1] - product * cosine) * T::from_f64(2.0)) * inverse;
+    // ∂H/∂δ
+    let coupling = sine * inverse * (product - twice_kinetic * cosine);
+    SVector::from([
+        -coupling - q[0].sin() * T::from_f64(2.0 * GRAVITY),
+        coupling - q[1].sin() * T::from_f64(GRAVITY),
+    ])
 }
 
 /// At rest with the angles (1, 1/2).

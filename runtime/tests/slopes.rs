@@ -1,0 +1,111 @@
+//! Velocity and force at once.
+
+use std::cell::Cell;
+
+use symplectic::nalgebra::SVector;
+use symplectic::{
+    Error, General, Hamiltonian, Integrator, Plain, Quantity, Scalar, State, Statistics, tableau,
+};
+
+tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
+tableau! { Lobatto3 { basis: polynomial(3), nodes: lobatto(3) } }
+// Force and velocity of a stage have different times.
+tableau! { SymplecticEuler { basis: polynomial(1), nodes: [0] } }
+
+type Vector1<T> = SVector<T, 1>;
+
+/// `H = p² exp(−q² − t/8)/2`, with one exponential for both if they are `SHARED`; counts its exponentials.
+struct Bell<'a, const SHARED: bool>(&'a Cell<u64>);
+
+impl<const SHARED: bool> Bell<'_, SHARED> {
+    fn exponential<T: Scalar>(&self, time: T, q: T) -> T {
+        self.0.set(self.0.get() + 1);
+        (-q * q - time * T::from_f64(0.125)).exp()
+    }
+}
+
+impl<T: Scalar, const SHARED: bool> Hamiltonian<Vector1<T>> for Bell<'_, SHARED> {
+    type Class = General;
+
+    fn velocity(&self, time: T, q: &Vector1<T>, p: &Vector1<T>, velocity: &mut Vector1<T>) {
+        velocity[0] = p[0] * self.exponential(time, q[0]);
+    }
+
+    fn force(&self, time: T, q: &Vector1<T>, p: &Vector1<T>, force: &mut Vector1<T>) {
+        force[0] = q[0] * p[0] * (p[0] * self.exponential(time, q[0]));
+    }
+
+    fn slopes(
+        &self,
+        time: T,
+        q: &Vector1<T>,
+        p: &Vector1<T>,
+        (velocity, force): (&mut Vector1<T>, &mut Vector1<T>),
+    ) {
+        self.velocity(time, q, p, velocity);
+        if SHARED {
+            force[0] = q[0] * p[0] * velocity[0];
+        } else {
+            self.force(time, q, p, force);
+        }
+    }
+}
+
+#[test]
+fn what_is_shared_is_evaluated_once() -> Result<(), Error> {
+    type Run = (State<Vector1<f64>>, Statistics, u64);
+    fn run<M: symplectic::Method, const SHARED: bool>(method: M) -> Result<Run, Error> {
+        let count = Cell::new(0);
+        let start = State::new(0.0, Vector1::new(0.4), Vector1::new(0.7));
+        let made = Integrator::new(method, Bell::<SHARED>(&count), start, 0.05)?;
+        let mut at_once = made.at_once_in_lanes();
+        count.set(0);
+        at_once.take_steps(500)?;
+        Ok((at_once.state().clone(), *at_once.statistics(), count.get()))
+    }
+    fn check<M: symplectic::Method>(method: M, share: u64) -> Result<(), Error> {
+        let (shared, alone) = (run::<M, true>(method)?, run::<M, false>(method)?);
+        assert_eq!((&shared.0, &shared.1), (&alone.0, &alone.1), "{}", M::NAME);
+        assert_eq!(share * shared.2, alone.2, "{}", M::NAME);
+        Ok(())
+    }
+    check(Gauss3, 2)?;
+    check(Lobatto3, 2)?;
+    check(SymplecticEuler, 1)
+}
+
+#[test]
+fn slopes_with_another_force_are_refused() {
+    struct Wrong;
+    impl Hamiltonian<Vector1<f64>> for Wrong {
+        type Class = General;
+
+        fn velocity(&self, _time: f64, q: &Vector1<f64>, p: &Vector1<f64>, v: &mut Vector1<f64>) {
+            *v = p * q[0];
+        }
+
+        fn force(&self, _time: f64, _q: &Vector1<f64>, p: &Vector1<f64>, f: &mut Vector1<f64>) {
+            *f = -p * p[0] * 0.5;
+        }
+
+        fn slopes(
+            &self,
+            time: f64,
+            q: &Vector1<f64>,
+            p: &Vector1<f64>,
+            (velocity, force): (&mut Vector1<f64>, &mut Vector1<f64>),
+        ) {
+            self.velocity(time, q, p, velocity);
+            *force = -p * p[0];
+        }
+    }
+    let start = State::new(0.0, Vector1::new(1.0), Vector1::new(2.0));
+    let refused = Integrator::<_, _, _, Plain>::with_summation(Gauss3, Wrong, start, 0.1);
+    let expected = Error::NotTheSameSlopes {
+        what: Quantity::Force,
+        component: 0,
+        at_once: 4.0,
+        alone: 2.0,
+    };
+    assert_eq!(refused.map(|_| ()), Err(expected));
+}
