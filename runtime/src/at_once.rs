@@ -259,7 +259,7 @@ where
 
     #[inline(always)]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
-        if Self::AT_ONE_TIME {
+        if <S as Hamiltonian<V>>::SHARED_SLOPES && Self::AT_ONE_TIME {
             self.0.slopes();
         } else {
             self.0.forces();

@@ -6,6 +6,9 @@ use crate::rows::{Eight, Row, Single, splats};
 use crate::{Scalar, SeparableHamiltonian, Vector, copy};
 
 /// What the particles of a [`Chain`] feel.
+///
+/// Doubles are evaluated eight at a time, as one [`Scalar`]: as everywhere in code that is generic over scalars, nothing may be decided
+/// by a value, and whether there is an outer force neither.
 pub trait Bonds {
     /// The derivative `V′` of the energy of a bond, at `stretch = q_{i+1} − q_i`: it pulls the left particle to the right and
     /// the right one to the left.
@@ -27,6 +30,24 @@ pub trait Bonds {
     }
 }
 
+impl<B: Bonds> Bonds for &B {
+    fn tension<T: Scalar>(&self, time: T, stretch: T) -> T {
+        (**self).tension(time, stretch)
+    }
+
+    fn outer_force<T: Scalar>(&self, time: T, position: T) -> Option<T> {
+        (**self).outer_force(time, position)
+    }
+
+    fn bond_energy<T: Scalar>(&self, time: T, stretch: T) -> Option<T> {
+        (**self).bond_energy(time, stretch)
+    }
+
+    fn outer_energy<T: Scalar>(&self, time: T, position: T) -> Option<T> {
+        (**self).outer_energy(time, position)
+    }
+}
+
 /// What is beyond the first and the last particle of a [`Chain`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Ends {
@@ -45,7 +66,7 @@ enum Ends {
 /// H = Σ p_i²/2 + Σ W(t, q_i) + Σ V(t, q_{i+1} − q_i)
 /// ```
 ///
-/// The last sum goes over all bonds: with [walls](Self::between_walls) one more than particles, for `q_0 = q_{n+1} = 0`, with
+/// where `q_i` is how far particle `i` is from its place at rest. The last sum goes over all bonds: with [walls](Self::between_walls) one more than particles, for `q_0 = q_{n+1} = 0`, with
 /// [free ends](Self::with_free_ends) one less, and in a [ring](Self::ring) as many, for `q_{n+1} = q_1`.
 ///
 /// Of a system that is a chain an integrator knows who feels whom. In blocks of explicit steps with plain sums and 64
@@ -183,8 +204,8 @@ impl<B: Bonds> Chain<B> {
                     drift,
                 },
             ),
-            [last, first] => {
-                let kicks = [last, first];
+            [earlier, later] => {
+                let kicks = [earlier, later];
                 self.walk::<T, R>(time, &mut KicksAndDrift { q, p, kicks, drift });
             }
             _ => return false,
@@ -316,54 +337,47 @@ impl<V: Vector, B: Bonds> SeparableHamiltonian<V> for Chain<B> {
         let (q, force) = (q.as_slice(), force.as_mut_slice());
         let n = q.len().min(force.len());
         let (q, force) = (&q[..n], &mut force[..n]);
-        match (V::Scalar::doubles(&[time]), V::Scalar::doubles(q)) {
-            (Some(&[time]), Some(q)) => {
-                if let Some(force) = V::Scalar::doubles_mut(force) {
-                    self.walk::<f64, Eight>(time, &mut Forces { q, force });
-                }
-            }
-            _ => self.walk::<V::Scalar, Single>(time, &mut Forces { q, force }),
+        if let (Some(&[time]), Some(q), Some(force)) = (
+            V::Scalar::doubles(&[time]),
+            V::Scalar::doubles(q),
+            V::Scalar::doubles_mut(&mut *force),
+        ) {
+            return self.walk::<f64, Eight>(time, &mut Forces { q, force });
         }
+        self.walk::<V::Scalar, Single>(time, &mut Forces { q, force });
     }
 
     #[inline]
     fn kick_and_drift(
         &self,
         time: V::Scalar,
-        (q, p): (&mut V, &mut V),
+        (q, p): (&mut [V::Scalar], &mut [V::Scalar]),
         kicks: &[V::Scalar],
         drift: V::Scalar,
     ) -> bool {
-        let (q, p) = (q.as_mut_slice(), p.as_mut_slice());
         let n = q.len().min(p.len());
         let (q, p) = (&mut q[..n], &mut p[..n]);
-        match (
+        if let (Some(&[time, drift]), Some(kicks), Some(q), Some(p)) = (
             V::Scalar::doubles(&[time, drift]),
             V::Scalar::doubles(kicks),
+            V::Scalar::doubles_mut(&mut *q),
+            V::Scalar::doubles_mut(&mut *p),
         ) {
-            (Some(&[time, drift]), Some(kicks)) => {
-                let (q, p) = (V::Scalar::doubles_mut(q), V::Scalar::doubles_mut(p));
-                let (Some(q), Some(p)) = (q, p) else {
-                    return false;
-                };
-                self.kicks_and_drift::<f64, Eight>(time, (q, p), kicks, drift)
-            }
-            _ => self.kicks_and_drift::<V::Scalar, Single>(time, (q, p), kicks, drift),
+            return self.kicks_and_drift::<f64, Eight>(time, (q, p), kicks, drift);
         }
+        self.kicks_and_drift::<V::Scalar, Single>(time, (q, p), kicks, drift)
     }
 
     fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
         let zero = V::Scalar::zero();
         let (q, p) = (q.as_slice(), p.as_slice());
         let bond = |stretch| self.bonds.bond_energy(time, stretch);
-        let (Some(&first), Some(beyond)) = (q.first(), q.last()) else {
-            return Some(zero);
-        };
-        // Those right of a particle, and that left of the first, which a ring has counted then.
+        let (&first, &last) = (q.first()?, q.last()?);
+        // Those at the ends.
         let mut energy = match self.ends {
-            Ends::Walls => bond(first)? + bond(-*beyond)?,
+            Ends::Walls => bond(first)? + bond(-last)?,
             Ends::Free => zero,
-            Ends::Ring => bond(first - *beyond)?,
+            Ends::Ring => bond(first - last)?,
         };
         for pair in q.windows(2) {
             energy += bond(pair[1] - pair[0])?;

@@ -63,21 +63,27 @@ pub trait Hamiltonian<V: Vector> {
     /// Writes −∂H/∂q at `(time, q, p)` into `force`.
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V);
 
-    /// [`velocity`](Self::velocity) and [`force`](Self::force) at one time and place, with the same bits: to be written out where they
-    /// have costly parts in common. [`AtOnceInLanes`](crate::AtOnceInLanes) asks for it; where other bits come out of it,
-    /// [`Error::NotTheSameSlopes`](crate::Error::NotTheSameSlopes) is what an integrator is made of.
+    /// Whether [`slopes`](Self::slopes) is written out.
+    const SHARED_SLOPES: bool = false;
+
+    /// [`velocity`](Self::velocity) and [`force`](Self::force) at one time and place, with the same bits: to be written out, and
+    /// [said](Self::SHARED_SLOPES), where they have costly parts in common. [`AtOnceInLanes`](crate::AtOnceInLanes) evaluates it;
+    /// where other bits come out of it for the first state, making an integrator fails with
+    /// [`Error::NotTheSameSlopes`](crate::Error::NotTheSameSlopes).
     ///
     /// ```
     /// use symplectic::nalgebra::SVector;
     /// use symplectic::{General, Hamiltonian, Scalar};
     ///
     /// /// H = p² exp(−q²)/2
-    /// struct Damped;
+    /// struct Bell;
     ///
     /// type Vector1<T> = SVector<T, 1>;
     ///
-    /// impl<T: Scalar> Hamiltonian<Vector1<T>> for Damped {
+    /// impl<T: Scalar> Hamiltonian<Vector1<T>> for Bell {
     ///     type Class = General;
+    ///
+    ///     const SHARED_SLOPES: bool = true;
     ///
     ///     fn velocity(&self, _time: T, q: &Vector1<T>, p: &Vector1<T>, velocity: &mut Vector1<T>) {
     ///         velocity[0] = p[0] * (-q[0] * q[0]).exp();
@@ -111,7 +117,7 @@ pub trait Hamiltonian<V: Vector> {
     fn kick_and_drift(
         &self,
         _time: V::Scalar,
-        _state: (&mut V, &mut V),
+        _state: (&mut [V::Scalar], &mut [V::Scalar]),
         _kicks: &[V::Scalar],
         _drift: V::Scalar,
     ) -> bool {
@@ -183,22 +189,24 @@ pub trait SeparableHamiltonian<V: Vector> {
     fn force(&self, time: V::Scalar, q: &V, force: &mut V);
 
     /// For a system of [unit masses](Self::UNIT_MASSES) that can do it in one pass over its components, as a [`Chain`](crate::Chain)
-    /// can: kicks by one force, one after the other, and a drift,
+    /// can: kicks of the momenta by one force, one after the other, and a drift of the positions,
     ///
     /// ```text
     /// p = kick_k.fused(force(time, q), p)   for each kick      q = drift.fused(p, q)
     /// ```
     ///
     /// component by component, with the same bits as by [`force`](Self::force) and [`Scalar::fused`](crate::Scalar::fused). `false`
-    /// where it cannot; then nothing has changed, and an integrator makes them one after the other.
+    /// where it cannot; then nothing may have changed, and an integrator makes them one after the other.
     ///
-    /// Long vectors ask for it in blocks of explicit steps with plain sums. Where other bits come out of it than by `force`,
-    /// [`Error::NotTheSameForce`](crate::Error::NotTheSameForce) is what an integrator is made of.
+    /// With plain sums and 64 components or more an integrator asks for it in blocks of explicit steps. It looks at one and at two
+    /// kicks of the first state: where other bits come out of them than by `force`, making it fails with
+    /// [`Error::NotTheSameForce`](crate::Error::NotTheSameForce). A system that wraps another one has to pass it on, and
+    /// `UNIT_MASSES`, to keep it.
     #[inline(always)]
     fn kick_and_drift(
         &self,
         _time: V::Scalar,
-        _state: (&mut V, &mut V),
+        _state: (&mut [V::Scalar], &mut [V::Scalar]),
         _kicks: &[V::Scalar],
         _drift: V::Scalar,
     ) -> bool {
@@ -230,7 +238,7 @@ impl<V: Vector, S: SeparableHamiltonian<V>> Hamiltonian<V> for S {
     fn kick_and_drift(
         &self,
         time: V::Scalar,
-        state: (&mut V, &mut V),
+        state: (&mut [V::Scalar], &mut [V::Scalar]),
         kicks: &[V::Scalar],
         drift: V::Scalar,
     ) -> bool {

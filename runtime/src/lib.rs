@@ -14,7 +14,7 @@
 //!
 //! | What | Where |
 //! |---|---|
-//! | The system: a trait, or closures | [`Hamiltonian`], [`SeparableHamiltonian`], [`separable`], [`hamiltonian`], [`acceleration`] |
+//! | The system: a trait, or closures | [`Hamiltonian`], [`SeparableHamiltonian`], [`separable`], [`hamiltonian`], [`acceleration`]; [`Chain`] of [`Bonds`] |
 //! | What it computes with | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors) |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`] |
 //! | Running it | [`State`], [`Integrator`], [`Error`], [`Retry`], [`Statistics`], [`Progress`], [`Invariant`] |

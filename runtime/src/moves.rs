@@ -142,7 +142,7 @@ impl Moves for () {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Waiting {
     force: Option<Force>,
-    /// The step size and the weight of each kick: the last of a step and the first of the next, at most.
+    /// The step size and the weight of each kick, the latest one first: where two steps meet, there are two.
     kicks: [Option<(f64, Coefficient)>; 2],
 }
 
@@ -211,23 +211,20 @@ impl Moves for Waiting {
             );
         }
         let factor = |(size, weight)| V::Scalar::weight(size, weight);
-        let [last, first] = self.kicks.map(|kick| kick.map(factor));
+        let [later, earlier] = self.kicks.map(|kick| kick.map(factor));
         let drift = factor((drift.span.size, drift.weight));
-        if let (Some(Force { span, time, .. }), Some(kick)) = (self.force, last) {
-            let kicks = [first.unwrap_or(kick), kick];
-            let kicks = if first.is_some() {
-                &kicks[..]
-            } else {
-                &kicks[1..]
-            };
-            if system.kick_and_drift(span.at(time), (q, p), kicks, drift) {
+        if let (Some(Force { span, time, .. }), Some(later)) = (self.force, later) {
+            let both = [earlier.unwrap_or(later), later];
+            let kicks = &both[usize::from(earlier.is_none())..];
+            let state = (q.as_mut_slice(), p.as_mut_slice());
+            if system.kick_and_drift(span.at(time), state, kicks, drift) {
                 *self = Self::default();
                 return;
             }
         }
         self.evaluate(system, force, q, p);
         self.kicks = [None; 2];
-        kick_and_drift(q, p, force, [first, last], drift);
+        kick_and_drift(q, p, force, [earlier, later], drift);
     }
 
     #[inline(always)]
@@ -239,8 +236,8 @@ impl Moves for Waiting {
         (p, p_low): (&mut V, &mut V),
     ) {
         self.evaluate(system, force, position, p);
-        let [last, first] = self.kicks;
-        for (h, weight) in [first, last].into_iter().flatten() {
+        let [later, earlier] = self.kicks;
+        for (h, weight) in [earlier, later].into_iter().flatten() {
             advance::<R, V>(p, p_low, h, weight, force);
         }
         self.kicks = [None; 2];
@@ -250,72 +247,127 @@ impl Moves for Waiting {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Plain, acceleration};
+    use crate::{Bonds, Chain, Plain, acceleration, separable};
     use nalgebra::Vector2;
 
-    /// More kicks than a splitting has before a drift, and kicks without one.
-    #[test]
-    fn kicks_that_wait_are_made_as_those_that_do_not() {
-        let unit = acceleration(|_time, q: &Vector2<f64>, a: &mut Vector2<f64>| *a = *q);
-        let mut force = Vector2::new(0.1, -0.7);
-        fn all<K: Moves>(
-            mut moves: K,
-            [q, q_low, p, p_low]: &mut [Vector2<f64>; 4],
-            system: &impl Hamiltonian<Vector2<f64>>,
-            force: &mut Vector2<f64>,
-        ) {
-            let span = Span {
-                time: 0.0,
-                size: 0.3,
+    /// Bonds that pull harder with time.
+    struct Pulling;
+
+    impl Bonds for Pulling {
+        fn tension<T: Scalar>(&self, time: T, stretch: T) -> T {
+            stretch * stretch + time
+        }
+    }
+
+    const SPAN: Span = Span {
+        time: 0.25,
+        size: 0.3,
+    };
+
+    /// What moves are made on.
+    #[derive(Clone, Debug, PartialEq)]
+    struct Places {
+        q: (Vector2<f64>, Vector2<f64>),
+        p: (Vector2<f64>, Vector2<f64>),
+        force: Vector2<f64>,
+    }
+
+    impl Places {
+        fn force(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Vector2<f64>>) {
+            let force = Force {
+                span: SPAN,
+                stage: 1,
+                time: Coefficient::exact(0.75),
             };
-            for kicks in [0, 1, 2, 3, 5] {
-                for kick in 0..kicks {
-                    let weight = Coefficient::exact(0.25 * f64::from(kick + 1));
-                    moves.kick::<Plain, _, _>(
-                        span.size,
-                        weight,
-                        system,
-                        force,
-                        &*q,
-                        (&mut *p, &mut *p_low),
-                    );
+            let (place, p) = (&mut self.force, (&mut self.p.0, &mut self.p.1));
+            moves.force::<Plain, _, _, _>(force, system, place, &self.q.0, p, &mut ());
+        }
+
+        fn kick(
+            &mut self,
+            moves: &mut impl Moves,
+            system: &impl Hamiltonian<Vector2<f64>>,
+            weight: f64,
+        ) {
+            let (weight, p) = (Coefficient::exact(weight), (&mut self.p.0, &mut self.p.1));
+            let (force, q) = (&mut self.force, &self.q.0);
+            moves.kick::<Plain, _, _>(SPAN.size, weight, system, force, q, p);
+        }
+
+        fn drift(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Vector2<f64>>) {
+            let drift = Drift {
+                span: SPAN,
+                stage: 1,
+                time: Coefficient::exact(0.5),
+                weight: Coefficient::exact(0.75),
+                known: false,
+            };
+            let evaluations = (&mut Vector2::zeros(), &mut self.force);
+            let (q, p) = (
+                (&mut self.q.0, &mut self.q.1),
+                (&mut self.p.0, &mut self.p.1),
+            );
+            moves.drift::<Plain, _, _, _>(drift, system, evaluations, q, p, &mut ());
+        }
+
+        fn settle(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Vector2<f64>>) {
+            let p = (&mut self.p.0, &mut self.p.1);
+            moves.settle::<Plain, _, _>(system, &mut self.force, &self.q.0, p);
+        }
+    }
+
+    /// More kicks than a splitting has before a drift, forces without kicks, and kicks without a drift.
+    #[test]
+    fn what_waits_is_made_as_what_does_not() {
+        fn all(
+            mut moves: impl Moves,
+            mut places: Places,
+            system: &impl Hamiltonian<Vector2<f64>>,
+        ) -> Places {
+            for (forces, kicks) in [
+                (0, 1),
+                (1, 1),
+                (1, 2),
+                (1, 3),
+                (2, 5),
+                (1, 0),
+                (0, 2),
+                (0, 0),
+            ] {
+                for _ in 0..forces {
+                    places.force(&mut moves, system);
                 }
-                let drift = Drift {
-                    span,
-                    stage: 1,
-                    time: Coefficient::exact(0.5),
-                    weight: Coefficient::exact(0.75),
-                    known: false,
-                };
-                moves.drift::<Plain, _, _, _>(
-                    drift,
-                    system,
-                    (&mut Vector2::zeros(), &mut *force),
-                    (&mut *q, &mut *q_low),
-                    (&mut *p, &mut *p_low),
-                    &mut (),
-                );
+                for kick in 0..kicks {
+                    places.kick(&mut moves, system, 0.25 * f64::from(kick + 1));
+                }
+                places.drift(&mut moves, system);
             }
+            places.force(&mut moves, system);
             for weight in [0.5, -1.5] {
-                let weight = Coefficient::exact(weight);
-                moves.kick::<Plain, _, _>(
-                    span.size,
-                    weight,
-                    system,
-                    force,
-                    &*q,
-                    (&mut *p, &mut *p_low),
-                );
+                places.kick(&mut moves, system, weight);
             }
             for _ in 0..2 {
-                moves.settle::<Plain, _, _>(system, force, &*q, (&mut *p, &mut *p_low));
+                places.settle(&mut moves, system);
             }
+            places
         }
-        let zero = Vector2::zeros();
-        let mut waiting = [Vector2::new(1.0, 2.0), zero, Vector2::new(3.0, 0.3), zero];
-        let mut at_once = waiting;
-        all(Waiting::default(), &mut waiting, &unit, &mut force);
-        all((), &mut at_once, &unit, &mut force);
-        assert_eq!(waiting, at_once);
+        fn check(system: &impl Hamiltonian<Vector2<f64>>) {
+            let zero = Vector2::zeros();
+            let start = Places {
+                q: (Vector2::new(0.1, 0.2), zero),
+                p: (Vector2::new(0.3, 0.03), zero),
+                force: Vector2::new(0.1, -0.7),
+            };
+            let expected = all((), start.clone(), system);
+            assert_eq!(all(Waiting::default(), start, system), expected);
+            assert!(expected.q.0.iter().all(|q| q.is_finite()));
+        }
+        check(&Chain::ring(Pulling));
+        check(&Chain::between_walls(Pulling));
+        check(&acceleration(|time, q: &Vector2<f64>, a| *a = *q * time));
+        check(&separable(
+            |_time, p: &Vector2<f64>, v| *v = *p * 0.5,
+            |time, q, f| *f = *q * time,
+        ));
     }
 }

@@ -1,6 +1,8 @@
 //! Chains: forces, energies, and one pass for all.
 
-use symplectic::nalgebra::{DVector, SVector};
+use std::cell::Cell;
+
+use symplectic::nalgebra::DVector;
 use symplectic::{
     Bonds, Chain, Compensated, Error, F64x4, Hamiltonian, Integrator, Lanes, Method, Plain, Scalar,
     SeparableHamiltonian, State, Vector, composition, copy, tableau,
@@ -118,51 +120,122 @@ fn rows_have_the_bits_of_single_particles() {
     }
 }
 
-/// Rows begin at several places in memory.
+/// Wherever rows begin in memory.
 #[test]
 fn one_pass_has_the_bits_of_three() {
-    fn check<V: Vector>(chain: &impl SeparableHamiltonian<V>, q: &V, p: &V, kicks: &[f64]) {
-        let (time, kicks): (_, Vec<V::Scalar>) = (
-            V::Scalar::from_f64(0.7),
-            kicks.iter().copied().map(V::Scalar::from_f64).collect(),
-        );
-        let drift = V::Scalar::from_f64(0.011);
-        let (mut q_pass, mut p_pass) = (q.clone(), p.clone());
-        let made = chain.kick_and_drift(time, (&mut q_pass, &mut p_pass), &kicks, drift);
+    type Part = std::ops::Range<usize>;
+    /// Moves parts of two vectors.
+    fn check<T: Scalar>(
+        chain: &Chain<impl Bonds>,
+        all: [&DVector<T>; 2],
+        parts: [Part; 2],
+        kicks: &[f64],
+    ) {
+        let kicks: Vec<T> = kicks.iter().copied().map(T::from_f64).collect();
+        let (time, drift) = (T::from_f64(0.7), T::from_f64(0.011));
+        let [mut q, mut p] = all.map(|x| x.as_slice().to_vec());
+        let state = (&mut q[parts[0].clone()], &mut p[parts[1].clone()]);
+        let made =
+            SeparableHamiltonian::<DVector<T>>::kick_and_drift(chain, time, state, &kicks, drift);
         assert_eq!(made, (1..=2).contains(&kicks.len()));
-        let (mut q, mut p) = (q.clone(), p.clone());
+        let [mut expected_q, mut expected_p] = all.map(|x| x.as_slice().to_vec());
         if made {
-            let force = force(chain, 0.7, &q);
-            for (i, p) in p.as_mut_slice().iter_mut().enumerate() {
+            let place = DVector::from_column_slice(&expected_q[parts[0].clone()]);
+            let force = force(chain, 0.7, &place);
+            let places = parts[0].clone().zip(parts[1].clone());
+            for (i, (in_q, in_p)) in places.enumerate() {
                 for &kick in &kicks {
-                    *p = kick.fused(force.as_slice()[i], *p);
+                    expected_p[in_p] = kick.fused(force[i], expected_p[in_p]);
                 }
-            }
-            for (q, &p) in q.as_mut_slice().iter_mut().zip(p.as_slice()) {
-                *q = drift.fused(p, *q);
+                expected_q[in_q] = drift.fused(expected_p[in_p], expected_q[in_q]);
             }
         }
-        assert!((q_pass, p_pass) == (q, p));
+        assert!((q, p) == (expected_q, expected_p), "{parts:?}");
     }
     for n in (0..40).chain([64, 127, 200]) {
-        let (q, p) = (waves(n, 0.4), waves(n, 2.0));
-        for kicks in [&[0.03][..], &[0.02, 0.007], &[], &[0.1, 0.2, 0.3]] {
-            for chain in chains(Driven) {
-                check(&chain, &q, &p, kicks);
-                check(&chain, &q.map(|q| q as f32), &p.map(|p| p as f32), kicks);
-            }
-            for chain in chains(Springs) {
-                check(&chain, &q, &p, kicks);
+        let (q, p) = (waves(n + 8, 0.4), waves(n + 8, 2.0));
+        let (q_single, p_single) = (q.map(|q| q as f32), p.map(|p| p as f32));
+        for (in_q, in_p) in [
+            (0, 0),
+            (1, 0),
+            (2, 5),
+            (3, 3),
+            (4, 1),
+            (5, 7),
+            (6, 2),
+            (7, 6),
+        ] {
+            let parts = [in_q..in_q + n, in_p..in_p + n];
+            for kicks in [&[0.03][..], &[0.02, 0.007], &[], &[0.1, 0.2, 0.3]] {
+                for chain in &chains(Driven) {
+                    check(chain, [&q, &p], parts.clone(), kicks);
+                    check(chain, [&q_single, &p_single], parts.clone(), kicks);
+                }
+                for chain in &chains(Springs) {
+                    check(chain, [&q, &p], parts.clone(), kicks);
+                }
             }
         }
     }
-    let fixed = |x: DVector<f64>| SVector::<f64, 33>::from_column_slice(x.as_slice());
-    check(
-        &chains(Driven)[2],
-        &fixed(waves(33, 0.0)),
-        &fixed(waves(33, 1.0)),
-        &[0.1],
-    );
+}
+
+/// A chain whose passes are counted, and may be too many kicks for it.
+struct Watched<'a> {
+    passes: &'a Cell<u64>,
+    most_kicks: usize,
+}
+
+impl SeparableHamiltonian<DVector<f64>> for Watched<'_> {
+    const UNIT_MASSES: bool = true;
+
+    fn velocity(&self, _time: f64, p: &DVector<f64>, velocity: &mut DVector<f64>) {
+        copy(velocity, p);
+    }
+
+    fn force(&self, time: f64, q: &DVector<f64>, force: &mut DVector<f64>) {
+        SeparableHamiltonian::force(&Chain::ring(Driven), time, q, force);
+    }
+
+    fn kick_and_drift(
+        &self,
+        time: f64,
+        state: (&mut [f64], &mut [f64]),
+        kicks: &[f64],
+        drift: f64,
+    ) -> bool {
+        if kicks.len() > self.most_kicks {
+            return false;
+        }
+        self.passes.set(self.passes.get() + 1);
+        let chain = Chain::ring(Driven);
+        SeparableHamiltonian::<DVector<f64>>::kick_and_drift(&chain, time, state, kicks, drift)
+    }
+}
+
+/// Every drift after a kick in a block: all but those of the two steps by themselves and the first one.
+#[test]
+fn long_vectors_make_passes() -> Result<(), Error> {
+    fn check<M: Method>(method: M, most_kicks: usize, expected: u64) -> Result<(), Error> {
+        let passes = Cell::new(0);
+        let watched = Watched {
+            passes: &passes,
+            most_kicks,
+        };
+        let start = State::new(0.0, waves(64, 0.1), waves(64, 1.3));
+        let mut plain = Integrator::plain(method, watched, start.clone(), 0.02)?;
+        passes.set(0);
+        plain.take_steps(102)?;
+        assert_eq!(passes.get(), expected, "{}", M::NAME);
+        let mut chain = Integrator::plain(method, Chain::ring(Driven), start, 0.02)?;
+        assert_eq!(chain.take_steps(102)?, plain.state());
+        Ok(())
+    }
+    check(VelocityVerlet, 2, 99)?;
+    // Two kicks meet at every step.
+    check(VelocityVerlet, 1, 0)?;
+    check(TripleJump, 2, 299)?;
+    check(TripleJump, 1, 200)?;
+    check(SymplecticEuler, 1, 100)
 }
 
 #[test]
@@ -233,7 +306,8 @@ fn a_step_that_fails_among_many_is_found() -> Result<(), Error> {
 
 #[test]
 fn a_pass_with_another_force_is_refused() {
-    struct Wrong;
+    /// Wrong for so many kicks.
+    struct Wrong(usize);
     impl SeparableHamiltonian<DVector<f64>> for Wrong {
         const UNIT_MASSES: bool = true;
 
@@ -248,19 +322,28 @@ fn a_pass_with_another_force_is_refused() {
         fn kick_and_drift(
             &self,
             _time: f64,
-            (q, p): (&mut DVector<f64>, &mut DVector<f64>),
+            (q, p): (&mut [f64], &mut [f64]),
             kicks: &[f64],
             drift: f64,
         ) -> bool {
-            // All kicks in one product.
-            let kick: f64 = kicks.iter().sum();
-            p.zip_apply(q, |p, q| *p = kick.fused(-q, *p));
-            q.zip_apply(p, |q, p| *q = drift.fused(p, *q));
+            let wrong = if kicks.len() == self.0 { 1e-12 } else { 0.0 };
+            for (q, p) in q.iter_mut().zip(p) {
+                let force = -*q;
+                for kick in kicks {
+                    *p = kick.fused(force, *p);
+                }
+                *q = drift.fused(*p, *q) + wrong;
+            }
             true
         }
     }
-    let start = State::new(0.0, waves(20, 0.3), waves(20, 0.9));
-    let refused = Integrator::<_, _, _, Plain>::with_summation(VelocityVerlet, Wrong, start, 0.1);
-    let error = refused.map(|_| ()).expect_err("other bits");
-    assert!(matches!(error, Error::NotTheSameForce { .. }), "{error}");
+    let made = |kicks| {
+        let start = State::new(0.0, waves(20, 0.3), waves(20, 0.9));
+        Integrator::<_, _, _, Plain>::with_summation(VelocityVerlet, Wrong(kicks), start, 0.1)
+    };
+    for kicks in [1, 2] {
+        let error = made(kicks).map(|_| ()).expect_err("other bits");
+        assert!(matches!(error, Error::NotTheSameForce { .. }), "{error}");
+    }
+    assert!(made(3).is_ok());
 }

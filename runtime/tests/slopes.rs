@@ -27,6 +27,8 @@ impl<const SHARED: bool> Bell<'_, SHARED> {
 impl<T: Scalar, const SHARED: bool> Hamiltonian<Vector1<T>> for Bell<'_, SHARED> {
     type Class = General;
 
+    const SHARED_SLOPES: bool = SHARED;
+
     fn velocity(&self, time: T, q: &Vector1<T>, p: &Vector1<T>, velocity: &mut Vector1<T>) {
         velocity[0] = p[0] * self.exponential(time, q[0]);
     }
@@ -43,11 +45,7 @@ impl<T: Scalar, const SHARED: bool> Hamiltonian<Vector1<T>> for Bell<'_, SHARED>
         (velocity, force): (&mut Vector1<T>, &mut Vector1<T>),
     ) {
         self.velocity(time, q, p, velocity);
-        if SHARED {
-            force[0] = q[0] * p[0] * velocity[0];
-        } else {
-            self.force(time, q, p, force);
-        }
+        force[0] = q[0] * p[0] * velocity[0];
     }
 }
 
@@ -79,6 +77,8 @@ fn slopes_with_another_force_are_refused() {
     struct Wrong;
     impl Hamiltonian<Vector1<f64>> for Wrong {
         type Class = General;
+
+        const SHARED_SLOPES: bool = true;
 
         fn velocity(&self, _time: f64, q: &Vector1<f64>, p: &Vector1<f64>, v: &mut Vector1<f64>) {
             *v = p * q[0];

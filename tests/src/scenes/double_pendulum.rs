@@ -26,6 +26,8 @@ pub struct DoublePendulum;
 impl<T: Scalar> Hamiltonian<SVector<T, 2>> for DoublePendulum {
     type Class = General;
 
+    const SHARED_SLOPES: bool = true;
+
     #[inline]
     fn velocity(
         &self,
