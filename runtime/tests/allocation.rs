@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 
 use common::systems::Pendulum;
 use common::{Midpoint, StoermerVerlet};
-use symplectic::{Error, Event, Integrator, Method, Scalar, State, Vector};
+use symplectic::{Bonds, Chain, Error, Event, Integrator, Method, Scalar, State, Vector};
 
 thread_local! {
     static COUNT: Cell<u64> = const { Cell::new(0) };
@@ -137,4 +137,28 @@ fn steps_make_no_vectors() -> Result<(), Error> {
     // stages where they are solved for.
     check(StoermerVerlet, 6 + 2)?;
     check(Midpoint, 6 + 4)
+}
+
+/// In blocks of one pass for all, and by themselves.
+#[test]
+fn steps_of_a_chain_make_no_vectors() -> Result<(), Error> {
+    struct Springs;
+    impl Bonds for Springs {
+        fn tension<T: Scalar>(&self, _time: T, stretch: T) -> T {
+            stretch
+        }
+    }
+    let start = State::new(
+        0.0,
+        Counted::new(vec![0.0; 100]),
+        Counted::new(vec![1.0; 100]),
+    );
+    let mut plain = Integrator::plain(StoermerVerlet, Chain::between_walls(Springs), start, 0.1)?;
+    let (count, outcome) = made(|| {
+        plain.take_steps(1000)?;
+        plain.step().map(|_| ())
+    });
+    outcome?;
+    assert_eq!(count, 0);
+    Ok(())
 }

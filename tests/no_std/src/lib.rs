@@ -5,8 +5,8 @@
 
 #![no_std]
 
-use symplectic::nalgebra::Vector1;
-use symplectic::{Error, Integrator, Method, Scalar, SeparableHamiltonian, State};
+use symplectic::nalgebra::{SVector, Vector1};
+use symplectic::{Bonds, Chain, Error, Integrator, Method, Scalar, SeparableHamiltonian, State};
 
 symplectic::tableau! {
     /// Explicit for separable systems, order 2.
@@ -58,4 +58,25 @@ pub fn energy_error<M: Method>(method: M, angle: f64, step_size: f64) -> Result<
         }
     }
     Ok(largest)
+}
+
+/// Toda's bonds: `V(d) = exp(d) − d`.
+#[derive(Clone, Copy, Debug)]
+pub struct Toda;
+
+impl Bonds for Toda {
+    fn tension<T: Scalar>(&self, _time: T, stretch: T) -> T {
+        stretch.exp() - T::one()
+    }
+}
+
+/// The momentum of a ring of 100 particles after some steps, of which it keeps all.
+///
+/// # Errors
+/// Those of a step.
+pub fn momentum_of_a_ring(steps: u64) -> Result<f64, Error> {
+    let pushed = SVector::<f64, 100>::from_fn(|i, _| if i == 50 { 1.0 } else { 0.0 });
+    let start = State::new(0.0, SVector::zeros(), pushed);
+    let mut ring = Integrator::plain(StoermerVerlet, Chain::ring(Toda), start, 0.05)?;
+    Ok(ring.take_steps(steps)?.p.sum())
 }

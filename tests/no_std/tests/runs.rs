@@ -1,7 +1,7 @@
 //! It runs, and as well as with the standard library.
 
 use symplectic::Error;
-use symplectic_no_std::{Gauss4, StoermerVerlet, TripleJump, energy_error};
+use symplectic_no_std::{Gauss4, StoermerVerlet, TripleJump, energy_error, momentum_of_a_ring};
 
 #[test]
 fn a_pendulum_keeps_its_energy() -> Result<(), Error> {
@@ -16,5 +16,12 @@ fn a_pendulum_keeps_its_energy() -> Result<(), Error> {
         energy_error(Gauss4, 1.0, f64::NAN),
         Err(Error::StepSize { .. })
     ));
+    Ok(())
+}
+
+#[test]
+fn a_ring_keeps_its_momentum() -> Result<(), Error> {
+    let momentum = momentum_of_a_ring(2000)?;
+    assert!((momentum - 1.0).abs() < 1e-13, "{momentum:e}");
     Ok(())
 }
