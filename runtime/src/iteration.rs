@@ -193,16 +193,20 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
     let tolerates_more = tolerates && tolerance >= near[0] && (!both || tolerance >= near[1]);
     let tolerates_more = tolerates_more && kept.stages && !W::LOOKS_AFAR;
     // Comparisons with what is known before the sweep: the processor need not wait for the largest of all lanes. Nothing is made
-    // ready here for what is looked at below, for most iterations end here.
-    if W::HASTY && (tolerates_more || is_known) {
+    // ready here for what is looked at below, for most iterations end here; and a tolerance keeps nothing of the sweep before.
+    if tolerates_more {
         while iteration + 1 < late {
             let this = sweeps.sweep();
             iteration += 1;
-            if tolerates_more {
-                if is_tolerable(&this) {
-                    return Ok((iteration, scales));
-                }
-            } else if this.is_within(near, both) {
+            if is_tolerable(&this) {
+                return Ok((iteration, scales));
+            }
+        }
+    } else if W::HASTY && is_known {
+        while iteration + 1 < late {
+            let this = sweeps.sweep();
+            iteration += 1;
+            if this.is_within(near, both) {
                 let is_last = this.is_within(one, both)
                     || previous.is_some_and(|before| this.is_next_within(&before, one, both));
                 if is_last && sweeps.are_about(&this, scales, both) {
