@@ -194,7 +194,7 @@ fn the_library_comes_as_near_as_the_orbits_let_it() -> Result<(), Box<dyn Error>
         (
             "sine-Gordon lattice",
             error(
-                sine_gordon::SineGordon,
+                sine_gordon::system(),
                 sine_gordon::start(),
                 sine_gordon::recorded(10.0),
                 0.125,

@@ -15,7 +15,7 @@ use crate::scenes::henon_heiles::{self, HenonHeiles};
 use crate::scenes::nonseparable::{self, Nonseparable};
 use crate::scenes::outer_solar_system::{self, OuterSolarSystem};
 use crate::scenes::pythagorean_three_body::{self, PythagoreanThreeBody};
-use crate::scenes::sine_gordon::{self, SineGordon};
+use crate::scenes::sine_gordon;
 use crate::scenes::{point_vortices, post_newtonian_kepler};
 
 /// A run from the start of a scene to an end time.
@@ -143,7 +143,15 @@ pub const ALL: &[Recomputation] = &[
         parameters: "N = 64",
         time: 10.0,
         step: 0.25,
-        run: |method, time, step| uniform(method, SineGordon, sine_gordon::start(), time, step),
+        run: |method, time, step| {
+            uniform(
+                method,
+                sine_gordon::system(),
+                sine_gordon::start(),
+                time,
+                step,
+            )
+        },
     },
     Recomputation {
         scene: "damped particle",

@@ -8,7 +8,7 @@
 //! *Reference:* recorded, [`recorded`].
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Scalar, SeparableHamiltonian, State, Vector};
+use symplectic::{Bonds, Chain, Scalar, State};
 
 use super::Needs;
 use crate::references;
@@ -29,37 +29,31 @@ const RATIO: f64 = 1.25;
 const DECAY: f64 = 0.892_574_205_256_839;
 
 /// The system, for vectors of any kind and dimension.
+pub const fn system() -> Chain<Pendulums> {
+    Chain::ring(Pendulums)
+}
+
+/// The springs, and the pendulums between them.
 #[derive(Clone, Copy, Debug)]
-pub struct SineGordon;
+pub struct Pendulums;
 
-impl<V: Vector> SeparableHamiltonian<V> for SineGordon {
-    const UNIT_MASSES: bool = true;
-
-    #[inline]
-    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
-        symplectic::copy(velocity, p);
+impl Bonds for Pendulums {
+    #[inline(always)]
+    fn tension<T: Scalar>(&self, _time: T, stretch: T) -> T {
+        T::from_f64(STIFFNESS) * stretch
     }
 
-    #[inline]
-    fn force(&self, _time: V::Scalar, q: &V, force: &mut V) {
-        let stiffness = V::Scalar::from_f64(STIFFNESS);
-        let (q, n) = (q.as_slice(), q.dimension());
-        for (i, force) in force.as_mut_slice().iter_mut().enumerate() {
-            let (left, right) = (q[(i + n - 1) % n], q[(i + 1) % n]);
-            *force = stiffness * ((left - q[i]) + (right - q[i])) - q[i].sin();
-        }
+    #[inline(always)]
+    fn outer_force<T: Scalar>(&self, _time: T, position: T) -> Option<T> {
+        Some(-position.sin())
     }
 
-    fn energy(&self, _time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
-        let (half, one) = (V::Scalar::from_f64(0.5), V::Scalar::from_f64(1.0));
-        let stiffness = V::Scalar::from_f64(STIFFNESS);
-        let (q, p, n) = (q.as_slice(), p.as_slice(), q.dimension());
-        let mut energy = V::Scalar::from_f64(0.0);
-        for i in 0..n {
-            let stretch = q[(i + 1) % n] - q[i];
-            energy += half * (p[i] * p[i] + stiffness * stretch * stretch) + (one - q[i].cos());
-        }
-        Some(energy)
+    fn bond_energy<T: Scalar>(&self, _time: T, stretch: T) -> Option<T> {
+        Some(T::from_f64(0.5 * STIFFNESS) * stretch * stretch)
+    }
+
+    fn outer_energy<T: Scalar>(&self, _time: T, position: T) -> Option<T> {
+        Some(T::one() - position.cos())
     }
 }
 
@@ -89,6 +83,8 @@ pub fn recorded(time: f64) -> Option<State<SVector<f64, PENDULUMS>>> {
 
 #[cfg(test)]
 mod tests {
+    use symplectic::Hamiltonian;
+
     use super::*;
     use crate::scenes::check;
 
@@ -96,20 +92,20 @@ mod tests {
     fn the_derivatives_are_those_of_the_energy() {
         let mut state = start();
         state.q = state.p.map(|p: f64| (2.0 * p).sin());
-        check::derivatives(&SineGordon, &state, 1e-5, 1e-6);
-        check::needs(NEEDS, &SineGordon, &state);
+        check::derivatives(&system(), &state, 1e-5, 1e-6);
+        check::needs(NEEDS, &system(), &state);
     }
 
     #[test]
     fn the_energy_is_conserved() {
-        check::conservation(SineGordon, start(), 1.0 / 16.0, 2.0, 1e-13);
+        check::conservation(system(), start(), 1.0 / 16.0, 2.0, 1e-13);
     }
 
     #[test]
     fn the_breather_breathes() {
         // The continuous one has the energy 16w, and its middle is at 4 atan(w/ω sin ωt) where ω² = 1 − w².
         let start = start();
-        let energy = SeparableHamiltonian::energy(&SineGordon, 0.0, &start.q, &start.p);
+        let energy = Hamiltonian::energy(&system(), 0.0, &start.q, &start.p);
         let energy: f64 = energy.expect("an energy");
         assert!(
             (energy * 0.25 / (16.0 * DECAY) - 1.0).abs() < 1e-4,
@@ -117,7 +113,7 @@ mod tests {
         );
         let omega = (1.0 - DECAY * DECAY).sqrt();
         for time in [1.0, 3.0] {
-            let end = check::end(SineGordon, start.clone(), 1.0 / 16.0, time);
+            let end = check::end(system(), start.clone(), 1.0 / 16.0, time);
             let expected = 4.0 * (DECAY / omega * (omega * time).sin()).atan();
             // The lattice is off by d² times the fourth derivatives over 12.
             let error = (end.q[PENDULUMS / 2] - expected).abs();

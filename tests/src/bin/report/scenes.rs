@@ -378,7 +378,7 @@ fn argon_crystal(study: Study) -> Result<Study, Error> {
 fn sine_gordon(study: Study) -> Result<Study, Error> {
     const N: usize = sine_gordon::PENDULUMS;
     let (start, end) = (sine_gordon::start(), 10.0);
-    let system = sine_gordon::SineGordon;
+    let system = sine_gordon::system();
     let reference = recorded(sine_gordon::recorded(end));
     let problem = Problem::new(
         "Sine-Gordon lattice, N = 64",
