@@ -5,13 +5,13 @@ use core::marker::PhantomData;
 use crate::in_lanes::{
     ByLanes, LaneMovement, LanePart, Sums, extrapolate, extrapolates, fill, sum, total, values,
 };
-use crate::iteration::{Sweeps, settle};
+use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::lane_stages::{LaneStages, Laned};
 use crate::starting_values::{Starting, starts_at_once};
 use crate::{
     Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, HamiltonianInLanes,
-    InLanes, Inside, Kept, Outcome, Quantity, Solver, StageTableau, Step, Stopping, Summation,
-    Vector, Work,
+    InLanes, Inside, Kept, Outcome, Quantity, Scalar, Solver, StageTableau, Step, Stopping,
+    Summation, Vector, Work,
 };
 
 /// [`InLanes`] for Hamiltonians that are not separable, with positions and momenta iterated at once.
@@ -255,6 +255,17 @@ where
     #[inline(always)]
     fn non_finite_force(&mut self) -> Option<usize> {
         self.0.non_finite_force()
+    }
+
+    #[inline(always)]
+    fn go_on<C: Class, T: Scalar>(
+        &mut self,
+        kept: Kept,
+        stopping: Stopping,
+        begun: Begun<Self::Movement>,
+    ) -> Result<Work, Failure> {
+        self.0
+            .elsewhere(|lanes| patiently::<C, T, _>(&mut Halves(lanes), kept, stopping, begun))
     }
 
     #[inline(always)]

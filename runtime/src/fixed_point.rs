@@ -1,11 +1,12 @@
 //! Coupled stages by fixed-point iteration.
 
 use core::marker::PhantomData;
+use core::mem;
 
-use crate::iteration::{Sweeps, settle};
+use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::{
-    Change, EvaluationCounts, Failure, Hamiltonian, Inside, Kept, Outcome, Quantity, Solver,
-    StagePlan, StageStorage, StageTableau, Step, Stopping, Summation, Vector, Work,
+    Change, Class, EvaluationCounts, Failure, Hamiltonian, Inside, Kept, Outcome, Quantity, Scalar,
+    Solver, StagePlan, StageStorage, StageTableau, Step, Stopping, Summation, Vector, Work,
 };
 
 /// Fixed-point iteration: sweep after sweep from the latest evaluations to new stages. It converges where the step size
@@ -130,6 +131,31 @@ where
 
     fn non_finite_force(&mut self) -> Option<usize> {
         self.stages.non_finite_force()
+    }
+
+    #[inline(always)]
+    fn go_on<C: Class, T: Scalar>(
+        &mut self,
+        kept: Kept,
+        stopping: Stopping,
+        begun: Begun<Change>,
+    ) -> Result<Work, Failure> {
+        if mem::needs_drop::<V>() {
+            return patiently::<C, T, _>(self, kept, stopping, begun);
+        }
+        let mut stages = mem::replace(self.stages, StageStorage::like(&V::blank()));
+        let (system, sums) = (self.system, PhantomData);
+        let made = self.step.copied(|step| {
+            let mut there = ByStages::<P, R, V, S> {
+                step,
+                system,
+                stages: &mut stages,
+                sums,
+            };
+            patiently::<C, T, _>(&mut there, kept, stopping, begun)
+        });
+        *self.stages = stages;
+        made
     }
 
     #[inline(always)]

@@ -1,8 +1,9 @@
 //! Coupled stages side by side in lanes.
 
 use core::marker::PhantomData;
+use core::mem;
 
-use crate::iteration::{Movement, Sweeps, is_next_within, settle};
+use crate::iteration::{Begun, Movement, Sweeps, is_next_within, patiently, settle};
 use crate::kernel::sum_of_products;
 use crate::lane_stages::{LaneStages, Laned};
 use crate::summation::add;
@@ -156,12 +157,22 @@ where
 
     #[inline(always)]
     fn non_finite(&mut self) -> Option<(Quantity, usize)> {
-        self.stages.seen(StageStorage::non_finite)
+        self.stages.non_finite()
     }
 
     #[inline(always)]
     fn non_finite_force(&mut self) -> Option<usize> {
-        self.stages.seen(StageStorage::non_finite_force)
+        self.stages.non_finite_force()
+    }
+
+    #[inline(always)]
+    fn go_on<C: Class, T: Scalar>(
+        &mut self,
+        kept: Kept,
+        stopping: Stopping,
+        begun: Begun<Self::Movement>,
+    ) -> Result<Work, Failure> {
+        self.elsewhere(|mut lanes| patiently::<C, T, _>(&mut lanes, kept, stopping, begun))
     }
 
     #[inline(always)]
@@ -229,6 +240,33 @@ where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
+    /// What `go_on` makes of these stages. It is given them in another place, unless they are on the heap: stages that nothing
+    /// points to can be in registers from step to step.
+    #[inline(always)]
+    pub(crate) fn elsewhere<T>(&mut self, go_on: impl FnOnce(ByLanes<'_, P, R, V, S>) -> T) -> T {
+        let (system, sums) = (self.system, PhantomData);
+        if mem::needs_drop::<V>() {
+            let (step, stages) = (self.step, &mut *self.stages);
+            return go_on(ByLanes {
+                step,
+                system,
+                stages,
+                sums,
+            });
+        }
+        let mut stages = self.stages.take();
+        let made = self.step.copied(|step| {
+            go_on(ByLanes {
+                step,
+                system,
+                stages: &mut stages,
+                sums,
+            })
+        });
+        *self.stages = stages;
+        made
+    }
+
     /// New positions; returns how much they changed.
     #[inline(always)]
     pub(crate) fn positions(&mut self) -> LanePart<P::Lanes> {
@@ -444,6 +482,19 @@ impl<L: Lanes> Movement for LaneMovement<L> {
     }
 
     #[inline(always)]
+    fn settles_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
+        match both {
+            true => self.q.is_within(q) && self.p.is_within(p),
+            // Of a half that is not a number the lanes may lose that.
+            false => {
+                !self.q.sum.any_nan()
+                    && !self.p.sum.any_nan()
+                    && (self.q.is_within(q) || self.p.is_within(p))
+            }
+        }
+    }
+
+    #[inline(always)]
     fn exceeds(&self, [q, p]: [f64; 2], both: bool) -> bool {
         self.q.exceeds(q) && (!both || self.p.exceeds(p))
     }
@@ -451,6 +502,16 @@ impl<L: Lanes> Movement for LaneMovement<L> {
     #[inline(always)]
     fn is_next_within(&self, before: &Self, [q, p]: [f64; 2], both: bool) -> bool {
         self.q.is_next_within(&before.q, q) && (!both || self.p.is_next_within(&before.p, p))
+    }
+
+    #[inline(always)]
+    fn size(&self, [q, p]: [f64; 2], both: bool) -> f64 {
+        let (of_q, of_p) = (self.q.difference, self.p.difference);
+        match both {
+            true => (of_q * L::from_f64(q)).larger(of_p * L::from_f64(p)),
+            false => of_q,
+        }
+        .largest()
     }
 }
 

@@ -18,28 +18,16 @@ pub struct LaneStages<V: Vector, P: StageTableau> {
 }
 
 impl<V: Vector, P: StageTableau> LaneStages<V, P> {
-    /// What `look` sees in the stages.
-    ///
-    /// It is shown them in another place: stages that nothing points to can be in registers from step to step.
+    /// The stages, moved out: nothing points to where they were.
     #[inline(always)]
-    pub(crate) fn seen<T>(&mut self, look: impl Fn(&Self) -> T) -> T {
+    pub(crate) fn take(&mut self) -> Self {
         let blank = || P::groups(|_| Laned::<V, P>::blank());
-        let stages = Self {
+        Self {
             q: mem::replace(&mut self.q, blank()),
             p: mem::replace(&mut self.p, blank()),
             velocity: mem::replace(&mut self.velocity, blank()),
             force: mem::replace(&mut self.force, blank()),
-        };
-        let (stages, seen) = stages.elsewhere(look);
-        *self = stages;
-        seen
-    }
-
-    /// What `look` sees in the stages, which come back.
-    #[inline(never)]
-    fn elsewhere<T>(self, look: impl Fn(&Self) -> T) -> (Self, T) {
-        let seen = look(&self);
-        (self, seen)
+        }
     }
 }
 

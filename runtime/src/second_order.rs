@@ -6,7 +6,7 @@ use crate::in_lanes::{
     ByLanes, LaneMovement, LanePart, Sums, entry, extend, extrapolate, fill, is_about, lanes,
     scale, scale_of, total, values,
 };
-use crate::iteration::{Sweeps, settle};
+use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::lane_stages::LaneStages;
 use crate::starting_values::{StartingColumns, starting_columns, starts_at_once};
 use crate::summation::add;
@@ -403,6 +403,18 @@ where
     #[inline(always)]
     fn non_finite_force(&mut self) -> Option<usize> {
         self.lanes.non_finite_force()
+    }
+
+    #[inline(always)]
+    fn go_on<C: Class, T: Scalar>(
+        &mut self,
+        kept: Kept,
+        stopping: Stopping,
+        begun: Begun<Self::Movement>,
+    ) -> Result<Work, Failure> {
+        self.lanes.elsewhere(|lanes| {
+            patiently::<C, T, _>(&mut Positions { lanes }, kept, stopping, begun)
+        })
     }
 
     #[inline(always)]

@@ -19,6 +19,23 @@ pub struct Step<'a, V> {
     pub p_low: &'a V,
 }
 
+impl<V: Vector> Step<'_, V> {
+    /// What `take` makes of a copy: nothing points to the vectors themselves.
+    #[inline(always)]
+    pub(crate) fn copied<T>(&self, take: impl FnOnce(&Step<'_, V>) -> T) -> T {
+        let (q, q_low) = (self.q.clone(), self.q_low.clone());
+        let (p, p_low) = (self.p.clone(), self.p_low.clone());
+        take(&Step {
+            time: self.time,
+            size: self.size,
+            q: &q,
+            q_low: &q_low,
+            p: &p,
+            p_low: &p_low,
+        })
+    }
+}
+
 impl<V> Step<'_, V> {
     /// The time `t0 + c h` of the node `c`.
     #[inline(always)]

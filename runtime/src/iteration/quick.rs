@@ -1,0 +1,167 @@
+//! Sweeps that are compared with the stages of the step before: how nearly all iterations end.
+//!
+//! The processor need not wait for the largest of all lanes, and nothing is made ready for what is rarely needed.
+
+use super::{
+    Begun, Class, Kept, Movement, PATIENCE, ROUNDING, STAGNATION, Scalar, Stopping, Sweeps, coin,
+    is_known, units,
+};
+
+/// A tolerance of so many units of EPSILON is waited for, for as long as sweeps are [early](PATIENCE): rounding lets changes
+/// come down to it but for noisy evaluations.
+const WITHIN_REACH: f64 = 8.0;
+
+/// The sweeps of an iteration that has settled, and how large its stages are; or what is begun of one that has not.
+type Hastened<M> = Result<(u32, [f64; 2]), Begun<M>>;
+
+/// Sweeps on from the stages of the step before.
+#[inline(always)]
+pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
+    sweeps: &mut W,
+    kept: Kept,
+    stopping: Stopping,
+) -> Hastened<W::Movement> {
+    let both = W::both::<C>();
+    if W::LOOKS_AFAR || !kept.stages || !is_known::<T>(kept.scales, both || !W::HASTY) {
+        return Err(Begun::NOTHING);
+    }
+    sweeps.begin(kept);
+    let late = stopping.max_iterations.min(PATIENCE);
+    if !W::HASTY {
+        let bound = stopping.max_iterations.min(STAGNATION);
+        return to_stagnation::<T, W>(sweeps, kept.scales, [late, bound], both);
+    }
+    let [q, p] = units::<T>(WITHIN_REACH, kept.scales);
+    let tolerance = stopping.tolerance;
+    if tolerance >= q && (!both || tolerance >= p) {
+        let settled = to_tolerance(sweeps, tolerance, late, both);
+        settled.map(|iterations| (iterations, kept.scales))
+    } else {
+        to_rounding::<T, W>(sweeps, kept.scales, late, both)
+    }
+}
+
+/// To the first change within a tolerance.
+#[inline(always)]
+fn to_tolerance<W: Sweeps>(
+    sweeps: &mut W,
+    tolerance: f64,
+    late: u32,
+    both: bool,
+) -> Result<u32, Begun<W::Movement>> {
+    let mut iterations = 0;
+    while iterations + 1 < late {
+        let this = sweeps.sweep();
+        iterations += 1;
+        if this.is_within([tolerance; 2], both) {
+            return Ok(iterations);
+        }
+    }
+    Err(Begun {
+        iterations,
+        ..Begun::NOTHING
+    })
+}
+
+/// To a change that can be rounding errors, if the next one would be a unit of EPSILON.
+#[inline(always)]
+fn to_rounding<T: Scalar, W: Sweeps>(
+    sweeps: &mut W,
+    scales: [f64; 2],
+    late: u32,
+    both: bool,
+) -> Hastened<W::Movement> {
+    let mut size = Size::of::<T>(scales);
+    let mut begun = Begun::NOTHING;
+    let mut was_near = false;
+    while begun.iterations + 1 < late {
+        let this = sweeps.sweep();
+        begun.iterations += 1;
+        if this.is_within(size.near, both) {
+            let is_last = |scales| {
+                let one = units::<T>(1.0, scales);
+                let next = |before| this.is_next_within(&before, one, both);
+                this.is_within(one, both) || begun.before.is_some_and(next)
+            };
+            if is_last(size.scales) && sweeps.are_about(&this, size.scales, both) {
+                return Ok((begun.iterations, size.scales));
+            }
+            size = Size::of::<T>(sweeps.change(&this).scales());
+            if this.is_within(size.near, both) && is_known::<T>(size.scales, both) {
+                if is_last(size.scales) {
+                    return Ok((begun.iterations, size.scales));
+                }
+                if was_near {
+                    begun.last = Some(this);
+                    return Err(begun);
+                }
+                was_near = true;
+            }
+        }
+        begun.before = Some(this);
+    }
+    Err(begun)
+}
+
+/// Until changes that can be rounding errors have stopped shrinking, and at the times of one side of the [`coin`] for a sweep more.
+#[inline(always)]
+fn to_stagnation<T: Scalar, W: Sweeps>(
+    sweeps: &mut W,
+    scales: [f64; 2],
+    [late, bound]: [u32; 2],
+    both: bool,
+) -> Hastened<W::Movement> {
+    let mut size = Size::of::<T>(scales);
+    let mut begun = Begun::NOTHING;
+    let mut smallest = f64::INFINITY;
+    let mut once_more = false;
+    while begun.iterations + 1 < bound {
+        let this = sweeps.sweep();
+        begun.iterations += 1;
+        if once_more {
+            return Ok((begun.iterations, size.scales));
+        }
+        let mut is_near = this.settles_within(size.near, both);
+        if is_near && smallest == f64::INFINITY && !sweeps.are_about(&this, size.scales, true) {
+            size = Size::of::<T>(sweeps.change(&this).scales());
+            is_near = this.settles_within(size.near, both) && is_known::<T>(size.scales, true);
+        }
+        if is_near {
+            let part = this.size(size.parts, both);
+            if part < smallest && part > 0.0 {
+                (smallest, begun.before) = (part, Some(this));
+            } else if part > 0.0 && begun.iterations < late && coin(sweeps.time()) {
+                once_more = true;
+            } else {
+                return Ok((begun.iterations, size.scales));
+            }
+        } else if smallest < f64::INFINITY || begun.iterations + 1 >= late {
+            begun.last = Some(this);
+            return Err(begun);
+        } else if begun.iterations == 1 {
+            begun.first = Some(this);
+        }
+    }
+    Err(begun)
+}
+
+/// How large stages are.
+struct Size {
+    /// Positions and momenta, but for a factor of two.
+    scales: [f64; 2],
+    /// What one of each is a part of.
+    parts: [f64; 2],
+    /// What can be rounding errors.
+    near: [f64; 2],
+}
+
+impl Size {
+    #[inline(always)]
+    fn of<T: Scalar>(scales: [f64; 2]) -> Self {
+        Self {
+            scales,
+            parts: scales.map(|scale| 1.0 / scale),
+            near: units::<T>(ROUNDING, scales),
+        }
+    }
+}
