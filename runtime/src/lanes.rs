@@ -253,10 +253,14 @@ macro_rules! lanes {
 
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                let lanes = self.to_array().map(<f64 as Scalar>::sin_cos);
+                let lanes = self.to_array();
+                let (mut sines, mut cosines) = (lanes, lanes);
+                for lane in 0..$width {
+                    (sines[lane], cosines[lane]) = Scalar::sin_cos(lanes[lane]);
+                }
                 (
-                    Self::from_fn(|lane| lanes[lane].0),
-                    Self::from_fn(|lane| lanes[lane].1),
+                    Self::from_fn(|lane| sines[lane]),
+                    Self::from_fn(|lane| cosines[lane]),
                 )
             }
 
