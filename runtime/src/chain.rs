@@ -274,12 +274,16 @@ impl<T: Scalar> Pass<T> for Forces<'_, T> {
         let (out, _) = R::rows_mut(&mut self.force[begin..end]);
         let n = q.len().min(out.len());
         let (q, out) = (&q[..n], &mut out[..n]);
-        let mut here = if n > 0 { R::load(&q[0]) } else { after };
-        for i in 0..n {
-            let next = if i + 1 < n { R::load(&q[i + 1]) } else { after };
+        let (Some(first), Some(last)) = (q.first(), n.checked_sub(1)) else {
+            return;
+        };
+        let mut here = R::load(first);
+        for i in 0..last {
+            let next = R::load(&q[i + 1]);
             out[i] = R::store(force(here, next));
             here = next;
         }
+        out[last] = R::store(force(here, after));
     }
 }
 
@@ -309,18 +313,24 @@ impl<T: Scalar, const K: usize> Pass<T> for KicksAndDrift<'_, T, K> {
         let n = q.len().min(p.len());
         let (q, p) = (&mut q[..n], &mut p[..n]);
         let (kicks, drift) = (splats::<T, R, K>(self.kicks), R::splat(self.drift));
-        let mut here = if n > 0 { R::load(&q[0]) } else { after };
-        for i in 0..n {
-            let next = if i + 1 < n { R::load(&q[i + 1]) } else { after };
-            let force = force(here, next);
-            let mut momentum = R::load(&p[i]);
+        let mut row = |here: R::Numbers, force: R::Numbers, q: &mut R::Array, p: &mut R::Array| {
+            let mut momentum = R::load(p);
             for kick in kicks {
                 momentum = kick.fused(force, momentum);
             }
-            p[i] = R::store(momentum);
-            q[i] = R::store(drift.fused(momentum, here));
+            *p = R::store(momentum);
+            *q = R::store(drift.fused(momentum, here));
+        };
+        let (Some(first), Some(last)) = (q.first(), n.checked_sub(1)) else {
+            return;
+        };
+        let mut here = R::load(first);
+        for i in 0..last {
+            let next = R::load(&q[i + 1]);
+            row(here, force(here, next), &mut q[i], &mut p[i]);
             here = next;
         }
+        row(here, force(here, after), &mut q[last], &mut p[last]);
     }
 }
 

@@ -31,6 +31,9 @@ pub trait Lanes: Scalar {
     /// The double of each lane, by its number from 0.
     fn from_fn(lane: impl FnMut(usize) -> f64) -> Self;
 
+    /// The double of each lane.
+    fn from_array(doubles: Self::Array) -> Self;
+
     /// The doubles of the lanes.
     fn to_array(self) -> Self::Array;
 
@@ -275,6 +278,11 @@ macro_rules! lanes {
             #[inline(always)]
             fn from_fn(lane: impl FnMut(usize) -> f64) -> Self {
                 Self(<$inner>::new(array(0.0, lane)))
+            }
+
+            #[inline(always)]
+            fn from_array(doubles: [f64; $width]) -> Self {
+                Self(<$inner>::new(doubles))
             }
 
             #[inline(always)]

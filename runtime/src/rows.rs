@@ -119,7 +119,7 @@ impl Row<f64> for Eight {
 
     #[inline(always)]
     fn load(row: &[f64; 8]) -> F64x8 {
-        F64x8::from_fn(|lane| row[lane])
+        F64x8::from_array(*row)
     }
 
     #[inline(always)]

@@ -83,17 +83,8 @@ struct Problem<S, B, V> {
     compared: u64,
     /// What no stage of the iteration by hand may move by in the end; rounding errors are smaller.
     tolerance: f64,
-    /// With which sums the library iterates positions and momenta at once, as it is done by hand for Hamiltonians that are not
-    /// separable.
-    at_once: AtOnce,
-}
-
-/// With which sums.
-#[derive(Clone, Copy)]
-enum AtOnce {
-    Never,
-    Plain,
-    Always,
+    /// Whether the library iterates positions and momenta at once, as it is done by hand for Hamiltonians that are not separable.
+    at_once: bool,
 }
 
 /// Every pair.
@@ -111,7 +102,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 641,
             compared: 128,
             tolerance: 1e-14,
-            at_once: AtOnce::Never,
+            at_once: false,
         },
     );
     few::separable(
@@ -126,7 +117,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 1025,
             compared: 20,
             tolerance: 1e-12,
-            at_once: AtOnce::Never,
+            at_once: false,
         },
     );
     few::separable(
@@ -141,7 +132,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 25641,
             compared: 100,
             tolerance: 1e-14,
-            at_once: AtOnce::Never,
+            at_once: false,
         },
     );
     few::separable(
@@ -160,7 +151,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 5000,
             compared: 100,
             tolerance: 1e-14,
-            at_once: AtOnce::Never,
+            at_once: false,
         },
     );
     few::general(
@@ -175,7 +166,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 1000,
             compared: 100,
             tolerance: 1e-13,
-            at_once: AtOnce::Plain,
+            at_once: false,
         },
     );
     few::general(
@@ -190,7 +181,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 1000,
             compared: 100,
             tolerance: 1e-14,
-            at_once: AtOnce::Always,
+            at_once: true,
         },
     );
     many::chain(&mut pairs);

@@ -6,7 +6,7 @@ use symplectic::{
 };
 use wide::{f64x2, f64x4, f64x8};
 
-use super::{AtOnce, Pair, Problem, TO_ROUNDING, rule};
+use super::{Pair, Problem, TO_ROUNDING, rule};
 use crate::baseline::explicit::{self, Splitting};
 use crate::baseline::gauss::{FirstOrder, Rule, SecondOrder};
 use crate::baseline::lanes::Lanes;
@@ -193,12 +193,7 @@ where
         set: impl Fn(Made<M, S, N, R>) -> Result<Made<M, S, N, R>, Error> + 'static,
         baseline: impl Fn(u64) -> Vec<f64> + 'static,
     ) -> Pair {
-        let at_once = match self.at_once {
-            AtOnce::Never => false,
-            AtOnce::Plain => !R::COMPENSATED,
-            AtOnce::Always => true,
-        };
-        if at_once {
+        if self.at_once {
             let solved = move |made| Ok(set(made)?.at_once_in_lanes());
             self.pair(method, step_size, solved, baseline)
         } else {

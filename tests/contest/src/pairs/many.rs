@@ -3,7 +3,7 @@
 use symplectic::nalgebra::DVector;
 use symplectic::{Integrator, Method, Plain};
 
-use super::{AtOnce, Pair, Problem, TO_ROUNDING, rule};
+use super::{Pair, Problem, TO_ROUNDING, rule};
 use crate::baseline::chain::{self, Blocks};
 use crate::baseline::explicit::{self, Splitting};
 use symplectic_tests::methods::{BlanesMoanSrkn14a, ForestRuth, Gauss8, VelocityVerlet};
@@ -23,7 +23,7 @@ pub(super) fn chain(pairs: &mut Vec<Pair>) {
         steps: 200,
         compared: 200,
         tolerance: 1e-14,
-        at_once: AtOnce::Never,
+        at_once: false,
     };
     let Problem {
         step_size,
