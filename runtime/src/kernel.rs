@@ -7,6 +7,7 @@
 use num_traits::Zero;
 
 use crate::array::array;
+use crate::rows::{Four, Row, Single};
 use crate::summation::{add, add_sum};
 use crate::{Coefficient, Hamiltonian, Scalar, Summation, Vector};
 
@@ -129,13 +130,46 @@ pub fn advance<R: Summation, V: Vector>(
 fn add_products<R: Summation, T: Scalar>(out: &mut [T], low: &mut [T], factor: T, terms: &[T]) {
     let n = out.len().min(low.len()).min(terms.len());
     let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
-    for i in 0..n {
-        if R::COMPENSATED {
-            (out[i], low[i]) = add_sum(out[i], low[i], (factor * terms[i], None));
-        } else {
+    if !R::COMPENSATED {
+        for i in 0..n {
             out[i] = factor.fused(terms[i], out[i]);
         }
+        return;
     }
+    if let (Some(out), Some(low), Some(&[factor]), Some(terms)) = (
+        T::doubles_mut(&mut *out),
+        T::doubles_mut(&mut *low),
+        T::doubles(&[factor]),
+        T::doubles(terms),
+    ) {
+        // Which components the compiler would put side by side by itself goes with what is around them.
+        let (out, low, terms) = add_rows::<f64, Four>(out, low, factor, terms);
+        add_rows::<f64, Single>(out, low, factor, terms);
+    } else {
+        add_rows::<T, Single>(out, low, factor, terms);
+    }
+}
+
+/// `out + low + factor terms` with compensated sums, row by row; returns what does not fill one.
+#[inline(always)]
+fn add_rows<'a, T: Scalar, W: Row<T>>(
+    out: &'a mut [T],
+    low: &'a mut [T],
+    factor: T,
+    terms: &'a [T],
+) -> (&'a mut [T], &'a mut [T], &'a [T]) {
+    let (out, last_out) = W::rows_mut(out);
+    let (low, last_low) = W::rows_mut(low);
+    let (terms, last_terms) = W::rows(terms);
+    let n = out.len().min(low.len()).min(terms.len());
+    let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
+    let factor = W::splat(factor);
+    for i in 0..n {
+        let (high, rest) = (W::load(&out[i]), W::load(&low[i]));
+        let (high, rest) = add_sum(high, rest, (factor * W::load(&terms[i]), None));
+        (out[i], low[i]) = (W::store(high), W::store(rest));
+    }
+    (last_out, last_low, last_terms)
 }
 
 /// Kicks one after the other, and a drift of unit masses, component by component: the same bits as by one [`advance`] each.

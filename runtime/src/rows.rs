@@ -3,12 +3,12 @@
 use num_traits::Zero;
 
 use crate::array::array;
-use crate::{F64x8, Lanes, Scalar};
+use crate::{F64x4, F64x8, Lanes, Scalar};
 
 /// Components side by side.
 pub(crate) trait Row<T: Scalar> {
     /// Them as they are in memory.
-    type Array;
+    type Array: 'static;
     /// Them as one number.
     type Numbers: Scalar;
 
@@ -93,61 +93,80 @@ impl<T: Scalar> Row<T> for Single {
     }
 }
 
-/// Eight doubles side by side.
-pub(crate) struct Eight;
+macro_rules! row {
+    ($(#[$text:meta])* $name:ident, $lanes:ident, $width:literal) => {
+        $(#[$text])*
+        pub(crate) struct $name;
 
-impl Row<f64> for Eight {
-    type Array = [f64; 8];
-    type Numbers = F64x8;
+        impl Row<f64> for $name {
+            type Array = [f64; $width];
+            type Numbers = $lanes;
 
-    const WIDTH: usize = 8;
+            const WIDTH: usize = $width;
 
-    #[inline(always)]
-    fn misaligned(vector: &[f64]) -> usize {
-        vector.as_ptr().align_offset(align_of::<F64x8>())
-    }
+            #[inline(always)]
+            fn misaligned(vector: &[f64]) -> usize {
+                vector.as_ptr().align_offset(align_of::<$lanes>())
+            }
 
-    #[inline(always)]
-    fn rows(vector: &[f64]) -> (&[[f64; 8]], &[f64]) {
-        vector.as_chunks()
-    }
+            #[inline(always)]
+            fn rows(vector: &[f64]) -> (&[[f64; $width]], &[f64]) {
+                vector.as_chunks()
+            }
 
-    #[inline(always)]
-    fn rows_mut(vector: &mut [f64]) -> (&mut [[f64; 8]], &mut [f64]) {
-        vector.as_chunks_mut()
-    }
+            #[inline(always)]
+            fn rows_mut(vector: &mut [f64]) -> (&mut [[f64; $width]], &mut [f64]) {
+                vector.as_chunks_mut()
+            }
 
-    #[inline(always)]
-    fn load(row: &[f64; 8]) -> F64x8 {
-        F64x8::from_array(*row)
-    }
+            #[inline(always)]
+            fn load(row: &[f64; $width]) -> $lanes {
+                $lanes::from_array(*row)
+            }
 
-    #[inline(always)]
-    fn store(numbers: F64x8) -> [f64; 8] {
-        numbers.to_array()
-    }
+            #[inline(always)]
+            fn store(numbers: $lanes) -> [f64; $width] {
+                numbers.to_array()
+            }
 
-    #[inline(always)]
-    fn splat(number: f64) -> F64x8 {
-        F64x8::from_f64(number)
-    }
+            #[inline(always)]
+            fn splat(number: f64) -> $lanes {
+                $lanes::from_f64(number)
+            }
 
-    #[inline(always)]
-    fn last(numbers: F64x8) -> f64 {
-        numbers.to_array()[7]
-    }
+            #[inline(always)]
+            fn last(numbers: $lanes) -> f64 {
+                numbers.to_array()[$width - 1]
+            }
 
-    #[inline(always)]
-    fn right(numbers: F64x8, next: F64x8) -> F64x8 {
-        let (numbers, [after, ..]) = (numbers.to_array(), next.to_array());
-        F64x8::from_fn(|lane| if lane < 7 { numbers[lane + 1] } else { after })
-    }
+            #[inline(always)]
+            fn right(numbers: $lanes, next: $lanes) -> $lanes {
+                let (numbers, [after, ..]) = (numbers.to_array(), next.to_array());
+                $lanes::from_fn(|lane| {
+                    if lane + 1 < $width {
+                        numbers[lane + 1]
+                    } else {
+                        after
+                    }
+                })
+            }
 
-    #[inline(always)]
-    fn left(previous: F64x8, numbers: F64x8) -> F64x8 {
-        let ([.., before], numbers) = (previous.to_array(), numbers.to_array());
-        F64x8::from_fn(|lane| if lane > 0 { numbers[lane - 1] } else { before })
-    }
+            #[inline(always)]
+            fn left(previous: $lanes, numbers: $lanes) -> $lanes {
+                let ([.., before], numbers) = (previous.to_array(), numbers.to_array());
+                $lanes::from_fn(|lane| if lane > 0 { numbers[lane - 1] } else { before })
+            }
+        }
+    };
+}
+
+row! {
+    /// Four doubles side by side.
+    Four, F64x4, 4
+}
+row! {
+    /// Eight doubles side by side.
+    Eight, F64x8, 8
 }
 
 /// Factors as rows.
