@@ -80,7 +80,7 @@ where
         Ok(work)
     }
 
-    fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside, q: &mut V, p: &mut V) {
+    fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
         <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
     }
 }
@@ -264,8 +264,9 @@ where
         stopping: Stopping,
         begun: Begun<Self::Movement>,
     ) -> Result<Work, Failure> {
-        self.0
-            .elsewhere(|lanes| patiently::<C, T, _>(&mut Halves(lanes), kept, stopping, begun))
+        self.0.elsewhere(begun.is_nothing(), |lanes| {
+            patiently::<C, T, _>(&mut Halves(lanes), kept, stopping, begun)
+        })
     }
 
     #[inline(always)]

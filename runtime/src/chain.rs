@@ -313,7 +313,7 @@ impl<T: Scalar, const K: usize> Pass<T> for KicksAndDrift<'_, T, K> {
         let n = q.len().min(p.len());
         let (q, p) = (&mut q[..n], &mut p[..n]);
         let (kicks, drift) = (splats::<T, R, K>(self.kicks), R::splat(self.drift));
-        let mut row = |here: R::Numbers, force: R::Numbers, q: &mut R::Array, p: &mut R::Array| {
+        let row = |here: R::Numbers, force: R::Numbers, q: &mut R::Array, p: &mut R::Array| {
             let mut momentum = R::load(p);
             for kick in kicks {
                 momentum = kick.fused(force, momentum);

@@ -206,7 +206,7 @@ impl<L: Substeps> Plan for Composition<L> {
     const INTERPOLATION: Interpolation = Interpolation::Hermite;
 
     /// Only the stages of the last substep are left.
-    fn extend<V, S, N>(_memory: &Self::Memory<V, S, N>, _at: Inside, _q: &mut V, _p: &mut V)
+    fn extend<V, S, N>(_memory: &Self::Memory<V, S, N>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
     where
         V: Vector,
         S: Hamiltonian<V, Class = Self::Class>,

@@ -52,7 +52,7 @@ impl<P: StageTableau> Plan for Coupled<P> {
     const INTERPOLATION: Interpolation =
         Interpolation::of_stages(P::MOMENTA.polynomial, P::POSITIONS.polynomial);
 
-    fn extend<V, S, N>(memory: &N::Memory<P>, at: Inside, q: &mut V, p: &mut V)
+    fn extend<V, S, N>(memory: &N::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V)
     where
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,

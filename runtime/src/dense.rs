@@ -146,6 +146,7 @@ impl<V: Vector> Ends<V> {
         let at = Inside {
             fraction: (time - start) / (end - start),
             size: last.size,
+            momentum: last.momenta.start.0,
         };
         q.as_mut_slice().fill(num_traits::Zero::zero());
         p.as_mut_slice().fill(num_traits::Zero::zero());

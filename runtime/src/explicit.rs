@@ -59,7 +59,7 @@ impl<P: StagePlan> Plan for Explicit<P> {
     const INTERPOLATION: Interpolation = Interpolation::Hermite;
 
     /// Stages of an explicit method make no polynomial.
-    fn extend<V, S, N>(_memory: &P::Stages<V>, _at: Inside, _q: &mut V, _p: &mut V)
+    fn extend<V, S, N>(_memory: &P::Stages<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
     where
         V: Vector,
         S: Hamiltonian<V, Class = Self::Class>,

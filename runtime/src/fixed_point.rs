@@ -56,7 +56,7 @@ impl<V: Vector, S: Hamiltonian<V>> Solver<V, S> for FixedPoint {
         by_stages::<P, R, V, S>(step, system, stages, kept, stopping, outcome)
     }
 
-    fn extend<P: StageTableau>(stages: &P::Stages<V>, at: Inside, q: &mut V, p: &mut V) {
+    fn extend<P: StageTableau>(stages: &P::Stages<V>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
         let [velocities, forces] = P::stored(stages);
         at.add(&P::MOMENTA, P::INCREMENTS, velocities, q);
         at.add(&P::POSITIONS, P::INCREMENTS, forces, p);

@@ -68,7 +68,7 @@ where
         Ok(work)
     }
 
-    fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside, q: &mut V, p: &mut V) {
+    fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
         extend::<P, V>(&P::MOMENTA, at, stages.velocity.as_ref(), q);
         extend::<P, V>(&P::POSITIONS, at, stages.force.as_ref(), p);
     }
@@ -77,7 +77,7 @@ where
 /// Adds to `out` the part that vanishes at both ends of the step, of the evaluations of one half.
 pub(crate) fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
     half: &HalfTableau,
-    at: Inside,
+    at: Inside<'_, V>,
     terms: &[Laned<V, P>],
     out: &mut V,
 ) {
@@ -172,7 +172,9 @@ where
         stopping: Stopping,
         begun: Begun<Self::Movement>,
     ) -> Result<Work, Failure> {
-        self.elsewhere(|mut lanes| patiently::<C, T, _>(&mut lanes, kept, stopping, begun))
+        self.elsewhere(begun.is_nothing(), |mut lanes| {
+            patiently::<C, T, _>(&mut lanes, kept, stopping, begun)
+        })
     }
 
     #[inline(always)]
@@ -241,9 +243,13 @@ where
     S: HamiltonianInLanes<V>,
 {
     /// What `go_on` makes of these stages. It is given them in another place, unless they are on the heap: stages that nothing
-    /// points to can be in registers from step to step.
+    /// points to can be in registers from step to step. Those of the step before, where it begins `anew`, need not be in any.
     #[inline(always)]
-    pub(crate) fn elsewhere<T>(&mut self, go_on: impl FnOnce(ByLanes<'_, P, R, V, S>) -> T) -> T {
+    pub(crate) fn elsewhere<T>(
+        &mut self,
+        anew: bool,
+        go_on: impl FnOnce(ByLanes<'_, P, R, V, S>) -> T,
+    ) -> T {
         let (system, sums) = (self.system, PhantomData);
         if mem::needs_drop::<V>() {
             let (step, stages) = (self.step, &mut *self.stages);
@@ -254,7 +260,7 @@ where
                 sums,
             });
         }
-        let mut stages = self.stages.take();
+        let mut stages = self.stages.take(!anew);
         let made = self.step.copied(|step| {
             go_on(ByLanes {
                 step,

@@ -603,7 +603,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     }
 
     /// Adds what the stages of the last step say about its inside: see [`Plan::extend`].
-    pub(crate) fn extend(&self, at: Inside, q: &mut V, p: &mut V) {
+    pub(crate) fn extend(&self, at: Inside<'_, V>, q: &mut V, p: &mut V) {
         <PlanOf<M, S, V> as Plan>::extend::<V, S, N>(&self.course.memory, at, q, p);
     }
 

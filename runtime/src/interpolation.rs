@@ -71,15 +71,25 @@ impl Interpolation {
 }
 
 /// A place inside a step.
-#[derive(Clone, Copy, Debug)]
-pub struct Inside {
+#[derive(Debug)]
+pub struct Inside<'a, V> {
     /// The fraction θ of the step.
     pub fraction: f64,
     /// The size h of the step.
     pub size: f64,
+    /// The momentum at the start of the step.
+    pub momentum: &'a V,
 }
 
-impl Inside {
+impl<V> Clone for Inside<'_, V> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<V> Copy for Inside<'_, V> {}
+
+impl<V: Vector> Inside<'_, V> {
     /// By what the evaluation of a stage, from 0, is multiplied in the part that vanishes at both ends
     ///
     /// ```text
@@ -104,7 +114,7 @@ impl Inside {
     }
 
     /// Adds to `out` the part that vanishes at both ends, of evaluations that are stored one by one.
-    pub(crate) fn add<V: Vector>(
+    pub(crate) fn add(
         self,
         half: &crate::HalfTableau,
         increments: bool,
@@ -129,13 +139,8 @@ impl Inside {
 
     /// Adds to `out` the part that vanishes at both ends, `θ(1 − θ)((1 − θ)(h f0 − Δ) − θ(h f1 − Δ))` with the derivatives
     /// `f0` and `f1` there and the difference Δ of the ends.
-    pub(crate) fn add_cubic<V: Vector>(
-        self,
-        [start, end]: [&V; 2],
-        line: &Line<'_, V>,
-        out: &mut V,
-    ) {
-        let Self { fraction, size } = self;
+    pub(crate) fn add_cubic(self, [start, end]: [&V; 2], line: &Line<'_, V>, out: &mut V) {
+        let Self { fraction, size, .. } = self;
         let bubble = fraction * (1.0 - fraction);
         let [size, at_start, at_end] =
             [size, bubble * (1.0 - fraction), bubble * fraction].map(V::Scalar::from_f64);

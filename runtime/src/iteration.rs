@@ -161,6 +161,12 @@ impl<M> Begun<M> {
         before: None,
         last: None,
     };
+
+    /// Whether it has not begun.
+    #[inline(always)]
+    pub(crate) const fn is_nothing(&self) -> bool {
+        self.iterations == 0
+    }
 }
 
 /// Iterates until the stages have settled; returns what that took.

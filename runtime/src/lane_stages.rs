@@ -18,13 +18,20 @@ pub struct LaneStages<V: Vector, P: StageTableau> {
 }
 
 impl<V: Vector, P: StageTableau> LaneStages<V, P> {
-    /// The stages, moved out: nothing points to where they were.
+    /// The stages, moved out: nothing points to where they were. Positions and momenta are blank where they are not wanted.
     #[inline(always)]
-    pub(crate) fn take(&mut self) -> Self {
+    pub(crate) fn take(&mut self, with_values: bool) -> Self {
         let blank = || P::groups(|_| Laned::<V, P>::blank());
+        let (q, p) = match with_values {
+            true => (
+                mem::replace(&mut self.q, blank()),
+                mem::replace(&mut self.p, blank()),
+            ),
+            false => (blank(), blank()),
+        };
         Self {
-            q: mem::replace(&mut self.q, blank()),
-            p: mem::replace(&mut self.p, blank()),
+            q,
+            p,
             velocity: mem::replace(&mut self.velocity, blank()),
             force: mem::replace(&mut self.force, blank()),
         }

@@ -100,7 +100,7 @@ impl Plan for SeparableOnly {
 
     const INTERPOLATION: Interpolation = Interpolation::Hermite;
 
-    fn extend<V, S, N>(_memory: &crate::Evaluations<V>, _at: Inside, _q: &mut V, _p: &mut V)
+    fn extend<V, S, N>(_memory: &crate::Evaluations<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
     where
         V: Vector,
         S: Hamiltonian<V, Class = General>,

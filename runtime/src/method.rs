@@ -115,7 +115,7 @@ pub trait Plan {
 
     /// Adds to `q` and `p` how far they are inside the last step from the straight line between its ends, where that
     /// follows from the [stages](Interpolation::Stages) in `memory`.
-    fn extend<V, S, N>(memory: &Self::Memory<V, S, N>, at: Inside, q: &mut V, p: &mut V)
+    fn extend<V, S, N>(memory: &Self::Memory<V, S, N>, at: Inside<'_, V>, q: &mut V, p: &mut V)
     where
         V: Vector,
         S: Hamiltonian<V, Class = Self::Class>,

@@ -134,7 +134,7 @@ where
                 true => low + h * q.as_slice()[k],
                 false => low,
             };
-            let velocity = entry::<P, V>(stages.p.as_ref(), 0, k);
+            let velocity = start::<P, V, S>(step.p, stages, k);
             let part = |stage: usize| {
                 tableau::<P>().rest[stage] * entry::<P, V>(slopes.as_ref(), stage, k)
             };
@@ -160,7 +160,7 @@ where
         Ok(work)
     }
 
-    fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside, q: &mut V, p: &mut V) {
+    fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
         if !eliminates::<P>() {
             return <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
         }
@@ -176,7 +176,7 @@ where
                 let part =
                     |j: usize| P::MOMENTA.columns[j][stage] * entry::<P, V>(slopes.as_ref(), j, k);
                 let sum: f64 = (0..P::POSITIONS.count).map(part).sum();
-                *out += factor * (entry::<P, V>(stages.p.as_ref(), 0, k) + sum);
+                *out += factor * (start::<P, V, S>(at.momentum, stages, k) + sum);
             }
         }
     }
@@ -195,6 +195,19 @@ struct Positions<'a, P: StageTableau, R, V: Vector, S> {
 #[inline(always)]
 const fn slopes<'a, V: Vector, S: Hamiltonian<V>, G>(velocity: &'a G, force: &'a G) -> &'a G {
     if S::UNIT_MASSES { force } else { velocity }
+}
+
+/// A component of the velocity at the start, which is the momentum where masses are one.
+#[inline(always)]
+fn start<P: StageTableau, V: Vector<Scalar = f64>, S: Hamiltonian<V>>(
+    momentum: &V,
+    stages: &LaneStages<V, P>,
+    component: usize,
+) -> f64 {
+    match S::UNIT_MASSES {
+        true => momentum.as_slice()[component],
+        false => entry::<P, V>(stages.p.as_ref(), 0, component),
+    }
 }
 
 /// Whether the momenta of the stages of a plan are eliminated.
@@ -320,15 +333,15 @@ where
         }
     }
 
-    /// The velocity at the start, for all stages.
+    /// The velocity at the start, for all stages, unless it is the momentum itself.
     #[inline(always)]
     fn start(&mut self) {
         let step = self.lanes.step;
         let LaneStages { q, p, .. } = &mut *self.lanes.stages;
-        fill::<P, V>(p.as_mut(), step.p);
         if <S as Hamiltonian<V>>::UNIT_MASSES {
             return;
         }
+        fill::<P, V>(p.as_mut(), step.p);
         for (group, p) in p.as_mut().iter_mut().enumerate() {
             let q = &mut q.as_mut()[group];
             let time = P::Lanes::from_f64(step.time);
@@ -412,7 +425,7 @@ where
         stopping: Stopping,
         begun: Begun<Self::Movement>,
     ) -> Result<Work, Failure> {
-        self.lanes.elsewhere(|lanes| {
+        self.lanes.elsewhere(begun.is_nothing(), |lanes| {
             patiently::<C, T, _>(&mut Positions { lanes }, kept, stopping, begun)
         })
     }

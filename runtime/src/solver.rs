@@ -34,5 +34,5 @@ pub trait Solver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
 
     /// Adds to `q` and `p` how far they are inside the last step from the straight line between its ends, by the
     /// [polynomials](crate::HalfTableau::polynomial) through the evaluations in `memory`.
-    fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside, q: &mut V, p: &mut V);
+    fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V);
 }

@@ -112,7 +112,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
     const INTERPOLATION: Interpolation = Interpolation::Hermite;
 
     /// There are no stages to make a polynomial of.
-    fn extend<V, S, N>(_memory: &Evaluations<V>, _at: Inside, _q: &mut V, _p: &mut V)
+    fn extend<V, S, N>(_memory: &Evaluations<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
     where
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,

@@ -37,7 +37,7 @@ fn solve<C: Class, T: Scalar, W: Sweeps>(
     begun: Begun<W::Movement>,
     work: &mut Work,
 ) -> Result<(), Failure> {
-    if begun.iterations == 0 {
+    if begun.is_nothing() {
         sweeps.begin(kept);
     }
     let counts = sweeps.evaluations();

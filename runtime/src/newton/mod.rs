@@ -148,7 +148,7 @@ impl<V: Vector, S: Hamiltonian<V>, L: LinearSolver<V, S>> Solver<V, S> for Newto
         Ok(work)
     }
 
-    fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside, q: &mut V, p: &mut V) {
+    fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
         let halves = [(&P::MOMENTA, &memory.u, q), (&P::POSITIONS, &memory.w, p)];
         for (half, values, out) in halves {
             let increments = StoredEvaluations {

@@ -165,7 +165,7 @@ where
         Ok(work)
     }
 
-    fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside, q: &mut V, p: &mut V) {
+    fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
         if memory.was_newton {
             <Newton<L> as Solver<V, S>>::extend::<P>(&memory.newton, at, q, p);
         } else {
