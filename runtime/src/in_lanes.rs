@@ -491,11 +491,9 @@ impl<L: Lanes> Movement for LaneMovement<L> {
     fn settles_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
         match both {
             true => self.q.is_within(q) && self.p.is_within(p),
-            // Of a half that is not a number the lanes may lose that.
             false => {
-                !self.q.sum.any_nan()
-                    && !self.p.sum.any_nan()
-                    && (self.q.is_within(q) || self.p.is_within(p))
+                self.q.is_within(q) && !self.p.sum.any_nan()
+                    || self.p.is_within(p) && !self.q.sum.any_nan()
             }
         }
     }
