@@ -18,8 +18,8 @@ use crate::{
 ///
 /// A sweep of [`InLanes`] takes the velocities where its forces have moved the momenta to (Gauss–Seidel); here both halves are
 /// taken where the sweep before has left the stages (Jacobi). Neither half waits for the other, and there may be more sweeps:
-/// it pays where `∂²H/∂q∂p` is as large as the other second derivatives, where evaluations cost little, and where velocity and force
-/// have costly parts in common: they are evaluated by [`Hamiltonian::slopes`].
+/// it pays where `∂²H/∂q∂p` is as large as the other second derivatives and evaluations cost little. Where velocity and force have
+/// costly parts in common they are evaluated together, by [`Hamiltonian::slopes`].
 /// The stages are those of [`InLanes`] up to rounding.
 ///
 /// Separable systems are taken as by [`InLanes`]: for these there would be twice as many sweeps.

@@ -31,8 +31,11 @@ use crate::{
 ///
 /// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for the stagnation: it
 /// ends with a change that is at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) if the next one, should it shrink by the same factor,
-/// would be at most one. In the first nine sweeps of a step that goes on from another one nothing is looked at before a change is
-/// within 64 units of the stages there. With a [tolerance](crate::Integrator::set_tolerance) the first change within it is the last.
+/// would be at most one. With a [tolerance](crate::Integrator::set_tolerance) the first change within it is the last; one of less
+/// than eight units is not waited for.
+///
+/// In a step that goes on from another one the largest position and momentum are those there as long as they are right but for a
+/// factor of two, and nothing is looked at in the first nine sweeps before a change is within 64 units of them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint;
 

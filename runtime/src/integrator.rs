@@ -122,8 +122,8 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V, Plain> {
 impl<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> Integrator<M, S, V, Plain, N> {
     /// Sets how far a sweep may move the coupled stages and be the last one: no position by more than `tolerance` in its unit, nor,
     /// where the Hamiltonian is not separable or the iteration is Newton's, a momentum. Where changes
-    /// shrink by `κ` a sweep, `κ/(1 − κ)` of the last one is left of the error. Zero, as it is at first, and anything below what
-    /// rounding does: down to rounding.
+    /// shrink by `κ` a sweep, `κ/(1 − κ)` of the last one is left of the error. Zero, as it is at first, and anything below eight
+    /// units of [`Scalar::EPSILON`] of the largest position or momentum: down to rounding.
     ///
     /// A tolerance saves sweeps, and the search for the largest position that rounding is compared with. It is for plain sums only:
     /// compensated ones are for runs without drift, and the energy drifts by iterations that end above rounding.

@@ -4,10 +4,12 @@
 //! here, are combined up to the shortest one; the integrator then reports
 //! [`Error::EvaluationDimension`](crate::Error::EvaluationDimension).
 
+use core::mem;
+
 use num_traits::Zero;
 
 use crate::array::array;
-use crate::rows::{Four, Row, Single};
+use crate::rows::{Four, Row};
 use crate::summation::{add, add_sum};
 use crate::{Coefficient, Hamiltonian, Scalar, Summation, Vector};
 
@@ -115,7 +117,7 @@ pub fn advance<R: Summation, V: Vector>(
     evaluation: &V,
 ) {
     let factor = V::Scalar::weight(h, coefficient);
-    add_products::<R, _>(
+    add_products::<R, V>(
         out.as_mut_slice(),
         out_low.as_mut_slice(),
         factor,
@@ -127,49 +129,65 @@ pub fn advance<R: Summation, V: Vector>(
 // The compiler knows of slices that are arguments that they are apart; of what vectors point to it does not, and looks at it
 // before every loop.
 #[inline(always)]
-fn add_products<R: Summation, T: Scalar>(out: &mut [T], low: &mut [T], factor: T, terms: &[T]) {
+fn add_products<R: Summation, V: Vector>(
+    out: &mut [V::Scalar],
+    low: &mut [V::Scalar],
+    factor: V::Scalar,
+    terms: &[V::Scalar],
+) {
     let n = out.len().min(low.len()).min(terms.len());
     let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
     if !R::COMPENSATED {
         for i in 0..n {
             out[i] = factor.fused(terms[i], out[i]);
         }
-        return;
-    }
-    if let (Some(out), Some(low), Some(&[factor]), Some(terms)) = (
-        T::doubles_mut(&mut *out),
-        T::doubles_mut(&mut *low),
-        T::doubles(&[factor]),
-        T::doubles(terms),
-    ) {
-        // Which components the compiler would put side by side by itself goes with what is around them.
-        let (out, low, terms) = add_rows::<f64, Four>(out, low, factor, terms);
-        add_rows::<f64, Single>(out, low, factor, terms);
+    } else if !mem::needs_drop::<V>()
+        && let (Some(out), Some(low), Some(&[factor]), Some(terms)) = (
+            V::Scalar::doubles_mut(&mut *out),
+            V::Scalar::doubles_mut(&mut *low),
+            V::Scalar::doubles(&[factor]),
+            V::Scalar::doubles(terms),
+        )
+    {
+        // Loops over few components, as many as are known while compiling, are written out; which of them the compiler would put
+        // side by side by itself goes with what is around them.
+        let (out, low, terms) = add_rows(out, low, factor, terms);
+        add_one_by_one(out, low, factor, terms);
     } else {
-        add_rows::<T, Single>(out, low, factor, terms);
+        add_one_by_one(out, low, factor, terms);
     }
 }
 
-/// `out + low + factor terms` with compensated sums, row by row; returns what does not fill one.
+/// `out + low + factor terms` with compensated sums, four components side by side; returns those that are left.
 #[inline(always)]
-fn add_rows<'a, T: Scalar, W: Row<T>>(
-    out: &'a mut [T],
-    low: &'a mut [T],
-    factor: T,
-    terms: &'a [T],
-) -> (&'a mut [T], &'a mut [T], &'a [T]) {
-    let (out, last_out) = W::rows_mut(out);
-    let (low, last_low) = W::rows_mut(low);
-    let (terms, last_terms) = W::rows(terms);
+fn add_rows<'a>(
+    out: &'a mut [f64],
+    low: &'a mut [f64],
+    factor: f64,
+    terms: &'a [f64],
+) -> (&'a mut [f64], &'a mut [f64], &'a [f64]) {
+    let (out, last_out) = Four::rows_mut(out);
+    let (low, last_low) = Four::rows_mut(low);
+    let (terms, last_terms) = Four::rows(terms);
     let n = out.len().min(low.len()).min(terms.len());
     let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
-    let factor = W::splat(factor);
+    let factor = Four::splat(factor);
     for i in 0..n {
-        let (high, rest) = (W::load(&out[i]), W::load(&low[i]));
-        let (high, rest) = add_sum(high, rest, (factor * W::load(&terms[i]), None));
-        (out[i], low[i]) = (W::store(high), W::store(rest));
+        let (high, rest) = (Four::load(&out[i]), Four::load(&low[i]));
+        let (high, rest) = add_sum(high, rest, (factor * Four::load(&terms[i]), None));
+        (out[i], low[i]) = (Four::store(high), Four::store(rest));
     }
     (last_out, last_low, last_terms)
+}
+
+/// [`add_rows`], component by component.
+#[inline(always)]
+fn add_one_by_one<T: Scalar>(out: &mut [T], low: &mut [T], factor: T, terms: &[T]) {
+    let n = out.len().min(low.len()).min(terms.len());
+    let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
+    for i in 0..n {
+        (out[i], low[i]) = add_sum(out[i], low[i], (factor * terms[i], None));
+    }
 }
 
 /// Kicks one after the other, and a drift of unit masses, component by component: the same bits as by one [`advance`] each.

@@ -8,7 +8,7 @@ use crate::{F64x4, F64x8, Lanes, Scalar};
 /// Components side by side.
 pub(crate) trait Row<T: Scalar> {
     /// Them as they are in memory.
-    type Array: 'static;
+    type Array;
     /// Them as one number.
     type Numbers: Scalar;
 
