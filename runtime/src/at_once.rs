@@ -248,12 +248,12 @@ where
     }
 
     #[inline(always)]
-    fn non_finite(&mut self) -> Option<(Quantity, usize)> {
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.0.non_finite()
     }
 
     #[inline(always)]
-    fn non_finite_force(&mut self) -> Option<usize> {
+    fn non_finite_force(&self) -> Option<usize> {
         self.0.non_finite_force()
     }
 

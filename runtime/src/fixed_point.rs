@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 use core::mem;
 
 use crate::iteration::{Begun, Sweeps, patiently, settle};
+use crate::vector::{LIGHT, is_in_place};
 use crate::{
     Change, Class, EvaluationCounts, Failure, Hamiltonian, Inside, Kept, Outcome, Quantity, Scalar,
     Solver, StagePlan, StageStorage, StageTableau, Step, Stopping, Summation, Vector, Work,
@@ -21,8 +22,8 @@ use crate::{
 /// is allowed one will do.
 /// Where evaluations are noisier than that, or sweeps amplify what rounding does, it is enough that the change has shrunk a
 /// thousandfold, has stopped for ten sweeps too, that the smallest one was down to rounding errors in one half, and that it is at
-/// most four times as much; sweeps are counted from the tenth on while the change is above 4096 units of the stages of the step
-/// before or, without one, of the first stages.
+/// most four times as much; sweeps are counted from the tenth on while the change is above 4096 units of the first stages or, in a
+/// step that goes on from another one, while none has been within 64 units.
 ///
 /// Where it has settled with a change that is not zero, rounding makes stages jump to and fro between two values, and the side
 /// that the starting values come from says at which of them it ends. The energy would drift by that too, though by 1e-21 of it
@@ -128,11 +129,11 @@ where
         P::begin::<R, V, S>(self.step, self.system, self.stages, kept);
     }
 
-    fn non_finite(&mut self) -> Option<(Quantity, usize)> {
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.stages.non_finite()
     }
 
-    fn non_finite_force(&mut self) -> Option<usize> {
+    fn non_finite_force(&self) -> Option<usize> {
         self.stages.non_finite_force()
     }
 
@@ -143,7 +144,7 @@ where
         stopping: Stopping,
         begun: Begun<Change>,
     ) -> Result<Work, Failure> {
-        if mem::needs_drop::<V>() {
+        if !is_in_place(self.step.q) || size_of::<P::Stages<V>>() > LIGHT {
             return patiently::<C, T, _>(self, kept, stopping, begun);
         }
         let mut stages = mem::replace(self.stages, StageStorage::like(&V::blank()));

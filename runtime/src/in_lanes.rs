@@ -1,12 +1,12 @@
 //! Coupled stages side by side in lanes.
 
 use core::marker::PhantomData;
-use core::mem;
 
 use crate::iteration::{Begun, Movement, Sweeps, is_next_within, patiently, settle};
 use crate::kernel::sum_of_products;
 use crate::lane_stages::{LaneStages, Laned};
 use crate::summation::add;
+use crate::vector::{LIGHT, is_in_place};
 use crate::{
     Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, HamiltonianInLanes, Inside,
     Kept, Lanes, Outcome, PartChange, Quantity, Scalar, Solver, StageStorage, StageTableau, Step,
@@ -156,12 +156,12 @@ where
     }
 
     #[inline(always)]
-    fn non_finite(&mut self) -> Option<(Quantity, usize)> {
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.stages.non_finite()
     }
 
     #[inline(always)]
-    fn non_finite_force(&mut self) -> Option<usize> {
+    fn non_finite_force(&self) -> Option<usize> {
         self.stages.non_finite_force()
     }
 
@@ -242,7 +242,7 @@ where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
-    /// What `go_on` makes of these stages. It is given them in another place, unless they are on the heap: stages that nothing
+    /// What `go_on` makes of these stages. It is given them in another place, unless they are many or on the heap: stages that nothing
     /// points to can be in registers from step to step. Those of the step before, where it begins `anew`, need not be in any.
     #[inline(always)]
     pub(crate) fn elsewhere<T>(
@@ -251,7 +251,7 @@ where
         go_on: impl FnOnce(ByLanes<'_, P, R, V, S>) -> T,
     ) -> T {
         let (system, sums) = (self.system, PhantomData);
-        if mem::needs_drop::<V>() {
+        if !is_in_place(self.step.q) || size_of::<LaneStages<V, P>>() > LIGHT {
             let (step, stages) = (self.step, &mut *self.stages);
             return go_on(ByLanes {
                 step,
@@ -640,4 +640,58 @@ fn shortest<V: Vector>(groups: &[V]) -> usize {
         shortest = shortest.min(group.as_slice().len());
     }
     shortest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::F64x2;
+
+    /// How lanes moved, and the same as one number for each half.
+    fn moved(lanes: [[f64; 2]; 2]) -> (LaneMovement<F64x2>, Change) {
+        let [q, p] = lanes.map(|lanes| {
+            let lanes = F64x2::from_array(lanes);
+            LanePart {
+                // The larger ones lose what is not a number.
+                difference: F64x2::from_f64(0.0).larger(lanes),
+                sum: lanes,
+            }
+        });
+        let one = F64x2::from_f64(1.0);
+        let change = Change {
+            q: q.change(one),
+            p: p.change(one),
+        };
+        (LaneMovement { q, p }, change)
+    }
+
+    #[test]
+    fn lanes_are_compared_as_the_largest_of_them_is() {
+        let numbers = [0.0, 0.25, 1.0, 3.0, f64::INFINITY, f64::NAN];
+        let all = || numbers.iter().flat_map(|&x| numbers.map(|y| [x, y]));
+        for q in all() {
+            for p in all() {
+                let (lanes, change) = moved([q, p]);
+                for both in [true, false] {
+                    for bounds in [[0.5, 0.5], [2.0, 0.5], [0.1, 2.0], [0.0, 0.0]] {
+                        let found = [
+                            lanes.is_within(bounds, both),
+                            lanes.settles_within(bounds, both),
+                            lanes.exceeds(bounds, both),
+                        ];
+                        let expected = [
+                            change.is_within(bounds, both),
+                            change.settles_within(bounds, both),
+                            change.exceeds(bounds, both),
+                        ];
+                        assert_eq!(found, expected, "{q:?} {p:?} {bounds:?} {both}");
+                    }
+                    if !change.is_undefined() {
+                        let sizes = [lanes.size([2.0, 0.5], both), change.size([2.0, 0.5], both)];
+                        assert_eq!(sizes[0], sizes[1], "{q:?} {p:?} {both}");
+                    }
+                }
+            }
+        }
+    }
 }

@@ -12,11 +12,12 @@ use crate::{Change, Class, EvaluationCounts, Failure, Kept, Quantity, Scalar, St
 /// gains digits below the threshold goes on.
 const ROUNDING: f64 = 64.0;
 
-/// Sweeps without progress after which a change that has shrunk by [`CONTRACTION`] counts as noise.
+/// Sweeps without progress after which a change that has shrunk by [`CONTRACTION`] counts as noise; before as many all
+/// sweeps are early ones.
 const PATIENCE: u32 = 10;
 
 /// The part of its sweeps for which an iteration has to be without progress: where it converges slowly and turns as it does,
-/// changes grow now and then long before it has settled.
+/// changes grow now and then long before it has settled. Of fewer sweeps one without progress will do.
 const STAGNATION: u32 = 16;
 
 /// Changes above this many units of EPSILON, of the stages of the step before or of those that were looked at first, are not looked
@@ -56,10 +57,10 @@ pub(crate) trait Sweeps {
     fn begin(&mut self, kept: Kept);
 
     /// The first evaluation that is not finite although its argument is.
-    fn non_finite(&mut self) -> Option<(Quantity, usize)>;
+    fn non_finite(&self) -> Option<(Quantity, usize)>;
 
     /// The first stage, from 1, whose force is not finite: forces come first in a sweep.
-    fn non_finite_force(&mut self) -> Option<usize>;
+    fn non_finite_force(&self) -> Option<usize>;
 
     /// One sweep over all of them.
     fn sweep(&mut self) -> Self::Movement;
@@ -146,9 +147,10 @@ pub(crate) struct Begun<M> {
     iterations: u32,
     /// The first one, where it was not looked at and somebody may want to know.
     first: Option<M>,
-    /// The one before the last, or, for an iteration that waits for stagnation, the one that moved the stages least of those that were
-    /// looked at.
+    /// The one before the last.
     before: Option<M>,
+    /// The one that moved the stages least of those that were looked at, and which it was.
+    least: Option<(u32, M)>,
     /// The last one, if it was not looked at.
     last: Option<M>,
 }
@@ -159,6 +161,7 @@ impl<M> Begun<M> {
         iterations: 0,
         first: None,
         before: None,
+        least: None,
         last: None,
     };
 

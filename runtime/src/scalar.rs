@@ -76,7 +76,7 @@ pub trait Scalar:
     /// NaN if any part is NaN, even where another is larger: the solver and the checks for finiteness rest on it.
     fn magnitude(self) -> f64;
 
-    /// Whether all parts are finite.
+    /// Whether all parts are finite. The result of a step is looked at by its [magnitude](Self::magnitude) alone.
     #[inline]
     fn is_finite(self) -> bool {
         self.magnitude().is_finite()

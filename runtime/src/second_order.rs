@@ -409,12 +409,12 @@ where
     }
 
     #[inline(always)]
-    fn non_finite(&mut self) -> Option<(Quantity, usize)> {
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.lanes.non_finite()
     }
 
     #[inline(always)]
-    fn non_finite_force(&mut self) -> Option<usize> {
+    fn non_finite_force(&self) -> Option<usize> {
         self.lanes.non_finite_force()
     }
 

@@ -1,6 +1,7 @@
 //! The vectors that positions and momenta are.
 
 use core::fmt::Debug;
+use core::mem;
 
 use nalgebra::SVector;
 
@@ -8,6 +9,16 @@ use crate::{Error, Scalar};
 
 /// Bytes of a vector that is moved out of the memory of the integrator: it may be in registers then.
 pub(crate) const SHORT: usize = 1 << 8;
+
+/// Bytes of a memory that may be moved for some steps, or for one that is taken with more care.
+pub(crate) const LIGHT: usize = 1 << 14;
+
+/// Whether all components of a vector, and nothing else, are in the vector itself: what is left where it is moved out is then as
+/// long as it was.
+#[inline(always)]
+pub(crate) fn is_in_place<V: Vector>(vector: &V) -> bool {
+    !mem::needs_drop::<V>() && vector.dimension() * size_of::<V::Scalar>() == size_of::<V>()
+}
 
 /// A position, a momentum or one of their derivatives: components of one [`Scalar`] type, contiguous in memory.
 ///

@@ -16,7 +16,8 @@ pub struct Work {
     /// Attempts to find the stages that failed and were made good by another solver.
     pub rejected: u32,
     /// How large the positions and the momenta of coupled stages were when that was last looked for, of several steps in the last; zero
-    /// where that is not known. Without a tolerance it is right but for a factor of two.
+    /// where that is not known. Without a tolerance it is right but for a factor of two; of momenta where they show that an iteration
+    /// goes on, which in plain sums those of a separable system do not.
     pub scales: [f64; 2],
 }
 

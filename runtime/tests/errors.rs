@@ -8,7 +8,8 @@ use common::systems::{Pendulum, Product, point};
 use common::{Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1};
 use symplectic::{
-    Error, Hamiltonian, Integrator, Method, Quantity, State, Vector, hamiltonian, separable,
+    Error, Hamiltonian, Integrator, Method, Quantity, State, Vector, acceleration, hamiltonian,
+    separable,
 };
 
 type Point = Vector1<f64>;
@@ -389,4 +390,38 @@ fn messages_say_what_where_and_what_to_do() {
         "step 1 of size 0.1 at time 0: the stages did not converge in 200 iterations \
          (relative change 2.5e-1 in the last one); take a smaller step"
     );
+}
+
+/// What a step has begun to change is not used by the next one if the system panics.
+#[test]
+fn a_panic_of_the_system_leaves_nothing_behind() -> Result<(), Error> {
+    symplectic::tableau! { Lobatto3 { basis: polynomial(3), nodes: lobatto(3) } }
+    symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
+    fn check<M: Method>(method: M) -> Result<(), Error> {
+        let panics = Cell::new(u32::MAX);
+        let pendulum = acceleration(|_time, q: &Point, acceleration| {
+            panics.set(panics.get() - 1);
+            assert!(panics.get() > 0, "the system panics");
+            acceleration[0] = -q[0].sin();
+        });
+        let start = State::new(0.0, Point::new(1.0), Point::new(0.5));
+        let mut integrator = Integrator::plain(method, pendulum, start, 0.125)?;
+        integrator.take_steps(5)?;
+        let before = integrator.state().clone();
+        for calls in [1, 2, 5] {
+            panics.set(calls);
+            let taken = std::panic::AssertUnwindSafe(|| integrator.step().map(|_| ()));
+            assert!(std::panic::catch_unwind(taken).is_err());
+            panics.set(u32::MAX);
+            assert_eq!(integrator.state(), &before);
+            assert!(integrator.dense().is_err());
+        }
+        // As from a state that is new.
+        let end = integrator.step()?.clone();
+        integrator.set_state(before)?;
+        assert_eq!(integrator.step()?, &end);
+        Ok(())
+    }
+    check(Lobatto3)?;
+    check(Gauss2)
 }

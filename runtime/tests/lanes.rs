@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::fmt::Debug;
 
-use symplectic::nalgebra::{DVector, SVector, Vector2};
+use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::{
     Compensated, Error, F64x2, F64x4, F64x8, General, Hamiltonian, HamiltonianInLanes, Integrator,
     Lanes, Method, Plain, Quantity, Scalar, SeparableHamiltonian, Solver, State, Summation, Vector,
@@ -199,24 +199,48 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for Wall {
     }
 }
 
+/// [`Wall`], said to have masses of one.
+struct LightWall;
+
+impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for LightWall {
+    const UNIT_MASSES: bool = true;
+
+    fn velocity(&self, time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+        SeparableHamiltonian::velocity(&Wall, time, p, velocity);
+    }
+
+    fn force(&self, time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+        SeparableHamiltonian::force(&Wall, time, q, force);
+    }
+}
+
 #[test]
 fn what_is_not_finite_is_named_with_its_stage() -> Result<(), Error> {
-    let start = State::new(0.0, SVector::from([0.9]), SVector::from([1.0]));
-    let mut integrator = Integrator::new(Gauss3, Wall, start.clone(), 0.15)?.in_lanes();
-    let error = integrator.step().expect_err("beyond the wall");
-    // The third stage is at 0.9 + 0.89·0.15 > 1, the second is not.
-    assert!(
-        matches!(
-            error,
-            Error::NonFinite {
-                what: Quantity::Force,
-                stage: Some(3),
-                ..
-            }
-        ),
-        "{error:?}"
-    );
-    assert_eq!(integrator.state(), &start);
+    fn check<S: Hamiltonian<Vector1<f64>>, N: Solver<Vector1<f64>, S>>(
+        mut integrator: Integrator<Gauss3, S, Vector1<f64>, Compensated, N>,
+    ) {
+        let start = integrator.state().clone();
+        let error = integrator.step().map(|_| ()).expect_err("beyond the wall");
+        // The third stage is at 0.9 + 0.89·0.15 > 1, the second is not.
+        assert!(
+            matches!(
+                error,
+                Error::NonFinite {
+                    what: Quantity::Force,
+                    stage: Some(3),
+                    ..
+                }
+            ),
+            "{error:?}"
+        );
+        assert_eq!(integrator.state(), &start);
+    }
+    let start = || State::new(0.0, SVector::from([0.9]), SVector::from([1.0]));
+    check(Integrator::new(Gauss3, Wall, start(), 0.15)?);
+    check(Integrator::new(Gauss3, Wall, start(), 0.15)?.in_lanes());
+    check(Integrator::new(Gauss3, Wall, start(), 0.15)?.in_second_order_lanes()?);
+    check(Integrator::new(Gauss3, LightWall, start(), 0.15)?.in_lanes());
+    check(Integrator::new(Gauss3, LightWall, start(), 0.15)?.in_second_order_lanes()?);
     Ok(())
 }
 

@@ -5,7 +5,7 @@ use core::mem;
 use super::{Course, Integrator, MemoryOf, PlanOf};
 use crate::moves::Waiting;
 use crate::time::Clock;
-use crate::vector::SHORT;
+use crate::vector::{LIGHT, SHORT, is_in_place};
 use crate::{
     Error, Hamiltonian, Kept, Method, Moves, Outcome, Plan, Solver, Span, StageStorage, Summation,
     Vector, copy,
@@ -19,9 +19,6 @@ fn block(dimension: usize) -> u64 {
 
 /// Components of a vector from which on forces and kicks wait for the drift after them.
 const LONG: usize = 1 << 6;
-
-/// Bytes that may be moved for a block of coupled steps.
-const LIGHT: usize = 1 << 14;
 
 impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     Integrator<M, S, V, R, N>
@@ -185,8 +182,8 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 
     /// Whether what steps change is little and all in one place: copies of it do not show beside a few steps.
     fn is_light(&self) -> bool {
-        let components = self.course.state.q.dimension() * size_of::<V::Scalar>();
-        components == size_of::<V>() && size_of::<Course<V, MemoryOf<M, S, V, N>>>() <= LIGHT
+        let bytes = size_of::<Course<V, MemoryOf<M, S, V, N>>>();
+        is_in_place(&self.course.state.q) && bytes <= LIGHT
     }
 
     /// Takes steps until one fails; returns how many were taken, none where the first does not change the time. The last of

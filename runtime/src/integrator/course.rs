@@ -94,9 +94,11 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
         S: Hamiltonian<V>,
         N: Solver<V, S>,
     {
+        // Nothing is kept until the step is accepted: the system may panic.
+        let before = mem::take(&mut self.kept);
         let kept = Kept {
-            stages: self.kept.stages && size == self.last_size,
-            ..self.kept
+            stages: before.stages && size == self.last_size,
+            ..before
         };
         let (step, outcome, memory) = self.lend(size);
         self.work = P::take::<R, V, S, N>(&step, system, memory, kept, stopping, outcome)?;

@@ -30,7 +30,7 @@ pub(crate) fn patiently<C: Class, T: Scalar, W: Sweeps>(
 }
 
 /// Finds the coupled stages, and adds to `work` what that took.
-fn solve<C: Class, T: Scalar, W: Sweeps>(
+pub(super) fn solve<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
     kept: Kept,
     stopping: Stopping,
@@ -71,7 +71,7 @@ fn solve<C: Class, T: Scalar, W: Sweeps>(
 ///
 /// A change that grows ends nothing: where the stages are many and their coupling is far from normal, it can
 /// grow for many sweeps and vanish after all. A true divergence ends at the bound or overflows.
-pub(super) fn iterate<C: Class, T: Scalar, W: Sweeps>(
+fn iterate<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
     kept: Kept,
     stopping: Stopping,
@@ -103,6 +103,7 @@ pub(super) fn iterate<C: Class, T: Scalar, W: Sweeps>(
         iterations: mut iteration,
         mut first,
         before: mut previous,
+        least: seen,
         last: mut made,
     } = begun;
     let (mut last, mut looked) = (Change::default(), 0);
@@ -110,12 +111,8 @@ pub(super) fn iterate<C: Class, T: Scalar, W: Sweeps>(
     let mut least = last;
     let mut idle = 0;
     let mut once_more = false;
-    if !W::HASTY
-        && let Some(before) = &previous
-    {
-        // Of those that were looked at the smallest one.
-        last = sweeps.change(before);
-        looked = iteration - u32::from(made.is_some());
+    if let Some((sweep, movement)) = &seen {
+        (last, looked) = (sweeps.change(movement), *sweep);
         (smallest, largest, least) = (size_of(&last), size_of(&last), last);
     }
     while iteration < max_iterations {
@@ -208,7 +205,7 @@ fn is_last<T: Scalar>(before: Option<Change>, change: &Change, both: bool) -> bo
 }
 
 /// What is to blame for a first sweep that is not finite.
-fn non_finite(sweeps: &mut impl Sweeps, change: &Change) -> Failure {
+fn non_finite(sweeps: &impl Sweeps, change: &Change) -> Failure {
     let part = if change.q.is_undefined() {
         Quantity::Position
     } else {

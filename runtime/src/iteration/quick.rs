@@ -22,7 +22,9 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     stopping: Stopping,
 ) -> Hastened<W::Movement> {
     let both = W::both::<C>();
-    if W::LOOKS_AFAR || !kept.stages || !is_known::<T>(kept.scales, both || !W::HASTY) {
+    let is_known = kept.stages && is_known::<T>(kept.scales, both || !W::HASTY);
+    // The last sweep that is allowed is looked at.
+    if W::LOOKS_AFAR || !is_known || stopping.max_iterations < 2 {
         return Err(Begun::NOTHING);
     }
     sweeps.begin(kept);
@@ -73,7 +75,6 @@ fn to_rounding<T: Scalar, W: Sweeps>(
 ) -> Hastened<W::Movement> {
     let mut size = Size::of::<T>(scales);
     let mut begun = Begun::NOTHING;
-    let mut was_near = false;
     while begun.iterations + 1 < late {
         let this = sweeps.sweep();
         begun.iterations += 1;
@@ -91,12 +92,14 @@ fn to_rounding<T: Scalar, W: Sweeps>(
                 if is_last(size.scales) {
                     return Ok((begun.iterations, size.scales));
                 }
-                if was_near {
+                if begun.least.is_some() {
                     begun.last = Some(this);
                     return Err(begun);
                 }
-                was_near = true;
+                begun.least = Some((begun.iterations, this));
             }
+        } else if begun.iterations == 1 {
+            begun.first = Some(this);
         }
         begun.before = Some(this);
     }
@@ -115,7 +118,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
     let mut begun = Begun::NOTHING;
     let mut smallest = f64::INFINITY;
     let mut once_more = false;
-    while begun.iterations + 1 < bound {
+    while once_more || begun.iterations + 1 < bound {
         let this = sweeps.sweep();
         begun.iterations += 1;
         if once_more {
@@ -129,7 +132,8 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
         if is_near {
             let part = this.size(size.parts, both);
             if part < smallest && part > 0.0 {
-                (smallest, begun.before) = (part, Some(this));
+                smallest = part;
+                begun.least = Some((begun.iterations, this));
             } else if part > 0.0 && begun.iterations < late && coin(sweeps.time()) {
                 once_more = true;
             } else {

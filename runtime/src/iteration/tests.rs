@@ -1,6 +1,6 @@
 //! Iterations with changes that are made up.
 
-use super::patient::iterate;
+use super::patient::solve;
 use super::*;
 use crate::{EvaluationCounts, General, PartChange, Separable};
 use alloc::vec;
@@ -12,6 +12,8 @@ struct Scripted<'a, const HASTY: bool> {
     /// Of the values in each sweep; the last one in all that follow.
     scales: &'a [f64],
     made: usize,
+    /// How often it was begun.
+    begun: usize,
     time: f64,
 }
 
@@ -34,13 +36,15 @@ impl<const HASTY: bool> Sweeps for Scripted<'_, HASTY> {
         self.time
     }
 
-    fn begin(&mut self, _kept: Kept) {}
+    fn begin(&mut self, _kept: Kept) {
+        self.begun += 1;
+    }
 
-    fn non_finite(&mut self) -> Option<(Quantity, usize)> {
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
         None
     }
 
-    fn non_finite_force(&mut self) -> Option<usize> {
+    fn non_finite_force(&self) -> Option<usize> {
         None
     }
 
@@ -63,8 +67,21 @@ fn made<C: Class, W: Sweeps>(
     kept: Kept,
     stopping: Stopping,
 ) -> Result<(u32, [f64; 2]), Failure> {
-    hasten::<C, f64, _>(sweeps, kept, stopping)
-        .or_else(|begun| iterate::<C, f64, _>(sweeps, kept, stopping, begun))
+    hasten::<C, f64, _>(sweeps, kept, stopping).or_else(|begun| {
+        let mut work = Work::default();
+        solve::<C, f64, _>(sweeps, kept, stopping, begun, &mut work)?;
+        assert_eq!(work.evaluations, work.iterations);
+        Ok((work.iterations, work.scales))
+    })
+}
+
+/// A time with this side of the coin.
+fn time(side: bool) -> f64 {
+    let mut time = 1.0;
+    while coin(time) != side {
+        time += 1.0;
+    }
+    time
 }
 
 /// The sweeps of an iteration with these changes that begins at a time with this coin.
@@ -73,15 +90,12 @@ fn sweeps<C: Class, const HASTY: bool>(
     scales: &[f64],
     coin: bool,
 ) -> Result<u32, Failure> {
-    let mut time = 1.0;
-    while super::coin(time) != coin {
-        time += 1.0;
-    }
     let mut script = Scripted::<HASTY> {
         changes,
         scales,
         made: 0,
-        time,
+        begun: 0,
+        time: time(coin),
     };
     let settled = made::<C, _>(&mut script, Kept::default(), at_most(changes.len()));
     settled.map(|(iterations, _)| iterations)
@@ -94,6 +108,7 @@ fn after<C: Class>(before: [f64; 2], changes: &[[f64; 2]]) -> Result<(u32, [f64;
         changes,
         scales: &[1.0],
         made: 0,
+        begun: 0,
         time: 1.0,
     };
     made::<C, _>(&mut script, stages(before), at_most(changes.len()))
@@ -131,6 +146,79 @@ fn what_stagnates_has_one_sweep_more_at_half_of_all_times() {
     // What stands still has not: nothing would change.
     let changes = alike([1e12, 1e6, 10.0, 0.0, 0.0, 0.0]);
     assert_eq!(sweeps::<Separable, false>(&changes, &[1.0], true), Ok(4));
+}
+
+#[test]
+fn what_stagnates_after_another_step_has_one_sweep_more_at_half_of_all_times() {
+    let changes = alike([1e12, 1e6, 10.0, 4.0, 5.0, 3.0, 3.0]);
+    let after = |coin: bool, bound: usize| {
+        let mut script = Scripted::<false> {
+            changes: &changes,
+            scales: &[1.0],
+            made: 0,
+            begun: 0,
+            time: time(coin),
+        };
+        made::<Separable, _>(&mut script, stages([1.0; 2]), at_most(bound)).map(|x| x.0)
+    };
+    // The bound may come right after.
+    for bound in [6, 7] {
+        assert_eq!(after(false, bound), Ok(5));
+        assert_eq!(after(true, bound), Ok(6));
+    }
+    assert_eq!(after(true, 5), Ok(5));
+    assert!(after(true, 4).is_err());
+}
+
+#[test]
+fn an_iteration_is_begun_once_whatever_its_bound_is() {
+    fn check<const HASTY: bool>(bound: usize) {
+        let changes = alike([1e3, 100.0, 60.0, 60.0, 60.0, 60.0]);
+        let mut script = Scripted::<HASTY> {
+            changes: &changes,
+            scales: &[1.0],
+            made: 0,
+            begun: 0,
+            time: time(false),
+        };
+        let settled = made::<General, _>(&mut script, stages([1.0; 2]), at_most(bound));
+        assert_eq!(script.begun, 1);
+        assert_eq!(script.made, bound.min(4));
+        assert_eq!(settled.is_ok(), bound >= 4, "{settled:?}");
+    }
+    for bound in 1..=6 {
+        check::<false>(bound);
+        check::<true>(bound);
+    }
+    // What fails is tried once more without the stages, and counts.
+    let mut script = Scripted::<true> {
+        changes: &alike([1e3, 1.0]),
+        scales: &[1.0],
+        made: 0,
+        begun: 0,
+        time: 1.0,
+    };
+    let work = settle::<General, f64>(&mut script, stages([1.0; 2]), at_most(1));
+    let work = work.expect("a change of one unit");
+    assert_eq!((work.iterations, work.evaluations), (2, 2));
+    assert_eq!((script.begun, script.made), (2, 2));
+}
+
+#[test]
+fn what_is_not_a_number_ends_no_iteration_after_another() {
+    for [q, p] in [[f64::NAN, f64::NAN], [f64::NAN, 1.0], [1.0, f64::NAN]] {
+        let mut changes = alike([1e12, 1e6, 10.0]).to_vec();
+        changes.extend([[q, p]; 20]);
+        let mut script = Scripted::<false> {
+            changes: &changes,
+            scales: &[1.0],
+            made: 0,
+            begun: 0,
+            time: 1.0,
+        };
+        let settled = made::<Separable, _>(&mut script, stages([1.0; 2]), at_most(changes.len()));
+        assert!(settled.is_err(), "{q} {p}: {settled:?}");
+    }
 }
 
 #[test]
@@ -207,6 +295,7 @@ fn noise_is_noise_where_the_sweeps_before_it_were_not_looked_at() {
             changes: &changes,
             scales: &[1.0],
             made: 0,
+            begun: 0,
             time: 1.0,
         };
         made::<Separable, _>(&mut script, kept, at_most(changes.len()))
@@ -220,6 +309,7 @@ fn noise_is_noise_where_the_sweeps_before_it_were_not_looked_at() {
             changes: &changes,
             scales: &[1.0],
             made: 0,
+            begun: 0,
             time: 1.0,
         };
         let settled = made::<General, _>(&mut script, kept, at_most(40));
@@ -239,6 +329,7 @@ fn tolerant<C: Class>(
         changes,
         scales: &[1.0],
         made: 0,
+        begun: 0,
         time: 1.0,
     };
     let stopping = Stopping {
@@ -364,7 +455,7 @@ fn shrinking(seed: u64) -> Vec<[f64; 2]> {
         (state >> 33) as f64 / 2.0_f64.powi(31)
     };
     let (factor, noise) = (0.9 * random(), 100.0 * random() * random());
-    let mut size = 1e12;
+    let mut size = 1e5;
     let mut changes = vec![];
     for _ in 0..400 {
         let shrunk = |random: f64| size * (0.5 + random) + (noise * random).floor();
@@ -374,20 +465,35 @@ fn shrinking(seed: u64) -> Vec<[f64; 2]> {
     changes
 }
 
-/// How many of as many iterations end at another sweep after a step with values this large than without one; values are one.
+/// How many of a thousand iterations end at another sweep after a step with values this large than without one; values are one.
 fn others<C: Class, const HASTY: bool>(before: f64) -> usize {
-    let sweeps = |seed: u64, kept: Kept| {
-        let changes = shrinking(seed);
+    let scripted = |seed: u64, changes: &[[f64; 2]], kept: Kept| {
         let mut script = Scripted::<HASTY> {
-            changes: &changes,
+            changes,
             scales: &[1.0],
             made: 0,
+            begun: 0,
             time: seed as f64,
         };
-        made::<C, _>(&mut script, kept, at_most(changes.len())).map(|x| x.0)
+        let bound = at_most(changes.len());
+        let quick = hasten::<C, f64, _>(&mut script, kept, bound).is_ok();
+        (script.made, script.begun) = (0, 0);
+        let made = made::<C, _>(&mut script, kept, bound).map(|x| x.0);
+        assert_eq!(script.begun, 1);
+        (quick, made)
     };
-    let differs = |&seed: &u64| sweeps(seed, stages([before; 2])) != sweeps(seed, Kept::default());
-    (0..1000).filter(differs).count()
+    let (mut quick, mut others) = (0, 0);
+    for seed in 0..1000 {
+        let changes = shrinking(seed);
+        let (hastened, after) = scripted(seed, &changes, stages([before; 2]));
+        let (hastened_alone, alone) = scripted(seed, &changes, Kept::default());
+        assert!(!hastened_alone);
+        quick += usize::from(hastened);
+        others += usize::from(after != alone);
+    }
+    // Those of the smaller factors come down to 64 units in nine sweeps, and of those of little noise to one.
+    assert!(quick > if HASTY { 50 } else { 250 }, "{quick}");
+    others
 }
 
 #[test]
@@ -403,14 +509,17 @@ fn an_iteration_after_another_ends_at_the_same_sweep() {
     // What is not known but for a factor of two is looked at.
     for before in [1.0, 30.0] {
         let [general, separable, hasty @ ..] = all(before);
-        assert_eq!([general, separable], [0; 2], "{before}");
+        assert_eq!(general, 0, "{before}");
+        // Where the momenta say that a change is near, and the positions moved less in one that was not.
+        assert!(separable <= 5, "{before}: {separable}");
         // Of changes that grow and shrink again among rounding errors only the last two are looked at.
         assert!(hasty.iter().all(|&others| others <= 10), "{hasty:?}");
     }
-    // Which half moves more, and what is down to rounding, goes with how large they are said to be.
+    // Which half moves more, and what is down to rounding, goes with how large they are said to be: of iterations with this much
+    // noise for one in twenty at most.
     for before in [0.6, 1.9] {
         let others = all(before);
-        assert!(others.iter().all(|&others| others <= 20), "{others:?}");
+        assert!(others.iter().all(|&others| others <= 50), "{others:?}");
     }
 }
 
@@ -444,6 +553,7 @@ fn a_hasty_iteration_of_numbers_of_any_size_ends_at_the_same_sweep() {
                 changes: &alike([1e12, 1e9, 1000.0, last, 0.0]),
                 scales: &[scale],
                 made: 0,
+                begun: 0,
                 time: 1.0,
             };
             let settled = made::<General, _>(&mut script, stages([scale; 2]), at_most(5));

@@ -101,11 +101,11 @@ where
         true
     }
 
-    fn non_finite(&mut self) -> Option<(Quantity, usize)> {
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.memory.non_finite()
     }
 
-    fn non_finite_force(&mut self) -> Option<usize> {
+    fn non_finite_force(&self) -> Option<usize> {
         first_non_finite_of(&self.memory.force)
     }
 
