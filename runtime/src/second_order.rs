@@ -291,10 +291,11 @@ where
                 true => P::Lanes::from_f64(step.p.as_slice()[k]),
                 false => start[group].as_slice()[k],
             };
-            if R::COMPENSATED {
-                return base + (h * (node * velocity + sum) + low);
-            }
             // All but the sum is the same in every sweep.
+            if R::COMPENSATED {
+                // A product of step size and node would be off by the same part in every step, and the energy would drift.
+                return base + h.fused(sum, h.fused(node * velocity, low));
+            }
             let start = (h * node).fused(velocity, base);
             match scaled {
                 true => start + sum,
