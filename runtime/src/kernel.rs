@@ -127,8 +127,8 @@ pub fn advance<R: Summation, V: Vector>(
 
 /// `out + low + factor terms`, component by component.
 // The compiler knows of slices that are arguments that they are apart; of what vectors point to it does not, and looks at it
-// before every loop.
-#[inline(always)]
+// before every loop. Without optimisation every copy of it would have its own place in the stack, and long splittings have hundreds.
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add_products<R: Summation, V: Vector>(
     out: &mut [V::Scalar],
     low: &mut [V::Scalar],

@@ -7,6 +7,7 @@ use super::{
 use crate::{
     Change, Class, Failure, Kept, PartChange, Quantity, Scalar, Separable, Stopping, Work,
 };
+
 /// Iterates until the stages have settled, from where that was begun; returns what all of it took.
 ///
 /// A function of its own: what it needs is not in the registers of the steps that can do without.
