@@ -2,10 +2,9 @@
 
 use core::marker::PhantomData;
 
-use crate::in_lanes::{
-    ByLanes, LaneMovement, LanePart, Sums, extrapolate, extrapolates, fill, sum, total, values,
-};
+use crate::in_lanes::{ByLanes, Sums, extrapolate, extrapolates, fill, sum, total, values};
 use crate::iteration::{Begun, Sweeps, patiently, settle};
+use crate::lane_movement::{LaneMovement, LanePart};
 use crate::lane_stages::{LaneStages, Laned};
 use crate::starting_values::{Starting, starts_at_once};
 use crate::{

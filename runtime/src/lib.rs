@@ -98,6 +98,7 @@ mod interpolation;
 mod invariant;
 mod iteration;
 mod kernel;
+mod lane_movement;
 mod lane_stages;
 mod lanes;
 mod long_splitting;

@@ -3,10 +3,11 @@
 use core::marker::PhantomData;
 
 use crate::in_lanes::{
-    ByLanes, LaneMovement, LanePart, Sums, entry, extend, extrapolate, fill, is_about, lanes,
-    scale, scale_of, total, values,
+    ByLanes, Sums, entry, extend, extrapolate, fill, is_about, lanes, scale, scale_of, total,
+    values,
 };
 use crate::iteration::{Begun, Sweeps, patiently, settle};
+use crate::lane_movement::{LaneMovement, LanePart};
 use crate::lane_stages::LaneStages;
 use crate::starting_values::{StartingColumns, starting_columns, starts_at_once};
 use crate::summation::add;

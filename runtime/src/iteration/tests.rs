@@ -17,6 +17,18 @@ struct Scripted<'a, const HASTY: bool> {
     time: f64,
 }
 
+impl<'a, const HASTY: bool> Scripted<'a, HASTY> {
+    const fn new(changes: &'a [[f64; 2]], scales: &'a [f64], time: f64) -> Self {
+        Self {
+            changes,
+            scales,
+            made: 0,
+            begun: 0,
+            time,
+        }
+    }
+}
+
 impl<const HASTY: bool> Sweeps for Scripted<'_, HASTY> {
     type Movement = Change;
 
@@ -90,13 +102,7 @@ fn sweeps<C: Class, const HASTY: bool>(
     scales: &[f64],
     coin: bool,
 ) -> Result<u32, Failure> {
-    let mut script = Scripted::<HASTY> {
-        changes,
-        scales,
-        made: 0,
-        begun: 0,
-        time: time(coin),
-    };
+    let mut script = Scripted::<HASTY>::new(changes, scales, time(coin));
     let settled = made::<C, _>(&mut script, Kept::default(), at_most(changes.len()));
     settled.map(|(iterations, _)| iterations)
 }
@@ -104,13 +110,7 @@ fn sweeps<C: Class, const HASTY: bool>(
 /// The sweeps of a hasty iteration of values that are one, after those of a step in which they were this, and how large they
 /// are then known to be.
 fn after<C: Class>(before: [f64; 2], changes: &[[f64; 2]]) -> Result<(u32, [f64; 2]), Failure> {
-    let mut script = Scripted::<true> {
-        changes,
-        scales: &[1.0],
-        made: 0,
-        begun: 0,
-        time: 1.0,
-    };
+    let mut script = Scripted::<true>::new(changes, &[1.0], 1.0);
     made::<C, _>(&mut script, stages(before), at_most(changes.len()))
 }
 
@@ -152,13 +152,7 @@ fn what_stagnates_has_one_sweep_more_at_half_of_all_times() {
 fn what_stagnates_after_another_step_has_one_sweep_more_at_half_of_all_times() {
     let changes = alike([1e12, 1e6, 10.0, 4.0, 5.0, 3.0, 3.0]);
     let after = |coin: bool, bound: usize| {
-        let mut script = Scripted::<false> {
-            changes: &changes,
-            scales: &[1.0],
-            made: 0,
-            begun: 0,
-            time: time(coin),
-        };
+        let mut script = Scripted::<false>::new(&changes, &[1.0], time(coin));
         made::<Separable, _>(&mut script, stages([1.0; 2]), at_most(bound)).map(|x| x.0)
     };
     // The bound may come right after.
@@ -174,13 +168,7 @@ fn what_stagnates_after_another_step_has_one_sweep_more_at_half_of_all_times() {
 fn an_iteration_is_begun_once_whatever_its_bound_is() {
     fn check<const HASTY: bool>(bound: usize) {
         let changes = alike([1e3, 100.0, 60.0, 60.0, 60.0, 60.0]);
-        let mut script = Scripted::<HASTY> {
-            changes: &changes,
-            scales: &[1.0],
-            made: 0,
-            begun: 0,
-            time: time(false),
-        };
+        let mut script = Scripted::<HASTY>::new(&changes, &[1.0], time(false));
         let settled = made::<General, _>(&mut script, stages([1.0; 2]), at_most(bound));
         assert_eq!(script.begun, 1);
         assert_eq!(script.made, bound.min(4));
@@ -191,13 +179,8 @@ fn an_iteration_is_begun_once_whatever_its_bound_is() {
         check::<true>(bound);
     }
     // What fails is tried once more without the stages, and counts.
-    let mut script = Scripted::<true> {
-        changes: &alike([1e3, 1.0]),
-        scales: &[1.0],
-        made: 0,
-        begun: 0,
-        time: 1.0,
-    };
+    let changes = alike([1e3, 1.0]);
+    let mut script = Scripted::<true>::new(&changes, &[1.0], 1.0);
     let work = settle::<General, f64>(&mut script, stages([1.0; 2]), at_most(1));
     let work = work.expect("a change of one unit");
     assert_eq!((work.iterations, work.evaluations), (2, 2));
@@ -209,13 +192,7 @@ fn what_is_not_a_number_ends_no_iteration_after_another() {
     for [q, p] in [[f64::NAN, f64::NAN], [f64::NAN, 1.0], [1.0, f64::NAN]] {
         let mut changes = alike([1e12, 1e6, 10.0]).to_vec();
         changes.extend([[q, p]; 20]);
-        let mut script = Scripted::<false> {
-            changes: &changes,
-            scales: &[1.0],
-            made: 0,
-            begun: 0,
-            time: 1.0,
-        };
+        let mut script = Scripted::<false>::new(&changes, &[1.0], 1.0);
         let settled = made::<Separable, _>(&mut script, stages([1.0; 2]), at_most(changes.len()));
         assert!(settled.is_err(), "{q} {p}: {settled:?}");
     }
@@ -291,13 +268,7 @@ fn noise_is_noise_where_the_sweeps_before_it_were_not_looked_at() {
     let mut changes = alike([1e12, 1e9, 1e6, 1e3, 50.0]).to_vec();
     changes.extend([[200.0; 2]; 30]);
     let settled = |kept: Kept| {
-        let mut script = Scripted::<false> {
-            changes: &changes,
-            scales: &[1.0],
-            made: 0,
-            begun: 0,
-            time: 1.0,
-        };
+        let mut script = Scripted::<false>::new(&changes, &[1.0], 1.0);
         made::<Separable, _>(&mut script, kept, at_most(changes.len()))
     };
     assert_eq!(settled(Kept::default()), Ok((15, [1.0; 2])));
@@ -305,13 +276,7 @@ fn noise_is_noise_where_the_sweeps_before_it_were_not_looked_at() {
     // Where one half never settles, the other says nothing.
     let changes = [[0.5, 1e12]; 40];
     for kept in [Kept::default(), stages([1.0; 2])] {
-        let mut script = Scripted::<false> {
-            changes: &changes,
-            scales: &[1.0],
-            made: 0,
-            begun: 0,
-            time: 1.0,
-        };
+        let mut script = Scripted::<false>::new(&changes, &[1.0], 1.0);
         let settled = made::<General, _>(&mut script, kept, at_most(40));
         assert!(settled.is_err(), "{settled:?}");
     }
@@ -325,13 +290,7 @@ fn tolerant<C: Class>(
     kept: Kept,
     changes: &[[f64; 2]],
 ) -> Result<(u32, [f64; 2]), Failure> {
-    let mut script = Scripted::<true> {
-        changes,
-        scales: &[1.0],
-        made: 0,
-        begun: 0,
-        time: 1.0,
-    };
+    let mut script = Scripted::<true>::new(changes, &[1.0], 1.0);
     let stopping = Stopping {
         max_iterations: changes.len() as u32,
         tolerance: units * f64::EPSILON,
@@ -468,13 +427,7 @@ fn shrinking(seed: u64) -> Vec<[f64; 2]> {
 /// How many of a thousand iterations end at another sweep after a step with values this large than without one; values are one.
 fn others<C: Class, const HASTY: bool>(before: f64) -> usize {
     let scripted = |seed: u64, changes: &[[f64; 2]], kept: Kept| {
-        let mut script = Scripted::<HASTY> {
-            changes,
-            scales: &[1.0],
-            made: 0,
-            begun: 0,
-            time: seed as f64,
-        };
+        let mut script = Scripted::<HASTY>::new(changes, &[1.0], seed as f64);
         let bound = at_most(changes.len());
         let quick = hasten::<C, f64, _>(&mut script, kept, bound).is_ok();
         (script.made, script.begun) = (0, 0);
@@ -549,13 +502,9 @@ fn a_hasty_iteration_after_another_that_runs_away_is_an_error() {
 fn a_hasty_iteration_of_numbers_of_any_size_ends_at_the_same_sweep() {
     for scale in [1.0, 1e-120, 1e-130, 1e-150, 1e-280, 1e150, 1e200] {
         for (last, sweeps) in [(30.0, 4), (32.0, 5)] {
-            let mut script = Scripted::<true> {
-                changes: &alike([1e12, 1e9, 1000.0, last, 0.0]),
-                scales: &[scale],
-                made: 0,
-                begun: 0,
-                time: 1.0,
-            };
+            let changes = alike([1e12, 1e9, 1000.0, last, 0.0]);
+            let scales = [scale];
+            let mut script = Scripted::<true>::new(&changes, &scales, 1.0);
             let settled = made::<General, _>(&mut script, stages([scale; 2]), at_most(5));
             assert_eq!(settled, Ok((sweeps, [scale; 2])), "{scale} {last}");
         }
