@@ -156,8 +156,9 @@ where
                 (true, false) => Some(h * weights[j]),
                 (false, _) => Some(h),
             },
+            with_low: R::COMPENSATED,
         };
-        values::<P, V>(&sums, out, base, terms, sum::<R, P>)
+        values::<P, V>(&sums, out, base, terms, sum::<P>)
     }
 
     /// Stages from the increments of the step before.
@@ -175,16 +176,18 @@ where
             count: P::MOMENTA.columns.len(),
             column: |j: usize| &Starting::<P>::MOMENTA[j][..],
             factor: |_| factor,
+            with_low: R::COMPENSATED,
         };
         let base = (step.p, step.p_low);
-        values::<P, V>(&sums, p.as_mut(), base, force.as_ref(), sum::<R, P>);
+        values::<P, V>(&sums, p.as_mut(), base, force.as_ref(), sum::<P>);
         let sums = Sums {
             count: P::POSITIONS.columns.len(),
             column: |j: usize| &Starting::<P>::POSITIONS[j][..],
             factor: |_| factor,
+            with_low: R::COMPENSATED,
         };
         let base = (step.q, step.q_low);
-        values::<P, V>(&sums, q.as_mut(), base, velocity.as_ref(), sum::<R, P>);
+        values::<P, V>(&sums, q.as_mut(), base, velocity.as_ref(), sum::<P>);
     }
 }
 

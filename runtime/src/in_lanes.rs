@@ -279,9 +279,9 @@ where
     pub(crate) fn positions(&mut self) -> LanePart<P::Lanes> {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.q, step.q_low);
-        let sums = sums::<P>(&P::POSITIONS, step.size);
+        let sums = sums::<R, P>(&P::POSITIONS, step.size);
         let terms = stages.velocity.as_ref();
-        values::<P, V>(&sums, stages.q.as_mut(), base, terms, sum::<R, P>)
+        values::<P, V>(&sums, stages.q.as_mut(), base, terms, sum::<P>)
     }
 
     /// New momenta; returns how much they changed.
@@ -289,9 +289,9 @@ where
     pub(crate) fn momenta(&mut self) -> LanePart<P::Lanes> {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.p, step.p_low);
-        let sums = sums::<P>(&P::MOMENTA, step.size);
+        let sums = sums::<R, P>(&P::MOMENTA, step.size);
         let terms = stages.force.as_ref();
-        values::<P, V>(&sums, stages.p.as_mut(), base, terms, sum::<R, P>)
+        values::<P, V>(&sums, stages.p.as_mut(), base, terms, sum::<P>)
     }
 
     /// Evaluates all forces, which are no increments yet.
@@ -412,20 +412,23 @@ pub(crate) struct Sums<C, F> {
     pub(crate) count: usize,
     pub(crate) column: C,
     pub(crate) factor: F,
+    /// Whether they start with what the base leaves out.
+    pub(crate) with_low: bool,
 }
 
 /// The sums of one half of the stages.
 #[inline(always)]
-fn sums<P: StageTableau>(
+fn sums<R: Summation, P: StageTableau>(
     half: &HalfTableau,
     h: f64,
-) -> Sums<impl Fn(usize) -> &'static [f64] + use<P>, impl Fn(usize) -> Option<f64> + use<P>> {
+) -> Sums<impl Fn(usize) -> &'static [f64] + use<R, P>, impl Fn(usize) -> Option<f64> + use<R, P>> {
     let columns = half.columns;
     let factor = (!P::INCREMENTS).then_some(h);
     Sums {
         count: columns.len(),
         column: move |j: usize| columns[j],
         factor: move |_| factor,
+        with_low: R::COMPENSATED,
     }
 }
 
@@ -444,50 +447,57 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
         .min(base.dimension())
         .min(low.dimension());
     let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
-    let zero = P::Lanes::from_f64(0.0);
-    // The lanes take the larger numbers, and lose what is not one; the sum does not.
-    let (mut difference, mut sum) = (zero, zero);
+    // Not from zero, which the compiler has to add. The lanes take the larger numbers, and lose what is not one; the sum does not.
+    let mut part: Option<LanePart<P::Lanes>> = None;
     for k in 0..n {
         let start = P::Lanes::from_f64(base[k]);
         for (group, out) in out.iter_mut().enumerate() {
-            let sum_of_terms = combination::<P, V>(sums, group, terms, k);
-            let new = value(
-                (group, k),
-                (start, P::Lanes::from_f64(low[k])),
-                sum_of_terms,
-            );
+            let low = P::Lanes::from_f64(low[k]);
+            let sum_of_terms =
+                combination::<P, V>(sums, group, terms, k, sums.with_low.then_some(low));
+            let new = value((group, k), (start, low), sum_of_terms);
             let component = &mut out.as_mut_slice()[k];
             let moved = (new - *component).abs();
-            difference = difference.larger(moved);
-            sum += moved;
             *component = new;
+            part = Some(match part {
+                Some(LanePart { difference, sum }) => LanePart {
+                    difference: difference.larger(moved),
+                    sum: sum + moved,
+                },
+                None => LanePart {
+                    difference: moved,
+                    sum: moved,
+                },
+            });
         }
     }
-    LanePart { difference, sum }
+    let zero = P::Lanes::from_f64(0.0);
+    part.unwrap_or(LanePart {
+        difference: zero,
+        sum: zero,
+    })
 }
 
-/// `base + low + sum`.
+/// `base + sum`, for a sum with what the base leaves out.
 #[inline(always)]
-pub(crate) fn sum<R: Summation, P: StageTableau>(
+pub(crate) fn sum<P: StageTableau>(
     _place: (usize, usize),
-    (base, low): (P::Lanes, P::Lanes),
+    (base, _low): (P::Lanes, P::Lanes),
     sum: P::Lanes,
 ) -> P::Lanes {
-    match R::COMPENSATED {
-        true => base + (sum + low),
-        false => base + sum,
-    }
+    base + sum
 }
 
-/// `factor Σ_j columns_j terms_j` in one component, for the stages of one group; the factor, if any, is in the products.
+/// `start + factor Σ_j columns_j terms_j` in one component, for the stages of one group; the factor, if any, is in the products.
 #[inline(always)]
 fn combination<P: StageTableau, V: Vector>(
     sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
     group: usize,
     terms: &[Laned<V, P>],
     component: usize,
+    start: Option<P::Lanes>,
 ) -> P::Lanes {
-    sum_of_products(sums.count, |j| {
+    sum_of_products(start, sums.count, |j| {
         let column: P::Lanes = lanes((sums.column)(j), group);
         let column = match (sums.factor)(j) {
             Some(factor) => column * P::Lanes::from_f64(factor),
@@ -510,11 +520,12 @@ pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
         count: columns.len(),
         column: |j: usize| columns[j],
         factor: |_| None,
+        with_low: false,
     };
     let mut new = P::groups(|_| P::Lanes::from_f64(0.0));
     for k in 0..n {
         for (group, new) in new.as_mut().iter_mut().enumerate() {
-            *new = combination::<P, V>(&sums, group, increments, k);
+            *new = combination::<P, V>(&sums, group, increments, k, None);
         }
         for (group, new) in new.as_ref().iter().enumerate() {
             increments[group].as_mut_slice()[k] = *new;

@@ -274,7 +274,7 @@ pub fn transform<V: Vector, const N: usize>(
                     factor(j).fused(old[j], sum)
                 })
             } else {
-                sum_of_products(N, |j| (factor(j), old[j]))
+                sum_of_products(None, N, |j| (factor(j), old[j]))
             };
         }
     }
@@ -326,32 +326,37 @@ pub(crate) fn value<R: Summation, T: Scalar, const N: usize>(
     if N == 0 {
         return base;
     }
-    let mut sum = sum_of_products(N, |j| (factors[j], terms[j][i]));
-    if R::COMPENSATED {
-        sum += low;
-    }
-    base + sum
+    base + sum_of_products(R::COMPENSATED.then_some(low), N, |j| {
+        (factors[j], terms[j][i])
+    })
 }
 
-/// The sum of so many products, at least one: those with even and those with odd numbers apart, for additions that need not
-/// wait for one another.
+/// The sum of so many products, at least one, and of what it may start with: those with even and those with odd numbers apart, for
+/// additions that need not wait for one another.
 #[inline(always)]
-pub(crate) fn sum_of_products<T: Scalar>(count: usize, factors: impl Fn(usize) -> (T, T)) -> T {
-    // Starting from the first products, not from zero: 0 + x is an addition that the compiler has to keep.
-    let product = |j: usize| {
+pub(crate) fn sum_of_products<T: Scalar>(
+    start: Option<T>,
+    count: usize,
+    factors: impl Fn(usize) -> (T, T),
+) -> T {
+    let add = |sum: Option<T>, j: usize| {
         let (x, y) = factors(j);
-        x * y
+        match sum {
+            Some(sum) => x.fused(y, sum),
+            // Not from zero: 0 + x is an addition that the compiler has to keep.
+            None => x * y,
+        }
     };
-    let mut sums = [product(0), T::zero()];
+    let mut even = add(start, 0);
     if count == 1 {
-        return sums[0];
+        return even;
     }
-    sums[1] = product(1);
+    let mut odd = add(None, 1);
     for j in 2..count {
-        let (x, y) = factors(j);
-        sums[j % 2] = x.fused(y, sums[j % 2]);
+        let sum = if j % 2 == 0 { &mut even } else { &mut odd };
+        *sum = add(Some(*sum), j);
     }
-    sums[0] + sums[1]
+    even + odd
 }
 
 /// The components of a result.

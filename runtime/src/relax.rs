@@ -118,6 +118,7 @@ fn values<R: Summation, T: Scalar, const N: usize>(
         let sum = &mut sums[j % 2];
         for lane in 0..LANES {
             sum[lane] = match j {
+                0 if R::COMPENSATED => factors[j].fused(term[lane], low[lane]),
                 0 | 1 => factors[j] * term[lane],
                 _ => factors[j].fused(term[lane], sum[lane]),
             };
@@ -128,9 +129,6 @@ fn values<R: Summation, T: Scalar, const N: usize>(
         let mut sum = sums[0][lane];
         if N > 1 {
             sum += sums[1][lane];
-        }
-        if R::COMPENSATED {
-            sum += low[lane];
         }
         values[lane] += sum;
     }

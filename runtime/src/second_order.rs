@@ -7,6 +7,7 @@ use crate::in_lanes::{
     values,
 };
 use crate::iteration::{Begun, Sweeps, patiently, settle};
+use crate::kernel::sum_of_products;
 use crate::lane_movement::{LaneMovement, LanePart};
 use crate::lane_stages::LaneStages;
 use crate::starting_values::{StartingColumns, starting_columns, starts_at_once};
@@ -136,22 +137,15 @@ where
                 false => low,
             };
             let velocity = start::<P, V, S>(step.p, stages, k);
-            let part = |stage: usize| {
-                tableau::<P>().rest[stage] * entry::<P, V>(slopes.as_ref(), stage, k)
-            };
             let count = P::POSITIONS.count;
+            // Small beside the velocity: its rounding errors are below those of the increments.
+            let sum = sum_of_products(None, count, |stage| {
+                let slope = entry::<P, V>(slopes.as_ref(), stage, k);
+                (tableau::<P>().rest[stage], slope)
+            });
             let (high, rest) = match R::COMPENSATED {
-                true => add::<R, f64>(base, low, count + 1, |stage| {
-                    h * if stage == count {
-                        velocity
-                    } else {
-                        part(stage)
-                    }
-                }),
-                false => (
-                    h.fused(add::<R, f64>(velocity, 0.0, count, part).0, base),
-                    low,
-                ),
+                true => add::<R, f64>(base, low, 2, |part| h * [sum, velocity][part]),
+                false => (h.fused(velocity + sum, base), low),
             };
             q.as_mut_slice()[k] = high;
             if R::COMPENSATED {
@@ -257,6 +251,7 @@ where
             count: columns.len(),
             column: |j: usize| columns[j],
             factor: |j: usize| Some(h * (h * P::POSITIONS.weights[j])),
+            with_low: false,
         })
     }
 
@@ -271,6 +266,7 @@ where
             count,
             column,
             factor: |_| None,
+            with_low: false,
         })
     }
 
