@@ -104,8 +104,11 @@ pub(crate) trait Movement: Copy {
     /// Whether the positions, and the momenta where they count, [would move](is_next_within) by no more than these bounds next.
     fn is_next_within(&self, before: &Self, bounds: [f64; 2], both: bool) -> bool;
 
-    /// By how much the positions moved; where the momenta count, the larger of both as these parts of what they are.
-    fn size(&self, parts: [f64; 2], both: bool) -> f64;
+    /// By how much the positions moved; where the momenta count, the larger of both, each multiplied by its weight.
+    fn size(&self, weights: [f64; 2], both: bool) -> f64;
+
+    /// Whether that is below this, but not zero.
+    fn shrinks(&self, below: f64, weights: [f64; 2], both: bool) -> bool;
 }
 
 impl Movement for Change {
@@ -137,6 +140,12 @@ impl Movement for Change {
             true => larger(self.q.difference() * q, self.p.difference() * p),
             false => self.q.difference(),
         }
+    }
+
+    #[inline(always)]
+    fn shrinks(&self, below: f64, weights: [f64; 2], both: bool) -> bool {
+        let size = self.size(weights, both);
+        size < below && size > 0.0
     }
 }
 
@@ -204,6 +213,14 @@ fn units<T: Scalar>(count: f64, [q, p]: [f64; 2]) -> [f64; 2] {
 fn is_known<T: Scalar>(scales: [f64; 2], both: bool) -> bool {
     let [q, p] = units::<T>(1.0, scales);
     is_square_safe(q) && (!both || is_square_safe(p))
+}
+
+/// These sizes where they are [known](is_known), zero elsewhere.
+fn known<T: Scalar>(scales: [f64; 2], both: bool) -> [f64; 2] {
+    match is_known::<T>(scales, both) {
+        true => scales,
+        false => [0.0; 2],
+    }
 }
 
 /// Whether the change after two others, `this²/before` should they shrink by one factor, is within a bound the square of which

@@ -28,7 +28,7 @@ impl<L: Lanes> Movement for LaneMovement<L> {
     #[inline(always)]
     fn settles_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
         match both {
-            true => self.q.is_within(q) && self.p.is_within(p),
+            true => self.q.is_within(q) & self.p.is_within(p),
             false => {
                 self.q.is_within(q) && !self.p.sum.any_nan()
                     || self.p.is_within(p) && !self.q.sum.any_nan()
@@ -47,13 +47,27 @@ impl<L: Lanes> Movement for LaneMovement<L> {
     }
 
     #[inline(always)]
-    fn size(&self, [q, p]: [f64; 2], both: bool) -> f64 {
+    fn size(&self, weights: [f64; 2], both: bool) -> f64 {
+        self.sizes(weights, both).largest()
+    }
+
+    #[inline(always)]
+    fn shrinks(&self, below: f64, weights: [f64; 2], both: bool) -> bool {
+        // The processor need not wait for the largest of all lanes.
+        let sizes = self.sizes(weights, both);
+        sizes.all_below(below) & sizes.any_above(0.0)
+    }
+}
+
+impl<L: Lanes> LaneMovement<L> {
+    /// [`size`](Movement::size), lane by lane.
+    #[inline(always)]
+    fn sizes(&self, [q, p]: [f64; 2], both: bool) -> L {
         let (of_q, of_p) = (self.q.difference, self.p.difference);
         match both {
             true => (of_q * L::from_f64(q)).larger(of_p * L::from_f64(p)),
             false => of_q,
         }
-        .largest()
     }
 }
 
@@ -133,6 +147,13 @@ mod tests {
                     if !change.is_undefined() {
                         let sizes = [lanes.size([2.0, 0.5], both), change.size([2.0, 0.5], both)];
                         assert_eq!(sizes[0], sizes[1], "{q:?} {p:?} {both}");
+                        for below in [0.0, 0.5, sizes[0], 2.0, f64::INFINITY] {
+                            let [this, other] = [
+                                lanes.shrinks(below, [2.0, 0.5], both),
+                                change.shrinks(below, [2.0, 0.5], both),
+                            ];
+                            assert_eq!(this, other, "{q:?} {p:?} {both} {below}");
+                        }
                     }
                 }
             }

@@ -46,6 +46,9 @@ pub trait Lanes: Scalar {
     /// Whether a number is above `bound`; NaN is not.
     fn any_above(self, bound: f64) -> bool;
 
+    /// Whether all numbers are below `bound`; NaN is not.
+    fn all_below(self, bound: f64) -> bool;
+
     /// Whether a number is NaN.
     fn any_nan(self) -> bool;
 
@@ -303,6 +306,11 @@ macro_rules! lanes {
             #[inline(always)]
             fn any_above(self, bound: f64) -> bool {
                 self.0.simd_gt(<$inner>::splat(bound)).any()
+            }
+
+            #[inline(always)]
+            fn all_below(self, bound: f64) -> bool {
+                self.0.simd_lt(<$inner>::splat(bound)).all()
             }
 
             #[inline(always)]

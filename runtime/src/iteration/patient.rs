@@ -2,7 +2,7 @@
 
 use super::{
     AMPLIFIED, Begun, CONTRACTION, FAR, Movement, PATIENCE, ROUNDING, STAGNATION, Sweeps, coin,
-    is_known, larger, units,
+    is_known, known, larger, units,
 };
 use crate::{
     Change, Class, Failure, Kept, PartChange, Quantity, Scalar, Separable, Stopping, Work,
@@ -57,7 +57,7 @@ pub(super) fn solve<C: Class, T: Scalar, W: Sweeps>(
     let solved = iterate::<C, T, _>(sweeps, kept, stopping, begun);
     let iterations = match solved {
         Ok((iterations, scales)) => {
-            work.scales = scales;
+            work.scales = known::<T>(scales, W::both::<C>() || !W::HASTY);
             iterations
         }
         Err(Failure::NoConvergence { iterations, .. }) => iterations,

@@ -22,7 +22,7 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     stopping: Stopping,
 ) -> Hastened<W::Movement> {
     let both = W::both::<C>();
-    let is_known = kept.stages && is_known::<T>(kept.scales, both || !W::HASTY);
+    let is_known = kept.stages && kept.scales[0] > 0.0;
     // The last sweep that is allowed is looked at.
     if W::LOOKS_AFAR || !is_known || stopping.max_iterations < 2 {
         return Err(Begun::NOTHING);
@@ -116,45 +116,56 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
 ) -> Hastened<W::Movement> {
     let mut size = Size::of::<T>(scales);
     let mut begun = Begun::NOTHING;
-    let mut smallest = f64::INFINITY;
-    let mut once_more = false;
-    while once_more || begun.iterations + 1 < bound {
+    let mut this = loop {
         let this = sweeps.sweep();
         begun.iterations += 1;
-        if once_more {
-            return Ok((begun.iterations, size.scales));
-        }
-        let mut is_near = this.settles_within(size.near, both);
-        if is_near && smallest == f64::INFINITY && !sweeps.are_about(&this, size.scales, true) {
-            size = Size::of::<T>(sweeps.change(&this).scales());
-            is_near = this.settles_within(size.near, both) && is_known::<T>(size.scales, true);
-        }
-        if is_near {
-            let part = this.size(size.parts, both);
-            if part < smallest && part > 0.0 {
-                smallest = part;
-                begun.least = Some((begun.iterations, this));
-            } else if part > 0.0 && begun.iterations < late && coin(sweeps.time()) {
-                once_more = true;
-            } else {
-                return Ok((begun.iterations, size.scales));
+        if this.settles_within(size.near, both) {
+            if sweeps.are_about(&this, size.scales, true) {
+                break this;
             }
-        } else if smallest < f64::INFINITY || begun.iterations + 1 >= late {
+            size = Size::of::<T>(sweeps.change(&this).scales());
+            if this.settles_within(size.near, both) && is_known::<T>(size.scales, true) {
+                break this;
+            }
+        }
+        if begun.iterations + 1 >= late {
             begun.last = Some(this);
             return Err(begun);
-        } else if begun.iterations == 1 {
+        }
+        if begun.iterations == 1 {
             begun.first = Some(this);
         }
+    };
+    let mut smallest = f64::INFINITY;
+    // One comparison decides: most sweeps are foreseen by the processor, and where one is not it waits for nothing else.
+    while this.shrinks(smallest, size.weights, both) {
+        if begun.iterations + 1 >= bound {
+            begun.last = Some(this);
+            return Err(begun);
+        }
+        smallest = this.size(size.weights, both);
+        begun.least = Some((begun.iterations, this));
+        this = sweeps.sweep();
+        begun.iterations += 1;
     }
-    Err(begun)
+    if !this.settles_within(size.near, both) {
+        begun.last = Some(this);
+        return Err(begun);
+    }
+    let moves = this.shrinks(f64::INFINITY, size.weights, both);
+    if moves && begun.iterations < late && coin(sweeps.time()) {
+        sweeps.sweep();
+        begun.iterations += 1;
+    }
+    Ok((begun.iterations, size.scales))
 }
 
 /// How large stages are.
 struct Size {
     /// Positions and momenta, but for a factor of two.
     scales: [f64; 2],
-    /// What one of each is a part of.
-    parts: [f64; 2],
+    /// What changes of each are multiplied by to be compared with those of the other: how large that is.
+    weights: [f64; 2],
     /// What can be rounding errors.
     near: [f64; 2],
 }
@@ -164,7 +175,7 @@ impl Size {
     fn of<T: Scalar>(scales: [f64; 2]) -> Self {
         Self {
             scales,
-            parts: scales.map(|scale| 1.0 / scale),
+            weights: [scales[1], scales[0]],
             near: units::<T>(ROUNDING, scales),
         }
     }
