@@ -4,12 +4,14 @@
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
-use symplectic::nalgebra::Vector2;
-use symplectic::{Error, HamiltonianInLanes, Integrator, Method};
-use symplectic_tests::drift::{Sample, Start, ensemble, exponent};
+use symplectic::{
+    Class, Error, Hamiltonian, HamiltonianInLanes, Integrator, Method, State, Vector,
+};
+use symplectic_tests::drift::{Sample, ensemble, exponent};
 use symplectic_tests::methods::{Gauss6, Gauss8};
 use symplectic_tests::scenes::henon_heiles::{self, HenonHeiles};
 use symplectic_tests::scenes::kepler::{self, Kepler};
+use symplectic_tests::scenes::nonseparable::{self, Nonseparable};
 
 const ORBITS: u32 = 32;
 
@@ -25,16 +27,10 @@ fn main() -> Result<(), Error> {
         "| problem | method | sums | mean | spread | ratio | growth of the mean | of the spread |"
     );
     println!("|---|---|---|---:|---:|---:|---:|---:|");
-    let orbits = |start: fn(f64) -> Start| -> Vec<Start> {
-        (0..ORBITS).map(|k| start(f64::from(k))).collect()
-    };
     // Neighbouring orbits: their rounding errors are independent.
     let ellipses = orbits(|k| kepler::start(0.6 - 1e-3 * k));
-    let stars = orbits(|k| {
-        let mut start = henon_heiles::start();
-        start.q[0] += 1e-3 * k;
-        start
-    });
+    let stars = orbits(|k| beside(henon_heiles::start(), k));
+    let rings = orbits(|k| beside(nonseparable::start(), k));
     // The step sizes are such that the errors of the methods themselves are below those of rounding.
     let kepler = Ensemble {
         problem: "Kepler, e ≈ 0.6",
@@ -49,30 +45,50 @@ fn main() -> Result<(), Error> {
         starts: &stars,
     };
     galaxy.rows(Gauss6, 1.0 / 16.0, &steps)?;
-    galaxy.rows(Gauss8, 1.0 / 8.0, &steps)
+    galaxy.rows(Gauss8, 1.0 / 8.0, &steps)?;
+    let general = Ensemble {
+        problem: "(q² + 1)(p² + 1)/2",
+        system: Nonseparable,
+        starts: &rings,
+    };
+    general.rows(Gauss6, 1.0 / 32.0, &steps)?;
+    general.rows(Gauss8, 1.0 / 16.0, &steps)
+}
+
+/// The start of every orbit.
+fn orbits<V>(start: impl Fn(f64) -> State<V>) -> Vec<State<V>> {
+    (0..ORBITS).map(|k| start(f64::from(k))).collect()
+}
+
+/// The `k`-th neighbour of a state.
+fn beside<V: Vector<Scalar = f64>>(mut state: State<V>, k: f64) -> State<V> {
+    state.q.as_mut_slice()[0] += 1e-3 * k;
+    state
 }
 
 /// Orbits of one system.
-struct Ensemble<'a, S> {
+struct Ensemble<'a, S, V> {
     problem: &'a str,
     system: S,
-    starts: &'a [Start],
+    starts: &'a [State<V>],
 }
 
-impl<S: HamiltonianInLanes<Vector2<f64>> + Copy> Ensemble<'_, S> {
-    /// A row for each kind of sums, and one for the step without momentum stages.
+impl<S: HamiltonianInLanes<V> + Copy, V: Vector<Scalar = f64>> Ensemble<'_, S, V> {
+    /// A row for each kind of sums, and one for the step without momentum stages where the Hamiltonian is separable.
     fn rows<M: Method>(&self, method: M, step_size: f64, steps: &[u64]) -> Result<(), Error> {
         let system = self.system;
         let row = |sums, samples: Vec<Sample>| self.row::<M>(sums, &samples);
         // In lanes they are the same to the last bit, and faster.
         let compensated = |start| Ok(Integrator::new(method, system, start, step_size)?.in_lanes());
         row("compensated", ensemble(compensated, self.starts, steps)?);
-        let second_order =
-            |start| Integrator::new(method, system, start, step_size)?.in_second_order_lanes();
-        row(
-            "compensated, second order",
-            ensemble(second_order, self.starts, steps)?,
-        );
+        if <S as Hamiltonian<V>>::Class::SEPARABLE {
+            let second_order =
+                |start| Integrator::new(method, system, start, step_size)?.in_second_order_lanes();
+            row(
+                "compensated, second order",
+                ensemble(second_order, self.starts, steps)?,
+            );
+        }
         let plain = |start| Ok(Integrator::plain(method, system, start, step_size)?.in_lanes());
         row("plain", ensemble(plain, self.starts, steps)?);
         Ok(())

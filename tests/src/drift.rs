@@ -4,11 +4,7 @@
 //! spread grows like the square root of the number of steps (Brouwer's law). A drift is a mean that is many of its own
 //! standard errors away from zero, and that grows with the number of steps itself.
 
-use symplectic::nalgebra::Vector2;
-use symplectic::{Error, Hamiltonian, Integrator, Method, Solver, State, Summation};
-
-/// Where an orbit begins.
-pub type Start = State<Vector2<f64>>;
+use symplectic::{Error, Hamiltonian, Integrator, Method, Solver, State, Summation, Vector};
 
 /// The relative energy errors of an ensemble after a number of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,16 +25,17 @@ pub struct Sample {
 /// # Errors
 ///
 /// Those of a step.
-pub fn ensemble<M, S, R, N>(
-    integrator: impl Fn(Start) -> Result<Integrator<M, S, Vector2<f64>, R, N>, Error>,
-    starts: &[Start],
+pub fn ensemble<M, S, V, R, N>(
+    integrator: impl Fn(State<V>) -> Result<Integrator<M, S, V, R, N>, Error>,
+    starts: &[State<V>],
     steps: &[u64],
 ) -> Result<Vec<Sample>, Error>
 where
     M: Method,
-    S: Hamiltonian<Vector2<f64>>,
+    S: Hamiltonian<V>,
+    V: Vector<Scalar = f64>,
     R: Summation,
-    N: Solver<Vector2<f64>, S>,
+    N: Solver<V, S>,
 {
     let mut errors = vec![Vec::new(); steps.len()];
     for start in starts {

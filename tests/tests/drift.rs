@@ -2,15 +2,16 @@
 //!
 //! `cargo run --release --example drift` does the same over 2048 times as many steps.
 
-use symplectic::{Error, Integrator};
-use symplectic_tests::drift::{Start, ensemble};
+use symplectic::nalgebra::Vector2;
+use symplectic::{Error, Integrator, State};
+use symplectic_tests::drift::ensemble;
 use symplectic_tests::methods::Gauss6;
 use symplectic_tests::scenes::henon_heiles::{HenonHeiles, start};
 
 const STEP_SIZE: f64 = 1.0 / 16.0;
 const STEPS: [u64; 1] = [1 << 11];
 
-fn starts() -> Vec<Start> {
+fn starts() -> Vec<State<Vector2<f64>>> {
     let orbit = |k: u32| {
         let mut start = start();
         start.q[0] += 1e-3 * f64::from(k);
