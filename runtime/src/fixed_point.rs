@@ -28,7 +28,9 @@ use crate::{
 /// Where it has settled with a change that is not zero, rounding makes stages jump to and fro between two values, and the side
 /// that the starting values come from says at which of them it ends. The energy would drift by that too, though by 1e-21 of it
 /// a step (measured; Hénon–Heiles, Gauss 8). At half of these steps, by a bit of their time that is as good as random, there
-/// is one sweep more, unless there were ten.
+/// is one sweep more, unless there were ten. Where it stands still, at one of several roundings that solve the rounded equations,
+/// that side says at which: a drift of 1e-20 of the energy a step is left of a system that is not separable (measured;
+/// `(q² + 1)(p² + 1)/2`, Gauss 6 and 8).
 ///
 /// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for the stagnation: it
 /// ends with a change that is at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) if the next one, should it shrink by the same factor,

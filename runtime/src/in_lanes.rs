@@ -447,7 +447,7 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
         .min(base.dimension())
         .min(low.dimension());
     let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
-    // Not from zero, which the compiler has to add. The lanes take the larger numbers, and lose what is not one; the sum does not.
+    // Not from zero, which the compiler has to add. The lanes take the larger numbers, and may lose what is not one; the sum does not.
     let mut part: Option<LanePart<P::Lanes>> = None;
     for k in 0..n {
         let start = P::Lanes::from_f64(base[k]);

@@ -107,7 +107,7 @@ pub(crate) trait Movement: Copy {
     /// By how much the positions moved; where the momenta count, the larger of both, each multiplied by its weight.
     fn size(&self, weights: [f64; 2], both: bool) -> f64;
 
-    /// Whether that is below this, but not zero.
+    /// Whether that is below this, but not zero. What is not a number may be lost: [`settles_within`](Self::settles_within) sees it.
     fn shrinks(&self, below: f64, weights: [f64; 2], both: bool) -> bool;
 }
 

@@ -13,7 +13,7 @@ pub(crate) struct LaneMovement<L> {
 /// How it moved the positions, or the momenta.
 #[derive(Clone, Copy)]
 pub(crate) struct LanePart<L> {
-    /// The largest change of a component, without those that are NaN.
+    /// The largest change of a component; where one is NaN, any.
     pub(crate) difference: L,
     /// All changes together: NaN if one is.
     pub(crate) sum: L,

@@ -138,7 +138,7 @@ where
             };
             let velocity = start::<P, V, S>(step.p, stages, k);
             let count = P::POSITIONS.count;
-            // Small beside the velocity: its rounding errors are below those of the increments.
+            // Rarely large beside the velocity, by a factor of the step size: its rounding errors are like those of the increments.
             let sum = sum_of_products(None, count, |stage| {
                 let slope = entry::<P, V>(slopes.as_ref(), stage, k);
                 (tableau::<P>().rest[stage], slope)

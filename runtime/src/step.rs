@@ -103,7 +103,7 @@ pub struct Kept {
     /// The increments of its stages, from which those of this step can be extrapolated: the step before was taken by
     /// the same method, from a step size equal to this one.
     pub stages: bool,
-    /// How large [those stages](crate::Work::scales) were.
+    /// How large [those stages](crate::Work::scales) were, as the step before has returned it: zero where that is not known.
     pub scales: [f64; 2],
 }
 

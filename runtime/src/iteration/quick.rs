@@ -22,9 +22,9 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     stopping: Stopping,
 ) -> Hastened<W::Movement> {
     let both = W::both::<C>();
-    let is_known = kept.stages && kept.scales[0] > 0.0;
+    let goes_on = kept.stages && kept.scales[0] > 0.0;
     // The last sweep that is allowed is looked at.
-    if W::LOOKS_AFAR || !is_known || stopping.max_iterations < 2 {
+    if W::LOOKS_AFAR || !goes_on || stopping.max_iterations < 2 {
         return Err(Begun::NOTHING);
     }
     sweeps.begin(kept);
@@ -87,16 +87,19 @@ fn to_rounding<T: Scalar, W: Sweeps>(
             if is_last(size.scales) && sweeps.are_about(&this, size.scales, both) {
                 return Ok((begun.iterations, size.scales));
             }
-            size = Size::of::<T>(sweeps.change(&this).scales());
-            if this.is_within(size.near, both) && is_known::<T>(size.scales, both) {
-                if is_last(size.scales) {
-                    return Ok((begun.iterations, size.scales));
+            let scales = sweeps.change(&this).scales();
+            if is_known::<T>(scales, both) {
+                size = Size::of::<T>(scales);
+                if this.is_within(size.near, both) {
+                    if is_last(size.scales) {
+                        return Ok((begun.iterations, size.scales));
+                    }
+                    if begun.least.is_some() {
+                        begun.last = Some(this);
+                        return Err(begun);
+                    }
+                    begun.least = Some((begun.iterations, this));
                 }
-                if begun.least.is_some() {
-                    begun.last = Some(this);
-                    return Err(begun);
-                }
-                begun.least = Some((begun.iterations, this));
             }
         } else if begun.iterations == 1 {
             begun.first = Some(this);
@@ -123,9 +126,12 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
             if sweeps.are_about(&this, size.scales, true) {
                 break this;
             }
-            size = Size::of::<T>(sweeps.change(&this).scales());
-            if this.settles_within(size.near, both) && is_known::<T>(size.scales, true) {
-                break this;
+            let scales = sweeps.change(&this).scales();
+            if is_known::<T>(scales, true) {
+                size = Size::of::<T>(scales);
+                if this.settles_within(size.near, both) {
+                    break this;
+                }
             }
         }
         if begun.iterations + 1 >= late {
@@ -137,7 +143,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
         }
     };
     let mut smallest = f64::INFINITY;
-    // One comparison decides: most sweeps are foreseen by the processor, and where one is not it waits for nothing else.
+    // One branch decides: most sweeps are foreseen by the processor, and where one is not it waits for nothing else.
     while this.shrinks(smallest, size.weights, both) {
         if begun.iterations + 1 >= bound {
             begun.last = Some(this);
@@ -152,6 +158,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
         begun.last = Some(this);
         return Err(begun);
     }
+    // Anything but zero is below infinity.
     let moves = this.shrinks(f64::INFINITY, size.weights, both);
     if moves && begun.iterations < late && coin(sweeps.time()) {
         sweeps.sweep();
@@ -164,7 +171,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
 struct Size {
     /// Positions and momenta, but for a factor of two.
     scales: [f64; 2],
-    /// What changes of each are multiplied by to be compared with those of the other: how large that is.
+    /// What changes of each are multiplied by to be compared with those of the other: the scale of the other.
     weights: [f64; 2],
     /// What can be rounding errors.
     near: [f64; 2],

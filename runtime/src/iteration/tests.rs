@@ -514,6 +514,22 @@ fn a_hasty_iteration_of_numbers_of_any_size_ends_at_the_same_sweep() {
 }
 
 #[test]
+fn numbers_that_cannot_be_squared_are_not_known_to_the_next_step() {
+    fn check<const HASTY: bool>(scale: f64) {
+        let mut changes = alike([1e12, 1e6]).to_vec();
+        changes.extend([[1.0; 2]; 20]);
+        let scales = [scale];
+        let mut script = Scripted::<HASTY>::new(&changes, &scales, time(false));
+        let settled = made::<General, _>(&mut script, stages([1.0; 2]), at_most(20));
+        assert_eq!(settled.map(|x| x.1), Ok([0.0; 2]), "{scale} {HASTY}");
+    }
+    for scale in [1e-150, 1e-130, 1e160] {
+        check::<false>(scale);
+        check::<true>(scale);
+    }
+}
+
+#[test]
 fn a_hasty_iteration_waits_for_the_slower_half() {
     let changes = [
         [1e12, 1e12],
