@@ -3,12 +3,15 @@
 mod command;
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 use command::{failure, stdout};
 use expect_test::expect;
 use serde_json::Value;
 
-/// Files of the methods that are known by their decimals only, with what is in them.
+/// Files of the methods that are known by their decimals only, with what is in them: written once, for tests that run side by side.
+static FILES: LazyLock<Vec<(String, String)>> = LazyLock::new(files);
+
 fn files() -> Vec<(String, String)> {
     let data: Value =
         serde_json::from_str(include_str!("data/explicit-methods.json")).expect("JSON");
@@ -35,10 +38,9 @@ fn files() -> Vec<(String, String)> {
 
 /// The path of one of them.
 fn path(name: &str) -> String {
-    let file = files()
-        .into_iter()
-        .find(|(_, text)| text.contains(&format!("\"{name}\"")));
-    file.expect(name).0
+    let named = format!("\"{name}\"");
+    let file = FILES.iter().find(|(_, text)| text.contains(&named));
+    file.expect(name).0.clone()
 }
 
 /// A file of this test.
@@ -63,31 +65,31 @@ fn parsed(text: &str) -> toml::Table {
 
 #[test]
 fn every_method_is_certified() {
-    for (path, text) in files() {
+    for (path, text) in FILES.iter() {
         let json = |digits: &str| -> Value {
-            let output = stdout(&["refine", &path, "--digits", digits, "--format", "json"]);
+            let output = stdout(&["refine", path, "--digits", digits, "--format", "json"]);
             serde_json::from_str(&output).expect("JSON")
         };
         let (short, long) = (json("100"), json("120"));
-        let file = parsed(&text);
+        let file = parsed(text);
         assert_eq!(short["name"].as_str(), file["name"].as_str(), "{path}");
         assert_eq!(short["evidence"], "certified", "{path}");
         assert_eq!(short["next_order_refuted"], true, "{path}");
         let distance: f64 = short["distance"]
             .as_str()
             .and_then(|x| x.parse().ok())
-            .expect(&path);
+            .expect(path);
         assert!(distance < 1e-12, "{path}: {distance}");
-        let order = file["claim"]["order"].as_integer().expect(&path);
-        let claim = short["claim"].as_str().expect(&path);
+        let order = file["claim"]["order"].as_integer().expect(path);
+        let claim = short["claim"].as_str().expect(path);
         assert!(claim.starts_with(&format!("order {order} for ")), "{claim}");
         for key in ["kick", "drift"] {
-            let printed = file["printed"][key].as_array().expect(&path);
-            let found = short[key].as_array().expect(&path);
+            let printed = file["printed"][key].as_array().expect(path);
+            let found = short[key].as_array().expect(path);
             assert_eq!(printed.len(), found.len(), "{path}");
             for (index, (entry, printed)) in found.iter().zip(printed).enumerate() {
                 assert_eq!(entry["printed"].as_str(), printed.as_str());
-                let decimal = entry["decimal"].as_str().expect(&path);
+                let decimal = entry["decimal"].as_str().expect(path);
                 let value = |text: &str| -> f64 { text.parse().expect(text) };
                 let printed = printed.as_str().map_or(f64::NAN, value);
                 assert!(
@@ -95,7 +97,7 @@ fn every_method_is_certified() {
                     "{path}: {decimal}"
                 );
                 // Rounded later it begins with the same digits.
-                let longer = long[key][index]["decimal"].as_str().expect(&path);
+                let longer = long[key][index]["decimal"].as_str().expect(path);
                 assert!(
                     decimal == "0" || longer.starts_with(&decimal[..decimal.len() - 12]),
                     "{longer}"
@@ -123,10 +125,10 @@ fn a_file_is_refined() {
 /// One order more, one wrong digit, kicks and drifts exchanged: refused with the place.
 #[test]
 fn twins_are_refused() {
-    for (path, text) in files() {
-        let file = parsed(&text);
+    for (path, text) in FILES.iter() {
+        let file = parsed(text);
         let name = file["name"].as_str().expect("a name");
-        let order = parsed(&text)["claim"]["order"].as_integer().expect(&path);
+        let order = parsed(text)["claim"]["order"].as_integer().expect(path);
         let higher = text.replace(
             &format!("order = {order}\n"),
             &format!("order = {}\n", order + 1),
@@ -134,8 +136,8 @@ fn twins_are_refused() {
         let told = refused(&format!("{name}-higher"), &higher, Some(1));
         assert!(told.contains("^"), "{told}");
         // The first drift, with another digit in its sixth place.
-        let file = parsed(&text);
-        let drift = file["printed"]["drift"][0].as_str().expect(&path);
+        let file = parsed(text);
+        let drift = file["printed"]["drift"][0].as_str().expect(path);
         let (whole, fraction) = drift.split_once('.').expect("a decimal");
         let mut digits = format!("{fraction:0<6}").into_bytes();
         digits[5] = if digits[5] == b'9' {
