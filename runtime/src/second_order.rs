@@ -138,7 +138,7 @@ where
             };
             let velocity = start::<P, V, S>(step.p, stages, k);
             let count = P::POSITIONS.count;
-            // Rarely large beside the velocity, by a factor of the step size: its rounding errors are like those of the increments.
+            // As a rule small beside the velocity, by the step size: its rounding errors are like those that the increments have.
             let sum = sum_of_products(None, count, |stage| {
                 let slope = entry::<P, V>(slopes.as_ref(), stage, k);
                 (tableau::<P>().rest[stage], slope)

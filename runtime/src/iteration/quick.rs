@@ -158,7 +158,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
         begun.last = Some(this);
         return Err(begun);
     }
-    // Anything but zero is below infinity.
+    // Whatever moves them at all is below infinity.
     let moves = this.shrinks(f64::INFINITY, size.weights, both);
     if moves && begun.iterations < late && coin(sweeps.time()) {
         sweeps.sweep();

@@ -44,9 +44,9 @@ use increments::ByIncrements;
 /// The factors are kept from step to step. They are made anew where the step size is another one, where nothing is
 /// [kept](Kept::stages) of the step before, after a step in which the change shrank by less than a factor of 32 a sweep,
 /// and at once where it does by less than 2. The iteration stops where that of [`FixedPoint`](crate::FixedPoint) does, down
-/// at rounding errors, so that the energy does not drift by what is left. One point has to do for all stages: where a stiff direction turns
-/// by much within a step, as on a pendulum with a spring of frequency ω if `h²ω` is above 1, the iteration does not
-/// converge, and the step fails.
+/// at rounding errors, so that the energy does not drift by what is left. One point has to do for all stages: where a stiff
+/// direction turns by much within a step, as on a pendulum with a spring of frequency ω if `h²ω` is above 1, the iteration
+/// does not converge, and the step fails.
 ///
 /// ```
 /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
