@@ -403,8 +403,13 @@ pub(crate) fn entry<P: StageTableau, V: Vector>(
     stage: usize,
     component: usize,
 ) -> f64 {
-    let group = &groups[stage / P::Lanes::WIDTH];
-    group.as_slice()[component].to_array().as_ref()[stage % P::Lanes::WIDTH]
+    lane_of(groups[stage / P::Lanes::WIDTH].as_slice()[component], stage)
+}
+
+/// The double of a stage among those of its group.
+#[inline(always)]
+fn lane_of<L: Lanes>(group: L, stage: usize) -> f64 {
+    group.to_array().as_ref()[stage % L::WIDTH]
 }
 
 /// What the stages are sums of: a matrix by its columns, which have an entry for each lane, and the factor of each, if any.
@@ -447,18 +452,26 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
         .min(base.dimension())
         .min(low.dimension());
     let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
+    let mut places = out.iter_mut();
+    let mut out = P::groups(|_| match places.next() {
+        Some(group) => &mut group.as_mut_slice()[..n],
+        None => &mut [],
+    });
+    let terms = P::groups(|group| &terms[group].as_slice()[..n]);
+    let (out, terms) = (out.as_mut(), terms.as_ref());
     // Not from zero, which the compiler has to add. The lanes take the larger numbers, and may lose what is not one; the sum does not.
     let mut part: Option<LanePart<P::Lanes>> = None;
     for k in 0..n {
         let start = P::Lanes::from_f64(base[k]);
         for (group, out) in out.iter_mut().enumerate() {
             let low = P::Lanes::from_f64(low[k]);
-            let sum_of_terms =
-                combination::<P, V>(sums, group, terms, k, sums.with_low.then_some(low));
+            let with = sums.with_low.then_some(low);
+            let sum_of_terms = combination(sums, group, with, |j| {
+                lane_of(terms[j / P::Lanes::WIDTH][k], j)
+            });
             let new = value((group, k), (start, low), sum_of_terms);
-            let component = &mut out.as_mut_slice()[k];
-            let moved = (new - *component).abs();
-            *component = new;
+            let moved = (new - out[k]).abs();
+            out[k] = new;
             part = Some(match part {
                 Some(LanePart { difference, sum }) => LanePart {
                     difference: difference.larger(moved),
@@ -490,21 +503,19 @@ pub(crate) fn sum<P: StageTableau>(
 
 /// `start + factor Σ_j columns_j terms_j` in one component, for the stages of one group; the factor, if any, is in the products.
 #[inline(always)]
-fn combination<P: StageTableau, V: Vector>(
+fn combination<L: Lanes>(
     sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
     group: usize,
-    terms: &[Laned<V, P>],
-    component: usize,
-    start: Option<P::Lanes>,
-) -> P::Lanes {
+    start: Option<L>,
+    term: impl Fn(usize) -> f64,
+) -> L {
     sum_of_products(start, sums.count, |j| {
-        let column: P::Lanes = lanes((sums.column)(j), group);
+        let column: L = lanes((sums.column)(j), group);
         let column = match (sums.factor)(j) {
-            Some(factor) => column * P::Lanes::from_f64(factor),
+            Some(factor) => column * L::from_f64(factor),
             None => column,
         };
-        let term = P::Lanes::from_f64(entry::<P, V>(terms, j, component));
-        (column, term)
+        (column, L::from_f64(term(j)))
     })
 }
 
@@ -525,7 +536,7 @@ pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
     let mut new = P::groups(|_| P::Lanes::from_f64(0.0));
     for k in 0..n {
         for (group, new) in new.as_mut().iter_mut().enumerate() {
-            *new = combination::<P, V>(&sums, group, increments, k, None);
+            *new = combination(&sums, group, None, |j| entry::<P, V>(increments, j, k));
         }
         for (group, new) in new.as_ref().iter().enumerate() {
             increments[group].as_mut_slice()[k] = *new;

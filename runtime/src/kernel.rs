@@ -51,7 +51,7 @@ pub fn combine<R: Summation, V: Vector, const N: usize>(
     let (out, base) = (&mut out.as_mut_slice()[..n], &base.as_slice()[..n]);
     let (low, terms) = (&low.as_slice()[..n], starts(terms, n));
     for i in 0..n {
-        out[i] = value::<R, _, N>(base[i], low[i], &factors, &terms, i);
+        out[i] = value::<R, _, N>(base[i], low[i], &factors, |j| terms[j][i]);
     }
 }
 
@@ -196,14 +196,20 @@ pub(crate) fn kick_and_drift<V: Vector>(
     q: &mut V,
     p: &mut V,
     force: &V,
-    kicks: [Option<V::Scalar>; 2],
+    kicks: &[V::Scalar],
     drift: V::Scalar,
 ) {
     let (q, p, force) = (q.as_mut_slice(), p.as_mut_slice(), force.as_slice());
-    match kicks {
-        [Some(first), Some(second)] => add_kicked(q, p, force, [first, second], drift),
-        [Some(kick), None] | [None, Some(kick)] => add_kicked(q, p, force, [kick], drift),
-        [None, None] => add_kicked(q, p, force, [], drift),
+    match *kicks {
+        [] => add_kicked(q, p, force, [], drift),
+        [kick] => add_kicked(q, p, force, [kick], drift),
+        [first, second] => add_kicked(q, p, force, [first, second], drift),
+        _ => {
+            for (p, &force) in p.iter_mut().zip(force) {
+                *p = (kicks.iter()).fold(*p, |p, kick| kick.fused(force, p));
+            }
+            add_kicked(q, p, force, [], drift);
+        }
     }
 }
 
@@ -320,15 +326,12 @@ pub(crate) fn value<R: Summation, T: Scalar, const N: usize>(
     base: T,
     low: T,
     factors: &[T; N],
-    terms: &[&[T]; N],
-    i: usize,
+    term: impl Fn(usize) -> T,
 ) -> T {
     if N == 0 {
         return base;
     }
-    base + sum_of_products(R::COMPENSATED.then_some(low), N, |j| {
-        (factors[j], terms[j][i])
-    })
+    base + sum_of_products(R::COMPENSATED.then_some(low), N, |j| (factors[j], term(j)))
 }
 
 /// The sum of so many products, at least one, and of what it may start with: those with even and those with odd numbers apart, for

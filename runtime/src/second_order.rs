@@ -12,6 +12,7 @@ use crate::lane_movement::{LaneMovement, LanePart};
 use crate::lane_stages::LaneStages;
 use crate::starting_values::{StartingColumns, starting_columns, starts_at_once};
 use crate::summation::add;
+use crate::vector::apart_if_long;
 use crate::{
     Change, Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes,
     Inside, Kept, Lanes, Outcome, Quantity, Scalar, SecondOrderTableau, Solver, StageTableau, Step,
@@ -242,16 +243,18 @@ where
     /// New positions; returns how much they changed.
     #[inline(always)]
     fn positions(&mut self) -> LanePart<P::Lanes> {
-        let columns = tableau::<P>().columns;
-        if R::COMPENSATED {
-            return self.of_increments(columns.len(), |j: usize| columns[j]);
-        }
-        let h = self.lanes.step.size;
-        self.sums(&Sums {
-            count: columns.len(),
-            column: |j: usize| columns[j],
-            factor: |j: usize| Some(h * (h * P::POSITIONS.weights[j])),
-            with_low: false,
+        apart_if_long::<V, _>(|| {
+            let columns = tableau::<P>().columns;
+            if R::COMPENSATED {
+                return self.of_increments(columns.len(), |j: usize| columns[j]);
+            }
+            let h = self.lanes.step.size;
+            self.sums(&Sums {
+                count: columns.len(),
+                column: |j: usize| columns[j],
+                factor: |j: usize| Some(h * (h * P::POSITIONS.weights[j])),
+                with_low: false,
+            })
         })
     }
 

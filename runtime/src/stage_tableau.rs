@@ -20,7 +20,7 @@ pub trait StageTableau: StagePlan {
     /// The lanes that the stages are put into.
     type Lanes: Lanes;
     /// As many lanes as there are stages.
-    type Groups<T: Clone + Debug>: Clone + Debug + AsRef<[T]> + AsMut<[T]>;
+    type Groups<T: Debug>: Debug + AsRef<[T]> + AsMut<[T]>;
 
     /// Whether stages are sums of increments, with `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, rounded so that they are
     /// symplectic; else of evaluations, with `a_ij` and `ã_ij`.
@@ -36,7 +36,7 @@ pub trait StageTableau: StagePlan {
     const DECOUPLING: Option<Decoupling> = None;
 
     /// A value for each group of lanes, by its number from 0.
-    fn groups<T: Clone + Debug>(make: impl FnMut(usize) -> T) -> Self::Groups<T>;
+    fn groups<T: Debug>(make: impl FnMut(usize) -> T) -> Self::Groups<T>;
 
     /// The velocities and the forces that a step has left in its memory.
     fn stored<V: Vector>(stages: &Self::Stages<V>) -> [StoredEvaluations<'_, V>; 2];

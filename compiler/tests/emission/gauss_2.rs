@@ -472,7 +472,7 @@ const _: () = {
     }
     impl ::symplectic::StageTableau for Gauss2General {
         type Lanes = ::symplectic::F64x2;
-        type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; 1];
+        type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
         const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
             count: 2,
@@ -496,7 +496,7 @@ const _: () = {
             from_stages: &[&[0.0, 1.0], &[(-3.732050807568877), 0.0]],
         });
         #[inline(always)]
-        fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+        fn groups<T: ::core::fmt::Debug>(
             mut make: impl ::core::ops::FnMut(usize) -> T,
         ) -> [T; 1] {
             [make(0)]
@@ -848,7 +848,7 @@ const _: () = {
     }
     impl ::symplectic::StageTableau for Gauss2Separable {
         type Lanes = ::symplectic::F64x2;
-        type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; 1];
+        type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
         const POSITIONS: ::symplectic::HalfTableau = <Gauss2General as ::symplectic::StageTableau>::POSITIONS;
         const MOMENTA: ::symplectic::HalfTableau = <Gauss2General as ::symplectic::StageTableau>::POSITIONS;
@@ -866,7 +866,7 @@ const _: () = {
             from_stages: &[&[0.0, 1.0], &[(-3.732050807568877), 0.0]],
         });
         #[inline(always)]
-        fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+        fn groups<T: ::core::fmt::Debug>(
             mut make: impl ::core::ops::FnMut(usize) -> T,
         ) -> [T; 1] {
             [make(0)]

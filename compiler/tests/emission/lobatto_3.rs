@@ -577,7 +577,7 @@ const _: () = {
     }
     impl ::symplectic::StageTableau for Lobatto3General {
         type Lanes = ::symplectic::F64x4;
-        type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; 1];
+        type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
         const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
             count: 3,
@@ -629,7 +629,7 @@ const _: () = {
         };
         const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
         #[inline(always)]
-        fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+        fn groups<T: ::core::fmt::Debug>(
             mut make: impl ::core::ops::FnMut(usize) -> T,
         ) -> [T; 1] {
             [make(0)]
@@ -966,7 +966,7 @@ const _: () = {
     }
     impl ::symplectic::StageTableau for Lobatto3Separable {
         type Lanes = ::symplectic::F64x4;
-        type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; 1];
+        type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
         const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
             count: 3,
@@ -1012,7 +1012,7 @@ const _: () = {
             ],
         });
         #[inline(always)]
-        fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+        fn groups<T: ::core::fmt::Debug>(
             mut make: impl ::core::ops::FnMut(usize) -> T,
         ) -> [T; 1] {
             [make(0)]

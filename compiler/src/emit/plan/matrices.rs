@@ -127,7 +127,7 @@ impl Matrices<'_, '_, '_, '_> {
         quote! {
             impl ::symplectic::StageTableau for #name {
                 type Lanes = ::symplectic::#lanes;
-                type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; #groups];
+                type Groups<T: ::core::fmt::Debug> = [T; #groups];
 
                 const INCREMENTS: bool = #increments;
                 const POSITIONS: ::symplectic::HalfTableau = #positions;
@@ -136,7 +136,7 @@ impl Matrices<'_, '_, '_, '_> {
                 #decoupling
 
                 #[inline(always)]
-                fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+                fn groups<T: ::core::fmt::Debug>(
                     mut make: impl ::core::ops::FnMut(usize) -> T,
                 ) -> [T; #groups] {
                     [#(make(#numbers)),*]
