@@ -1,9 +1,12 @@
 //! Chains of particles that feel their neighbours.
 
+use core::mem;
+
 use num_traits::Zero;
 
+use crate::layout::{Part, parts};
 use crate::rows::{Eight, Row, Single, splats};
-use crate::{Scalar, SeparableHamiltonian, Vector, copy};
+use crate::{Layout, Scalar, SeparableHamiltonian, Vector, copy};
 
 /// What the particles of a [`Chain`] feel.
 ///
@@ -163,40 +166,67 @@ impl<B: Bonds> Chain<B> {
         }
     }
 
+    /// How many particles have a bond to the right of them.
+    fn bound(&self, particles: usize) -> usize {
+        match self.ends {
+            Ends::Free => particles.saturating_sub(1),
+            Ends::Walls | Ends::Ring => particles,
+        }
+    }
+
     /// Makes a pass from the first particle to the last, in rows as far as they are filled.
     #[inline(always)]
-    fn walk<T: Scalar, R: Row<T>>(&self, time: T, pass: &mut impl Pass<T>) {
+    fn walk<T: Scalar, R: Row<T>>(&self, time: T, layout: Layout, pass: &mut impl Pass<T>) {
         let q = pass.positions();
         let n = q.len();
+        // At the ends all are in their order.
         let (Some(&first), Some(&last)) = (q.first(), q.last()) else {
             return;
         };
         let beyond = self.beyond(q);
         let mut tension = self.first_tension(time, first, last);
         // With no bond to the right of it the last particle is apart.
-        let bound = if beyond.is_some() { n } else { n - 1 };
-        let begin = R::misaligned(q).min(bound);
-        let end = bound - (bound - begin) % R::WIDTH;
-        self.part::<T, Single>(time, pass, (0, begin), beyond, &mut tension);
-        self.part::<T, R>(time, pass, (begin, end), beyond, &mut tension);
-        self.part::<T, Single>(time, pass, (end, bound), beyond, &mut tension);
-        pass.rows::<Single>((bound, n), last, |here, _after| {
+        let bound = self.bound(n);
+        let [before, between, rows, after, last_ones] = if layout.is_natural() {
+            let begin = R::misaligned(q).min(bound);
+            let end = bound - (bound - begin) % R::WIDTH;
+            parts((begin, end), begin, bound)
+        } else {
+            layout.parts(bound)
+        };
+        self.part::<T, Single>(time, pass, before, beyond, &mut tension);
+        self.part::<T, Single>(time, pass, between, beyond, &mut tension);
+        match layout.is_natural() {
+            true => self.part::<T, R>(time, pass, rows, beyond, &mut tension),
+            false => self.strands::<T, R>(time, pass, rows, beyond, &mut tension),
+        }
+        self.part::<T, Single>(time, pass, after, beyond, &mut tension);
+        self.part::<T, Single>(time, pass, last_ones, beyond, &mut tension);
+        let apart = Part {
+            q: bound,
+            p: bound,
+            length: n - bound,
+        };
+        pass.rows::<Single>(apart, last, |here, _after| {
             self.between(time, tension, here, T::zero())
         });
     }
 
     /// Kicks and a drift in one pass; `false` where there are more kicks than one has before a drift.
-    #[inline(always)]
+    // Vectors are long: one copy of it for all passes of a step.
+    #[inline(never)]
     fn kicks_and_drift<T: Scalar, R: Row<T>>(
         &self,
         time: T,
         (q, p): (&mut [T], &mut [T]),
+        layout: Layout,
         kicks: &[T],
         drift: T,
     ) -> bool {
         match *kicks {
             [kick] => self.walk::<T, R>(
                 time,
+                layout,
                 &mut KicksAndDrift {
                     q,
                     p,
@@ -206,31 +236,62 @@ impl<B: Bonds> Chain<B> {
             ),
             [earlier, later] => {
                 let kicks = [earlier, later];
-                self.walk::<T, R>(time, &mut KicksAndDrift { q, p, kicks, drift });
+                self.walk::<T, R>(time, layout, &mut KicksAndDrift { q, p, kicks, drift });
             }
             _ => return false,
         }
         true
     }
 
-    /// The particles `begin..end` of a pass, with the tension left of them; in the end it is that right of them.
+    /// The particles of a part, with the tension left of them; in the end it is that right of them.
     #[inline(always)]
     fn part<T: Scalar, R: Row<T>>(
         &self,
         time: T,
         pass: &mut impl Pass<T>,
-        (begin, end): (usize, usize),
+        part: Part,
         beyond: Option<T>,
         tension: &mut T,
     ) {
-        let after = pass.positions().get(end).copied().or(beyond);
+        let after = (pass.positions().get(part.in_q().end).copied()).or(beyond);
         let (time, after) = (R::splat(time), R::splat(after.unwrap_or(T::zero())));
         let mut before = R::splat(*tension);
-        pass.rows::<R>((begin, end), after, |here, next| {
+        pass.rows::<R>(part, after, |here, next| {
             let right = self.bonds.tension(time, R::right(here, next) - here);
             let left = R::left(before, right);
             before = right;
             self.between(time, left, here, right)
+        });
+        *tension = R::last(before);
+    }
+
+    /// [`part`](Self::part) in strands, one in each lane: the right neighbours of a row are the next row, and those of the last row
+    /// are the first particles of the next strands.
+    #[inline(always)]
+    fn strands<T: Scalar, R: Row<T>>(
+        &self,
+        time: T,
+        pass: &mut impl Pass<T>,
+        part: Part,
+        beyond: Option<T>,
+        tension: &mut T,
+    ) {
+        let q = pass.positions();
+        let after = q
+            .get(part.in_q().end)
+            .copied()
+            .or(beyond)
+            .unwrap_or(T::zero());
+        let (rows, _) = R::rows(&q[part.in_q()]);
+        let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
+            return;
+        };
+        let (time, after) = (R::splat(time), R::right(R::load(first), R::splat(after)));
+        let between_strands = self.bonds.tension(time, after - R::load(last));
+        let mut before = R::left(R::splat(*tension), between_strands);
+        pass.rows::<R>(part, after, |here, next| {
+            let left = mem::replace(&mut before, self.bonds.tension(time, next - here));
+            self.between(time, left, here, before)
         });
         *tension = R::last(before);
     }
@@ -241,11 +302,11 @@ trait Pass<T: Scalar> {
     /// The positions; of those behind, which the way has not come to, the old ones.
     fn positions(&self) -> &[T];
 
-    /// Does it to the particles `begin..end`, which are whole rows, from left to right, with the force that a row has by its
+    /// Does it to the particles of a part, which are whole rows, from left to right, with the force that a row has by its
     /// positions and those of the next; the next of the last row is `after`.
     fn rows<R: Row<T>>(
         &mut self,
-        span: (usize, usize),
+        part: Part,
         after: R::Numbers,
         force: impl FnMut(R::Numbers, R::Numbers) -> R::Numbers,
     );
@@ -266,12 +327,12 @@ impl<T: Scalar> Pass<T> for Forces<'_, T> {
     #[inline(always)]
     fn rows<R: Row<T>>(
         &mut self,
-        (begin, end): (usize, usize),
+        part: Part,
         after: R::Numbers,
         mut force: impl FnMut(R::Numbers, R::Numbers) -> R::Numbers,
     ) {
-        let (q, _) = R::rows(&self.q[begin..end]);
-        let (out, _) = R::rows_mut(&mut self.force[begin..end]);
+        let (out, _) = R::rows_mut(&mut self.force[part.in_q()]);
+        let (q, _) = R::rows(&self.q[part.in_q()]);
         let n = q.len().min(out.len());
         let (q, out) = (&q[..n], &mut out[..n]);
         let (Some(first), Some(last)) = (q.first(), n.checked_sub(1)) else {
@@ -304,12 +365,12 @@ impl<T: Scalar, const K: usize> Pass<T> for KicksAndDrift<'_, T, K> {
     #[inline(always)]
     fn rows<R: Row<T>>(
         &mut self,
-        (begin, end): (usize, usize),
+        part: Part,
         after: R::Numbers,
         mut force: impl FnMut(R::Numbers, R::Numbers) -> R::Numbers,
     ) {
-        let (q, _) = R::rows_mut(&mut self.q[begin..end]);
-        let (p, _) = R::rows_mut(&mut self.p[begin..end]);
+        let (q, _) = R::rows_mut(&mut self.q[part.in_q()]);
+        let (p, _) = R::rows_mut(&mut self.p[part.in_p()]);
         let n = q.len().min(p.len());
         let (q, p) = (&mut q[..n], &mut p[..n]);
         let (kicks, drift) = (splats::<T, R, K>(self.kicks), R::splat(self.drift));
@@ -352,9 +413,9 @@ impl<V: Vector, B: Bonds> SeparableHamiltonian<V> for Chain<B> {
             V::Scalar::doubles(q),
             V::Scalar::doubles_mut(&mut *force),
         ) {
-            return self.walk::<f64, Eight>(time, &mut Forces { q, force });
+            return self.walk::<f64, Eight>(time, Layout::NATURAL, &mut Forces { q, force });
         }
-        self.walk::<V::Scalar, Single>(time, &mut Forces { q, force });
+        self.walk::<V::Scalar, Single>(time, Layout::NATURAL, &mut Forces { q, force });
     }
 
     #[inline]
@@ -362,20 +423,36 @@ impl<V: Vector, B: Bonds> SeparableHamiltonian<V> for Chain<B> {
         &self,
         time: V::Scalar,
         (q, p): (&mut [V::Scalar], &mut [V::Scalar]),
+        layout: Layout,
         kicks: &[V::Scalar],
         drift: V::Scalar,
     ) -> bool {
         let n = q.len().min(p.len());
         let (q, p) = (&mut q[..n], &mut p[..n]);
+        if !layout.is_natural() && layout != SeparableHamiltonian::<V>::layout(self, q, p) {
+            return false;
+        }
         if let (Some(&[time, drift]), Some(kicks), Some(q), Some(p)) = (
             V::Scalar::doubles(&[time, drift]),
             V::Scalar::doubles(kicks),
             V::Scalar::doubles_mut(&mut *q),
             V::Scalar::doubles_mut(&mut *p),
         ) {
-            return self.kicks_and_drift::<f64, Eight>(time, (q, p), kicks, drift);
+            return self.kicks_and_drift::<f64, Eight>(time, (q, p), layout, kicks, drift);
         }
-        self.kicks_and_drift::<V::Scalar, Single>(time, (q, p), kicks, drift)
+        self.kicks_and_drift::<V::Scalar, Single>(time, (q, p), layout, kicks, drift)
+    }
+
+    /// A strand in each lane.
+    #[inline]
+    fn layout(&self, q: &[V::Scalar], p: &[V::Scalar]) -> Layout {
+        let (Some(q), Some(p)) = (V::Scalar::doubles(q), V::Scalar::doubles(p)) else {
+            return Layout::NATURAL;
+        };
+        let bound = self.bound(q.len().min(p.len()));
+        let begin = [q, p].map(|vector| <Eight as Row<f64>>::misaligned(vector).min(bound));
+        let width = <Eight as Row<f64>>::WIDTH;
+        Layout::strands(width, (bound - begin[0].max(begin[1])) / width, begin)
     }
 
     fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {

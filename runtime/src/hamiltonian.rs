@@ -1,6 +1,6 @@
 //! The systems that are integrated.
 
-use crate::{Class, Separable, Vector};
+use crate::{Class, Layout, Separable, Vector};
 
 /// A Hamiltonian system, given by the right-hand sides of Hamilton's equations
 ///
@@ -118,10 +118,17 @@ pub trait Hamiltonian<V: Vector> {
         &self,
         _time: V::Scalar,
         _state: (&mut [V::Scalar], &mut [V::Scalar]),
+        _layout: Layout,
         _kicks: &[V::Scalar],
         _drift: V::Scalar,
     ) -> bool {
         false
+    }
+
+    /// The layout for many passes: see [`SeparableHamiltonian::layout`].
+    #[inline(always)]
+    fn layout(&self, _q: &[V::Scalar], _p: &[V::Scalar]) -> Layout {
+        Layout::NATURAL
     }
 
     /// H at `(time, q, p)`, where the system knows it. No method needs it.
@@ -196,7 +203,8 @@ pub trait SeparableHamiltonian<V: Vector> {
     /// ```
     ///
     /// component by component, with the same bits as by [`force`](Self::force) and [`Scalar::fused`](crate::Scalar::fused). `false`
-    /// where it cannot; then nothing may have changed, and an integrator makes them one after the other.
+    /// where it cannot; then nothing may have changed, and an integrator makes them one after the other. The components are in their
+    /// order, or in the [layout](Self::layout) that the system has asked for.
     ///
     /// With plain sums and 64 components or more an integrator asks for it in blocks of explicit steps. It looks at one and at two
     /// kicks of the first state: where other bits come out of them than by `force`, making it fails with
@@ -207,10 +215,18 @@ pub trait SeparableHamiltonian<V: Vector> {
         &self,
         _time: V::Scalar,
         _state: (&mut [V::Scalar], &mut [V::Scalar]),
+        _layout: Layout,
         _kicks: &[V::Scalar],
         _drift: V::Scalar,
     ) -> bool {
         false
+    }
+
+    /// The layout in which [`kick_and_drift`](Self::kick_and_drift) goes fastest for positions and momenta that are where `q` and `p`
+    /// are in memory. An integrator puts them into it for many passes, and back after them.
+    #[inline(always)]
+    fn layout(&self, _q: &[V::Scalar], _p: &[V::Scalar]) -> Layout {
+        Layout::NATURAL
     }
 
     /// H at `(time, q, p)`, where the system knows it. No method needs it.
@@ -239,10 +255,16 @@ impl<V: Vector, S: SeparableHamiltonian<V>> Hamiltonian<V> for S {
         &self,
         time: V::Scalar,
         state: (&mut [V::Scalar], &mut [V::Scalar]),
+        layout: Layout,
         kicks: &[V::Scalar],
         drift: V::Scalar,
     ) -> bool {
-        SeparableHamiltonian::kick_and_drift(self, time, state, kicks, drift)
+        SeparableHamiltonian::kick_and_drift(self, time, state, layout, kicks, drift)
+    }
+
+    #[inline(always)]
+    fn layout(&self, q: &[V::Scalar], p: &[V::Scalar]) -> Layout {
+        SeparableHamiltonian::layout(self, q, p)
     }
 
     #[inline]

@@ -101,6 +101,7 @@ mod kernel;
 mod lane_movement;
 mod lane_stages;
 mod lanes;
+mod layout;
 mod long_splitting;
 mod method;
 mod moves;
@@ -162,6 +163,7 @@ pub use kernel::{
 };
 pub use lane_stages::LaneStages;
 pub use lanes::{F64x2, F64x4, F64x8, HamiltonianInLanes, Lanes};
+pub use layout::Layout;
 pub use long_splitting::{SeparableOnly, rows, staircase};
 pub use method::{Method, Plan, StagePlan};
 pub use moves::{Drift, Force, Moves};

@@ -1,7 +1,9 @@
 //! Kicks and drifts: what a splitting is made of.
 
+use core::mem;
+
 use crate::kernel::{advance, kick_and_drift, velocity};
-use crate::{Coefficient, Hamiltonian, Quantity, Scalar, Span, Summation, Vector, Witness};
+use crate::{Coefficient, Hamiltonian, Layout, Quantity, Scalar, Span, Summation, Vector, Witness};
 
 /// The velocity of a splitting that makes a drift.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +39,7 @@ pub trait Moves {
         force: Force,
         system: &S,
         place: &mut V,
-        position: &V,
+        position: &mut V,
         momentum: (&mut V, &mut V),
         witness: &mut W,
     );
@@ -49,7 +51,7 @@ pub trait Moves {
         weight: Coefficient,
         system: &S,
         force: &mut V,
-        position: &V,
+        position: &mut V,
         momentum: (&mut V, &mut V),
     );
 
@@ -69,7 +71,7 @@ pub trait Moves {
         &mut self,
         system: &S,
         force: &mut V,
-        position: &V,
+        position: &mut V,
         momentum: (&mut V, &mut V),
     );
 }
@@ -81,7 +83,7 @@ impl Moves for () {
         Force { span, stage, time }: Force,
         system: &S,
         place: &mut V,
-        q: &V,
+        q: &mut V,
         (p, _p_low): (&mut V, &mut V),
         witness: &mut W,
     ) {
@@ -96,7 +98,7 @@ impl Moves for () {
         weight: Coefficient,
         _system: &S,
         force: &mut V,
-        _position: &V,
+        _position: &mut V,
         (p, p_low): (&mut V, &mut V),
     ) {
         advance::<R, V>(p, p_low, h, weight, force);
@@ -128,7 +130,7 @@ impl Moves for () {
         &mut self,
         _system: &S,
         _force: &mut V,
-        _position: &V,
+        _position: &mut V,
         _momentum: (&mut V, &mut V),
     ) {
     }
@@ -136,17 +138,87 @@ impl Moves for () {
 
 /// A force that has not been evaluated yet, and kicks by one force that the momentum has not been given yet: they wait for the drift
 /// that comes next, which makes them on its own way through the momentum. With long vectors every way through memory counts. The
-/// force too is made on this way if the system [can](Hamiltonian::kick_and_drift).
+/// force too is made on this way if the system [can](Hamiltonian::kick_and_drift), and many ways are made in the
+/// [layout](Hamiltonian::layout) that it likes best.
 ///
 /// The sums are plain, and every component has the same bits as where nothing waits.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Waiting {
     force: Option<Force>,
-    /// The step size and the weight of each kick, the latest one first: where two steps meet, there are two.
-    kicks: [Option<(f64, Coefficient)>; 2],
+    /// The step size and the weight of each kick: where two steps meet, there are two.
+    kicks: [(f64, Coefficient); 2],
+    /// How many kicks wait.
+    count: usize,
+    /// How many passes are to come, at least, while the layout has not been chosen.
+    passes: u64,
+    /// How positions and momenta lie in memory.
+    layout: Layout,
 }
 
+/// Passes that are worth two changes of the layout.
+const MANY: u64 = 1 << 6;
+
 impl Waiting {
+    /// Nothing waits, and there will be so many passes, or more.
+    pub(crate) const fn new(passes: u64) -> Self {
+        Self {
+            force: None,
+            kicks: [(0.0, Coefficient::exact(0.0)); 2],
+            count: 0,
+            passes,
+            layout: Layout::NATURAL,
+        }
+    }
+
+    /// The factors of the kicks that wait.
+    #[inline(always)]
+    fn factors<T: Scalar>(&self) -> ([T; 2], usize) {
+        let factors = self.kicks.map(|(h, weight)| T::weight(h, weight));
+        (factors, self.count.min(factors.len()))
+    }
+
+    /// Kicks and a drift in one pass; `false`, and positions and momenta in their order, where the system cannot.
+    #[inline(always)]
+    fn pass<V: Vector, S: Hamiltonian<V>>(
+        &mut self,
+        system: &S,
+        time: V::Scalar,
+        (q, p): (&mut V, &mut V),
+        place: &mut V,
+        kicks: &[V::Scalar],
+        drift: V::Scalar,
+    ) -> bool {
+        if mem::take(&mut self.passes) > MANY {
+            self.layout = system.layout(q.as_slice(), p.as_slice());
+            self.layout.put_vectors((q, p), place);
+        }
+        let state = (q.as_mut_slice(), p.as_mut_slice());
+        let made = system.kick_and_drift(time, state, self.layout, kicks, drift);
+        if !made {
+            self.put_back((q, p), place);
+        }
+        made
+    }
+
+    /// A drift before which there is no kick, in whatever layout there is.
+    #[inline(always)]
+    fn drift_alone<V: Vector>(&self, q: &mut V, p: &V, drift: V::Scalar) {
+        let (q, p) = (q.as_mut_slice(), p.as_slice());
+        let n = q.len().min(p.len());
+        for part in self.layout.parts(n) {
+            let (of_q, of_p) = (&mut q[part.in_q()], &p[part.in_p()]);
+            for (q, p) in of_q.iter_mut().zip(of_p) {
+                *q = drift.fused(*p, *q);
+            }
+        }
+    }
+
+    /// Puts positions and momenta back into their order.
+    #[inline(always)]
+    fn put_back<V: Vector>(&mut self, (q, p): (&mut V, &mut V), place: &mut V) {
+        mem::take(&mut self.layout).put_vectors_back((q, p), place);
+    }
+
     /// Evaluates the force that waits.
     #[inline(always)]
     fn evaluate<V: Vector, S: Hamiltonian<V>>(&mut self, system: &S, place: &mut V, q: &V, p: &V) {
@@ -164,11 +236,13 @@ impl Moves for Waiting {
         force: Force,
         system: &S,
         place: &mut V,
-        position: &V,
+        position: &mut V,
         momentum: (&mut V, &mut V),
         _witness: &mut W,
     ) {
-        self.settle::<R, V, S>(system, place, position, momentum);
+        if self.force.is_some() || self.count > 0 {
+            self.settle::<R, V, S>(system, place, position, momentum);
+        }
         self.force = Some(force);
     }
 
@@ -179,13 +253,16 @@ impl Moves for Waiting {
         weight: Coefficient,
         system: &S,
         force: &mut V,
-        position: &V,
+        position: &mut V,
         momentum: (&mut V, &mut V),
     ) {
-        if self.kicks[1].is_some() {
+        if self.count == self.kicks.len() {
             self.settle::<R, V, S>(system, force, position, momentum);
         }
-        self.kicks = [Some((h, weight)), self.kicks[0]];
+        if let Some(kick) = self.kicks.get_mut(self.count) {
+            *kick = (h, weight);
+            self.count += 1;
+        }
     }
 
     #[inline(always)]
@@ -210,21 +287,23 @@ impl Moves for Waiting {
                 witness,
             );
         }
-        let factor = |(size, weight)| V::Scalar::weight(size, weight);
-        let [later, earlier] = self.kicks.map(|kick| kick.map(factor));
-        let drift = factor((drift.span.size, drift.weight));
-        if let (Some(Force { span, time, .. }), Some(later)) = (self.force, later) {
-            let both = [earlier.unwrap_or(later), later];
-            let kicks = &both[usize::from(earlier.is_none())..];
-            let state = (q.as_mut_slice(), p.as_mut_slice());
-            if system.kick_and_drift(span.at(time), state, kicks, drift) {
-                *self = Self::default();
+        let (factors, count) = self.factors();
+        let kicks = &factors[..count];
+        let step = V::Scalar::weight(drift.span.size, drift.weight);
+        if let (Some(Force { span, time, .. }), true) = (self.force, count > 0) {
+            // Velocities are momenta: there is none in its place.
+            if self.pass(system, span.at(time), (q, p), velocity, kicks, step) {
+                (self.force, self.count) = (None, 0);
                 return;
             }
         }
+        if self.force.is_none() && count == 0 {
+            return self.drift_alone(q, p, step);
+        }
+        self.put_back((q, p), velocity);
         self.evaluate(system, force, q, p);
-        self.kicks = [None; 2];
-        kick_and_drift(q, p, force, [earlier, later], drift);
+        self.count = 0;
+        kick_and_drift(q, p, force, kicks, step);
     }
 
     #[inline(always)]
@@ -232,15 +311,15 @@ impl Moves for Waiting {
         &mut self,
         system: &S,
         force: &mut V,
-        position: &V,
+        position: &mut V,
         (p, p_low): (&mut V, &mut V),
     ) {
+        self.put_back((position, p), force);
         self.evaluate(system, force, position, p);
-        let [later, earlier] = self.kicks;
-        for (h, weight) in [earlier, later].into_iter().flatten() {
+        for &(h, weight) in &self.kicks[..self.count] {
             advance::<R, V>(p, p_low, h, weight, force);
         }
-        self.kicks = [None; 2];
+        self.count = 0;
     }
 }
 
@@ -248,7 +327,10 @@ impl Moves for Waiting {
 mod tests {
     use super::*;
     use crate::{Bonds, Chain, Plain, acceleration, separable};
-    use nalgebra::Vector2;
+    use nalgebra::SVector;
+
+    /// Long enough for rows.
+    type Long = SVector<f64, 40>;
 
     /// Bonds that pull harder with time.
     struct Pulling;
@@ -267,34 +349,29 @@ mod tests {
     /// What moves are made on.
     #[derive(Clone, Debug, PartialEq)]
     struct Places {
-        q: (Vector2<f64>, Vector2<f64>),
-        p: (Vector2<f64>, Vector2<f64>),
-        force: Vector2<f64>,
+        q: (Long, Long),
+        p: (Long, Long),
+        force: Long,
     }
 
     impl Places {
-        fn force(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Vector2<f64>>) {
+        fn force(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Long>) {
             let force = Force {
                 span: SPAN,
                 stage: 1,
                 time: Coefficient::exact(0.75),
             };
             let (place, p) = (&mut self.force, (&mut self.p.0, &mut self.p.1));
-            moves.force::<Plain, _, _, _>(force, system, place, &self.q.0, p, &mut ());
+            moves.force::<Plain, _, _, _>(force, system, place, &mut self.q.0, p, &mut ());
         }
 
-        fn kick(
-            &mut self,
-            moves: &mut impl Moves,
-            system: &impl Hamiltonian<Vector2<f64>>,
-            weight: f64,
-        ) {
+        fn kick(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Long>, weight: f64) {
             let (weight, p) = (Coefficient::exact(weight), (&mut self.p.0, &mut self.p.1));
-            let (force, q) = (&mut self.force, &self.q.0);
+            let (force, q) = (&mut self.force, &mut self.q.0);
             moves.kick::<Plain, _, _>(SPAN.size, weight, system, force, q, p);
         }
 
-        fn drift(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Vector2<f64>>) {
+        fn drift(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Long>) {
             let drift = Drift {
                 span: SPAN,
                 stage: 1,
@@ -302,7 +379,7 @@ mod tests {
                 weight: Coefficient::exact(0.75),
                 known: false,
             };
-            let evaluations = (&mut Vector2::zeros(), &mut self.force);
+            let evaluations = (&mut Long::zeros(), &mut self.force);
             let (q, p) = (
                 (&mut self.q.0, &mut self.q.1),
                 (&mut self.p.0, &mut self.p.1),
@@ -310,9 +387,9 @@ mod tests {
             moves.drift::<Plain, _, _, _>(drift, system, evaluations, q, p, &mut ());
         }
 
-        fn settle(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Vector2<f64>>) {
+        fn settle(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Long>) {
             let p = (&mut self.p.0, &mut self.p.1);
-            moves.settle::<Plain, _, _>(system, &mut self.force, &self.q.0, p);
+            moves.settle::<Plain, _, _>(system, &mut self.force, &mut self.q.0, p);
         }
     }
 
@@ -322,11 +399,12 @@ mod tests {
         fn all(
             mut moves: impl Moves,
             mut places: Places,
-            system: &impl Hamiltonian<Vector2<f64>>,
+            system: &impl Hamiltonian<Long>,
         ) -> Places {
             for (forces, kicks) in [
                 (0, 1),
                 (1, 1),
+                (0, 0),
                 (1, 2),
                 (1, 3),
                 (2, 5),
@@ -351,22 +429,26 @@ mod tests {
             }
             places
         }
-        fn check(system: &impl Hamiltonian<Vector2<f64>>) {
-            let zero = Vector2::zeros();
+        fn check(system: &impl Hamiltonian<Long>) {
+            let zero = Long::zeros();
+            let waves = |phase: f64| Long::from_fn(|i, _| 0.1 * (i as f64 + phase).sin());
             let start = Places {
-                q: (Vector2::new(0.1, 0.2), zero),
-                p: (Vector2::new(0.3, 0.03), zero),
-                force: Vector2::new(0.1, -0.7),
+                q: (waves(0.1), zero),
+                p: (waves(0.7), zero),
+                force: waves(1.9),
             };
             let expected = all((), start.clone(), system);
-            assert_eq!(all(Waiting::default(), start, system), expected);
+            for passes in [0, u64::MAX] {
+                let waiting = Waiting::new(passes);
+                assert_eq!(all(waiting, start.clone(), system), expected);
+            }
             assert!(expected.q.0.iter().all(|q| q.is_finite()));
         }
         check(&Chain::ring(Pulling));
         check(&Chain::between_walls(Pulling));
-        check(&acceleration(|time, q: &Vector2<f64>, a| *a = *q * time));
+        check(&acceleration(|time, q: &Long, a| *a = *q * time));
         check(&separable(
-            |_time, p: &Vector2<f64>, v| *v = *p * 0.5,
+            |_time, p: &Long, v| *v = *p * 0.5,
             |time, q, f| *f = *q * time,
         ));
     }

@@ -4,8 +4,8 @@ use std::cell::Cell;
 
 use symplectic::nalgebra::DVector;
 use symplectic::{
-    Bonds, Chain, Compensated, Error, F64x4, Hamiltonian, Integrator, Lanes, Method, Plain, Scalar,
-    SeparableHamiltonian, State, Vector, composition, copy, tableau,
+    Bonds, Chain, Compensated, Error, F64x4, Hamiltonian, Integrator, Lanes, Layout, Method, Plain,
+    Scalar, SeparableHamiltonian, State, Vector, composition, copy, tableau,
 };
 
 tableau! { VelocityVerlet { basis: polynomial(2), nodes: lobatto(2) } }
@@ -120,7 +120,7 @@ fn rows_have_the_bits_of_single_particles() {
     }
 }
 
-/// Wherever rows begin in memory.
+/// Wherever rows begin in memory, and in strands.
 #[test]
 fn one_pass_has_the_bits_of_three() {
     type Part = std::ops::Range<usize>;
@@ -130,13 +130,27 @@ fn one_pass_has_the_bits_of_three() {
         all: [&DVector<T>; 2],
         parts: [Part; 2],
         kicks: &[f64],
+        in_strands: bool,
     ) {
         let kicks: Vec<T> = kicks.iter().copied().map(T::from_f64).collect();
         let (time, drift) = (T::from_f64(0.7), T::from_f64(0.011));
         let [mut q, mut p] = all.map(|x| x.as_slice().to_vec());
-        let state = (&mut q[parts[0].clone()], &mut p[parts[1].clone()]);
-        let made =
-            SeparableHamiltonian::<DVector<T>>::kick_and_drift(chain, time, state, &kicks, drift);
+        let (in_q, in_p) = (&mut q[parts[0].clone()], &mut p[parts[1].clone()]);
+        let layout = match in_strands {
+            true => SeparableHamiltonian::<DVector<T>>::layout(chain, in_q, in_p),
+            false => Layout::NATURAL,
+        };
+        let mut place = in_q.to_vec();
+        layout.put((&mut *in_q, &mut *in_p), &mut place);
+        let made = SeparableHamiltonian::<DVector<T>>::kick_and_drift(
+            chain,
+            time,
+            (&mut *in_q, &mut *in_p),
+            layout,
+            &kicks,
+            drift,
+        );
+        layout.put_back((in_q, in_p), &mut place);
         assert_eq!(made, (1..=2).contains(&kicks.len()));
         let [mut expected_q, mut expected_p] = all.map(|x| x.as_slice().to_vec());
         if made {
@@ -167,12 +181,20 @@ fn one_pass_has_the_bits_of_three() {
         ] {
             let parts = [in_q..in_q + n, in_p..in_p + n];
             for kicks in [&[0.03][..], &[0.02, 0.007], &[], &[0.1, 0.2, 0.3]] {
-                for chain in &chains(Driven) {
-                    check(chain, [&q, &p], parts.clone(), kicks);
-                    check(chain, [&q_single, &p_single], parts.clone(), kicks);
-                }
-                for chain in &chains(Springs) {
-                    check(chain, [&q, &p], parts.clone(), kicks);
+                for in_strands in [false, true] {
+                    for chain in &chains(Driven) {
+                        check(chain, [&q, &p], parts.clone(), kicks, in_strands);
+                        check(
+                            chain,
+                            [&q_single, &p_single],
+                            parts.clone(),
+                            kicks,
+                            in_strands,
+                        );
+                    }
+                    for chain in &chains(Springs) {
+                        check(chain, [&q, &p], parts.clone(), kicks, in_strands);
+                    }
                 }
             }
         }
@@ -200,6 +222,7 @@ impl SeparableHamiltonian<DVector<f64>> for Watched<'_> {
         &self,
         time: f64,
         state: (&mut [f64], &mut [f64]),
+        layout: Layout,
         kicks: &[f64],
         drift: f64,
     ) -> bool {
@@ -208,7 +231,13 @@ impl SeparableHamiltonian<DVector<f64>> for Watched<'_> {
         }
         self.passes.set(self.passes.get() + 1);
         let chain = Chain::ring(Driven);
-        SeparableHamiltonian::<DVector<f64>>::kick_and_drift(&chain, time, state, kicks, drift)
+        SeparableHamiltonian::<DVector<f64>>::kick_and_drift(
+            &chain, time, state, layout, kicks, drift,
+        )
+    }
+
+    fn layout(&self, q: &[f64], p: &[f64]) -> Layout {
+        SeparableHamiltonian::<DVector<f64>>::layout(&Chain::ring(Driven), q, p)
     }
 }
 
@@ -323,6 +352,7 @@ fn a_pass_with_another_force_is_refused() {
             &self,
             _time: f64,
             (q, p): (&mut [f64], &mut [f64]),
+            _layout: Layout,
             kicks: &[f64],
             drift: f64,
         ) -> bool {

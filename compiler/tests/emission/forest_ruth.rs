@@ -781,7 +781,7 @@ const _: () = {
     }
     impl ::symplectic::StageTableau for ForestRuthGeneral {
         type Lanes = ::symplectic::F64x4;
-        type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; 1];
+        type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = false;
         const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
             count: 4,
@@ -831,7 +831,7 @@ const _: () = {
         };
         const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
         #[inline(always)]
-        fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+        fn groups<T: ::core::fmt::Debug>(
             mut make: impl ::core::ops::FnMut(usize) -> T,
         ) -> [T; 1] {
             [make(0)]
@@ -891,7 +891,7 @@ const _: () = {
                         },
                         system,
                         &mut *force,
-                        &*q,
+                        &mut *q,
                         (&mut *p, &mut *p_low),
                         witness,
                     );
@@ -910,7 +910,7 @@ const _: () = {
                     ),
                     system,
                     &mut *force,
-                    &*q,
+                    &mut *q,
                     (&mut *p, &mut *p_low),
                 );
             moves
@@ -959,7 +959,7 @@ const _: () = {
                     },
                     system,
                     &mut *force,
-                    &*q,
+                    &mut *q,
                     (&mut *p, &mut *p_low),
                     witness,
                 );
@@ -977,7 +977,7 @@ const _: () = {
                     ),
                     system,
                     &mut *force,
-                    &*q,
+                    &mut *q,
                     (&mut *p, &mut *p_low),
                 );
             moves
@@ -1022,7 +1022,7 @@ const _: () = {
                     },
                     system,
                     &mut *force,
-                    &*q,
+                    &mut *q,
                     (&mut *p, &mut *p_low),
                     witness,
                 );
@@ -1040,7 +1040,7 @@ const _: () = {
                     ),
                     system,
                     &mut *force,
-                    &*q,
+                    &mut *q,
                     (&mut *p, &mut *p_low),
                 );
             moves
@@ -1085,7 +1085,7 @@ const _: () = {
                     },
                     system,
                     &mut *force,
-                    &*q,
+                    &mut *q,
                     (&mut *p, &mut *p_low),
                     witness,
                 );
@@ -1103,7 +1103,7 @@ const _: () = {
                     ),
                     system,
                     &mut *force,
-                    &*q,
+                    &mut *q,
                     (&mut *p, &mut *p_low),
                 );
         }

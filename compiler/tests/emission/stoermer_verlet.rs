@@ -267,7 +267,7 @@ const _: () = {
     }
     impl ::symplectic::StageTableau for StoermerVerletGeneral {
         type Lanes = ::symplectic::F64x2;
-        type Groups<T: ::core::clone::Clone + ::core::fmt::Debug> = [T; 1];
+        type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
         const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
             count: 2,
@@ -293,7 +293,7 @@ const _: () = {
         };
         const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
         #[inline(always)]
-        fn groups<T: ::core::clone::Clone + ::core::fmt::Debug>(
+        fn groups<T: ::core::fmt::Debug>(
             mut make: impl ::core::ops::FnMut(usize) -> T,
         ) -> [T; 1] {
             [make(0)]
@@ -353,7 +353,7 @@ const _: () = {
                         },
                         system,
                         &mut *force,
-                        &*q,
+                        &mut *q,
                         (&mut *p, &mut *p_low),
                         witness,
                     );
@@ -368,7 +368,7 @@ const _: () = {
                     ::symplectic::Coefficient::exact(0.5),
                     system,
                     &mut *force,
-                    &*q,
+                    &mut *q,
                     (&mut *p, &mut *p_low),
                 );
             moves
@@ -405,7 +405,7 @@ const _: () = {
                     },
                     system,
                     &mut *force,
-                    &*q,
+                    &mut *q,
                     (&mut *p, &mut *p_low),
                     witness,
                 );
@@ -419,7 +419,7 @@ const _: () = {
                     ::symplectic::Coefficient::exact(0.5),
                     system,
                     &mut *force,
-                    &*q,
+                    &mut *q,
                     (&mut *p, &mut *p_low),
                 );
         }

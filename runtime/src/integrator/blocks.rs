@@ -14,7 +14,7 @@ use crate::{
 /// Steps of vectors of this dimension that are taken in place before what comes out is looked at: what that costs does not
 /// show beside them, and where something is not finite, few of them are in vain.
 fn block(dimension: usize) -> u64 {
-    (1 << 18) / (dimension as u64).clamp(16, 1 << 10)
+    (1 << 20) / (dimension as u64).clamp(16, 1 << 10)
 }
 
 /// Components of a vector from which on forces and kicks wait for the drift after them.
@@ -87,7 +87,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         }
         let waits = !R::COMPENSATED && self.course.state.q.dimension() >= LONG;
         match (size_of::<V>() <= SHORT, R::COMPENSATED) {
-            _ if waits => self.run_here(clock, steps, size, Waiting::default()),
+            _ if waits => self.run_here(clock, steps, size, Waiting::new(steps)),
             (true, true) => self.run_apart(clock, steps, size),
             (true, false) => self.run_alone(clock, steps, size),
             (false, _) => self.run_here(clock, steps, size, ()),

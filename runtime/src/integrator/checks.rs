@@ -2,7 +2,7 @@
 
 use crate::kernel::kick_and_drift;
 use crate::stage::is_finite;
-use crate::{Class, Error, Hamiltonian, Quantity, Scalar, State, Vector};
+use crate::{Class, Error, Hamiltonian, Layout, Quantity, Scalar, State, Vector, copy};
 
 pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {
     if value.is_finite() && value != 0.0 {
@@ -32,8 +32,8 @@ pub(super) fn check_masses<V: Vector, S: Hamiltonian<V>>(
     })
 }
 
-/// Checks that two kicks and a drift in one pass, and one kick and a drift after them, are those by the force, where the system makes
-/// such passes.
+/// Checks that two kicks and a drift in one pass, and one kick and a drift after them, are those by the force, in any layout, where the
+/// system makes such passes.
 pub(super) fn check_pass<V: Vector, S: Hamiltonian<V>>(
     system: &S,
     state: &State<V>,
@@ -43,25 +43,45 @@ pub(super) fn check_pass<V: Vector, S: Hamiltonian<V>>(
         return Ok(());
     }
     let [half, whole] = [0.5 * step_size, step_size].map(V::Scalar::from_f64);
-    let mut of_pass = state.clone();
-    for (kicks, time) in [
-        (&[half, whole][..], state.time),
-        (&[whole], state.time + step_size),
-    ] {
-        let time = V::Scalar::from_f64(time);
-        let State { mut q, mut p, .. } = of_pass.clone();
-        let places = (of_pass.q.as_mut_slice(), of_pass.p.as_mut_slice());
-        let made = system.kick_and_drift(time, places, kicks, whole);
-        if made {
-            let mut force = q.zeros_like();
-            system.force(time, &q, &p, &mut force);
-            let kick = |number: usize| kicks.get(number).copied();
-            kick_and_drift(&mut q, &mut p, &force, [kick(0), kick(1)], whole);
+    let passes = [
+        (state.time, &[half, whole][..]),
+        (state.time + step_size, &[whole]),
+    ];
+    let mut place = state.q.zeros_like();
+    let by_force = |(time, kicks), (q, p): (&mut V, &mut V), force: &mut V| {
+        system.force(V::Scalar::from_f64(time), q, p, force);
+        kick_and_drift(q, p, force, kicks, whole);
+    };
+    let State { mut q, mut p, .. } = state.clone();
+    for pass in passes {
+        by_force(pass, (&mut q, &mut p), &mut place);
+    }
+    let State {
+        q: of_q, p: of_p, ..
+    } = &mut state.clone();
+    for in_layout in [false, true] {
+        copy(of_q, &state.q);
+        copy(of_p, &state.p);
+        let layout = match in_layout {
+            true => system.layout(of_q.as_slice(), of_p.as_slice()),
+            false => Layout::NATURAL,
+        };
+        if in_layout && layout.is_natural() {
+            break;
         }
-        let differing = first_difference(&of_pass.p, &p);
-        if let Some((component, of_pass, expected)) =
-            differing.or_else(|| first_difference(&of_pass.q, &q))
-        {
+        layout.put_vectors((of_q, of_p), &mut place);
+        for (time, kicks) in passes {
+            let at = V::Scalar::from_f64(time);
+            let places = (of_q.as_mut_slice(), of_p.as_mut_slice());
+            if !system.kick_and_drift(at, places, layout, kicks, whole) {
+                layout.put_vectors_back((of_q, of_p), &mut place);
+                by_force((time, kicks), (of_q, of_p), &mut place);
+                layout.put_vectors((of_q, of_p), &mut place);
+            }
+        }
+        layout.put_vectors_back((of_q, of_p), &mut place);
+        let differing = first_difference(of_p, &p).or_else(|| first_difference(of_q, &q));
+        if let Some((component, of_pass, expected)) = differing {
             return Err(Error::NotTheSameForce {
                 component,
                 of_pass,
@@ -103,6 +123,9 @@ pub(super) fn check_slopes<V: Vector, S: Hamiltonian<V>>(
     Ok(())
 }
 
+/// Components that are compared at once.
+const BLOCK: usize = 1 << 6;
+
 /// The first component in which two vectors differ, and how large it is in them; none where both are not finite, which is an error of
 /// the first step.
 fn first_difference<V: Vector>(left: &V, right: &V) -> Option<(usize, f64, f64)> {
@@ -110,12 +133,19 @@ fn first_difference<V: Vector>(left: &V, right: &V) -> Option<(usize, f64, f64)>
         // An error of the first step, too.
         return None;
     }
-    let pairs = left.as_slice().iter().zip(right.as_slice());
+    let (left, right) = (left.as_slice(), right.as_slice());
+    // Most are the same, which is seen for many at once.
+    let same = |(left, right): (&[_], &[_])| {
+        (left.iter().zip(right)).fold(true, |same, (left, right)| same & (left == right))
+    };
+    let blocks = left.chunks(BLOCK).zip(right.chunks(BLOCK));
+    let begin = BLOCK * blocks.take_while(|&blocks| same(blocks)).count();
+    let pairs = left.iter().zip(right).skip(begin);
     let differ = |(_, (left, right)): &(usize, (&V::Scalar, &V::Scalar))| {
         left != right && (left.is_finite() || right.is_finite())
     };
     let (component, (left, right)) = pairs.enumerate().find(differ)?;
-    Some((component, left.magnitude(), right.magnitude()))
+    Some((begin + component, left.magnitude(), right.magnitude()))
 }
 
 pub(crate) fn check_state<V: Vector>(

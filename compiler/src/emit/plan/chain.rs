@@ -87,7 +87,7 @@ impl<'g, 'a> Chain<'g, 'a> {
         let evaluate = quote! {
             moves.force::<R, V, S, W>(
                 ::symplectic::Force { span, stage: #stage, time: #time },
-                system, &mut *force, &*q, (&mut *p, &mut *p_low), witness,
+                system, &mut *force, &mut *q, (&mut *p, &mut *p_low), witness,
             );
         };
         let evaluate = match carried {
@@ -96,7 +96,7 @@ impl<'g, 'a> Chain<'g, 'a> {
         };
         quote! {
             #evaluate
-            moves.kick::<R, V, S>(span.size, #weight, system, &mut *force, &*q, (&mut *p, &mut *p_low));
+            moves.kick::<R, V, S>(span.size, #weight, system, &mut *force, &mut *q, (&mut *p, &mut *p_low));
         }
     }
 }
