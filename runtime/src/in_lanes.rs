@@ -1,6 +1,7 @@
 //! Coupled stages side by side in lanes.
 
 use core::marker::PhantomData;
+use core::mem;
 
 use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::kernel::sum_of_products;
@@ -408,7 +409,7 @@ pub(crate) fn entry<P: StageTableau, V: Vector>(
 
 /// The double of a stage among those of its group.
 #[inline(always)]
-fn lane_of<L: Lanes>(group: L, stage: usize) -> f64 {
+pub(crate) fn lane_of<L: Lanes>(group: L, stage: usize) -> f64 {
     group.to_array().as_ref()[stage % L::WIDTH]
 }
 
@@ -452,6 +453,37 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
         .min(base.dimension())
         .min(low.dimension());
     let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
+    if mem::needs_drop::<V>() {
+        return long_values::<P, V>(sums, out, (base, low), terms, value);
+    }
+    let mut part: Option<LanePart<P::Lanes>> = None;
+    for k in 0..n {
+        let start = P::Lanes::from_f64(base[k]);
+        for (group, out) in out.iter_mut().enumerate() {
+            let low = P::Lanes::from_f64(low[k]);
+            let with = sums.with_low.then_some(low);
+            let sum_of_terms = combination(sums, group, with, |j| entry::<P, V>(terms, j, k));
+            let new = value((group, k), (start, low), sum_of_terms);
+            let component = &mut out.as_mut_slice()[k];
+            let moved = (new - *component).abs();
+            *component = new;
+            part = Some(LanePart::noted(part, moved));
+        }
+    }
+    part.unwrap_or_else(LanePart::none)
+}
+
+/// [`values`] of vectors on the heap, which has looked where their components are: else it would be done again after every one that is
+/// written.
+#[inline(always)]
+fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
+    sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
+    out: &mut [Laned<V, P>],
+    (base, low): (&[f64], &[f64]),
+    terms: &[Laned<V, P>],
+    value: impl Fn((usize, usize), (P::Lanes, P::Lanes), P::Lanes) -> P::Lanes,
+) -> LanePart<P::Lanes> {
+    let n = base.len();
     let mut places = out.iter_mut();
     let mut out = P::groups(|_| match places.next() {
         Some(group) => &mut group.as_mut_slice()[..n],
@@ -459,36 +491,20 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     });
     let terms = P::groups(|group| &terms[group].as_slice()[..n]);
     let (out, terms) = (out.as_mut(), terms.as_ref());
-    // Not from zero, which the compiler has to add. The lanes take the larger numbers, and may lose what is not one; the sum does not.
     let mut part: Option<LanePart<P::Lanes>> = None;
     for k in 0..n {
-        let start = P::Lanes::from_f64(base[k]);
+        let [start, low] = [base[k], low[k]].map(P::Lanes::from_f64);
         for (group, out) in out.iter_mut().enumerate() {
-            let low = P::Lanes::from_f64(low[k]);
             let with = sums.with_low.then_some(low);
-            let sum_of_terms = combination(sums, group, with, |j| {
-                lane_of(terms[j / P::Lanes::WIDTH][k], j)
-            });
+            let term = |j: usize| lane_of(terms[j / P::Lanes::WIDTH][k], j);
+            let sum_of_terms = combination(sums, group, with, term);
             let new = value((group, k), (start, low), sum_of_terms);
             let moved = (new - out[k]).abs();
             out[k] = new;
-            part = Some(match part {
-                Some(LanePart { difference, sum }) => LanePart {
-                    difference: difference.larger(moved),
-                    sum: sum + moved,
-                },
-                None => LanePart {
-                    difference: moved,
-                    sum: moved,
-                },
-            });
+            part = Some(LanePart::noted(part, moved));
         }
     }
-    let zero = P::Lanes::from_f64(0.0);
-    part.unwrap_or(LanePart {
-        difference: zero,
-        sum: zero,
-    })
+    part.unwrap_or_else(LanePart::none)
 }
 
 /// `base + sum`, for a sum with what the base leaves out.
@@ -574,7 +590,7 @@ pub(crate) fn total<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
 
 /// The smallest dimension of some vectors.
 #[inline(always)]
-fn shortest<V: Vector>(groups: &[V]) -> usize {
+pub(crate) fn shortest<V: Vector>(groups: &[V]) -> usize {
     let mut shortest = usize::MAX;
     for group in groups {
         shortest = shortest.min(group.as_slice().len());

@@ -72,6 +72,32 @@ impl<L: Lanes> LaneMovement<L> {
 }
 
 impl<L: Lanes> LanePart<L> {
+    /// No change.
+    #[inline(always)]
+    pub(crate) fn none() -> Self {
+        let zero = L::from_f64(0.0);
+        Self {
+            difference: zero,
+            sum: zero,
+        }
+    }
+
+    /// With that of one more component: not from zero, which the compiler has to add. The lanes take the larger numbers, and may lose what
+    /// is not one; the sum does not.
+    #[inline(always)]
+    pub(crate) fn noted(part: Option<Self>, moved: L) -> Self {
+        match part {
+            Some(Self { difference, sum }) => Self {
+                difference: difference.larger(moved),
+                sum: sum + moved,
+            },
+            None => Self {
+                difference: moved,
+                sum: moved,
+            },
+        }
+    }
+
     /// All lanes together; `scale` is the largest component, lane by lane.
     #[inline(always)]
     pub(crate) fn change(&self, scale: L) -> PartChange {

@@ -259,10 +259,12 @@ impl Moves for Waiting {
         if self.count == self.kicks.len() {
             self.settle::<R, V, S>(system, force, position, momentum);
         }
-        if let Some(kick) = self.kicks.get_mut(self.count) {
-            *kick = (h, weight);
-            self.count += 1;
+        // Places known while compiling can be registers.
+        match self.count {
+            0 => self.kicks[0] = (h, weight),
+            _ => self.kicks[1] = (h, weight),
         }
+        self.count += 1;
     }
 
     #[inline(always)]
@@ -316,8 +318,10 @@ impl Moves for Waiting {
     ) {
         self.put_back((position, p), force);
         self.evaluate(system, force, position, p);
-        for &(h, weight) in &self.kicks[..self.count] {
-            advance::<R, V>(p, p_low, h, weight, force);
+        for (number, &(h, weight)) in self.kicks.iter().enumerate() {
+            if number < self.count {
+                advance::<R, V>(p, p_low, h, weight, force);
+            }
         }
         self.count = 0;
     }

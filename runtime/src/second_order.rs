@@ -1,10 +1,11 @@
 //! Second-order systems: coupled stages without the momenta.
 
 use core::marker::PhantomData;
+use core::mem;
 
 use crate::in_lanes::{
-    ByLanes, Sums, entry, extend, extrapolate, fill, is_about, lanes, scale, scale_of, total,
-    values,
+    ByLanes, Sums, entry, extend, extrapolate, fill, is_about, lane_of, lanes, scale, scale_of,
+    shortest, total, values,
 };
 use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::kernel::sum_of_products;
@@ -12,7 +13,6 @@ use crate::lane_movement::{LaneMovement, LanePart};
 use crate::lane_stages::LaneStages;
 use crate::starting_values::{StartingColumns, starting_columns, starts_at_once};
 use crate::summation::add;
-use crate::vector::apart_if_long;
 use crate::{
     Change, Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes,
     Inside, Kept, Lanes, Outcome, Quantity, Scalar, SecondOrderTableau, Solver, StageTableau, Step,
@@ -130,27 +130,31 @@ where
         if R::COMPENSATED {
             system.velocity(step.time, step.q, step.p_low, q);
         }
-        let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force);
-        for k in 0..step.q.dimension().min(step.p.dimension()) {
-            let (base, low) = (step.q.as_slice()[k], step.q_low.as_slice()[k]);
+        let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force).as_ref();
+        let n = shortest(slopes)
+            .min(step.q.dimension())
+            .min(step.p.dimension());
+        let slopes = P::groups(|group| &slopes[group].as_slice()[..n]);
+        let (base, low) = (&step.q.as_slice()[..n], &step.q_low.as_slice()[..n]);
+        let (q, q_low) = (&mut q.as_mut_slice()[..n], &mut q_low.as_mut_slice()[..n]);
+        for k in 0..n {
             let low = match R::COMPENSATED {
-                true => low + h * q.as_slice()[k],
-                false => low,
+                true => low[k] + h * q[k],
+                false => low[k],
             };
             let velocity = start::<P, V, S>(step.p, stages, k);
-            let count = P::POSITIONS.count;
             // As a rule small beside the velocity, by the step size: its rounding errors are like those that the increments have.
-            let sum = sum_of_products(None, count, |stage| {
-                let slope = entry::<P, V>(slopes.as_ref(), stage, k);
-                (tableau::<P>().rest[stage], slope)
+            let sum = sum_of_products(None, P::POSITIONS.count, |stage| {
+                let slope = slopes.as_ref()[stage / P::Lanes::WIDTH][k];
+                (tableau::<P>().rest[stage], lane_of(slope, stage))
             });
             let (high, rest) = match R::COMPENSATED {
-                true => add::<R, f64>(base, low, 2, |part| h * [sum, velocity][part]),
-                false => (h.fused(velocity + sum, base), low),
+                true => add::<R, f64>(base[k], low, 2, |part| h * [sum, velocity][part]),
+                false => (h.fused(velocity + sum, base[k]), low),
             };
-            q.as_mut_slice()[k] = high;
+            q[k] = high;
             if R::COMPENSATED {
-                q_low.as_mut_slice()[k] = rest;
+                q_low[k] = rest;
             }
         }
         Ok(work)
@@ -206,6 +210,12 @@ fn start<P: StageTableau, V: Vector<Scalar = f64>, S: Hamiltonian<V>>(
     }
 }
 
+/// Does `work` in a function of its own.
+#[inline(never)]
+fn apart<T>(work: impl FnOnce() -> T) -> T {
+    work()
+}
+
 /// Whether the momenta of the stages of a plan are eliminated.
 #[inline(always)]
 const fn eliminates<P: StageTableau>() -> bool {
@@ -243,18 +253,16 @@ where
     /// New positions; returns how much they changed.
     #[inline(always)]
     fn positions(&mut self) -> LanePart<P::Lanes> {
-        apart_if_long::<V, _>(|| {
-            let columns = tableau::<P>().columns;
-            if R::COMPENSATED {
-                return self.of_increments(columns.len(), |j: usize| columns[j]);
-            }
-            let h = self.lanes.step.size;
-            self.sums(&Sums {
-                count: columns.len(),
-                column: |j: usize| columns[j],
-                factor: |j: usize| Some(h * (h * P::POSITIONS.weights[j])),
-                with_low: false,
-            })
+        let columns = tableau::<P>().columns;
+        if R::COMPENSATED {
+            return self.of_increments(columns.len(), |j: usize| columns[j]);
+        }
+        let h = self.lanes.step.size;
+        self.sums(&Sums {
+            count: columns.len(),
+            column: |j: usize| columns[j],
+            factor: |j: usize| Some(h * (h * P::POSITIONS.weights[j])),
+            with_low: false,
         })
     }
 
@@ -438,7 +446,11 @@ where
             self.lanes.scale_forces();
         }
         self.velocities();
-        let q = self.positions();
+        let q = match mem::needs_drop::<V>() {
+            // Long vectors, whose loops are better off with all registers.
+            true => apart(|| self.positions()),
+            false => self.positions(),
+        };
         // Both halves are this one.
         LaneMovement { q, p: q }
     }

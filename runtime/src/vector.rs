@@ -20,20 +20,6 @@ pub(crate) fn is_in_place<V: Vector>(vector: &V) -> bool {
     !mem::needs_drop::<V>() && vector.dimension() * size_of::<V::Scalar>() == size_of::<V>()
 }
 
-/// Does `work`: for vectors on the heap, which are long, in a function of its own, so that a loop over their components has all
-/// registers.
-#[inline(always)]
-pub(crate) fn apart_if_long<V: Vector, T>(work: impl FnOnce() -> T) -> T {
-    #[inline(never)]
-    fn apart<T>(work: impl FnOnce() -> T) -> T {
-        work()
-    }
-    match mem::needs_drop::<V>() {
-        true => apart(work),
-        false => work(),
-    }
-}
-
 /// A position, a momentum or one of their derivatives: components of one [`Scalar`] type, contiguous in memory.
 ///
 /// Implemented by [`nalgebra::SVector`] (static dimension, nothing on the heap) and, with the feature `alloc`, by
