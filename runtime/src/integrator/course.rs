@@ -3,7 +3,7 @@
 use core::mem;
 
 use crate::stage::is_finite;
-use crate::vector::SHORT;
+use crate::vector::{SHORT, is_in_place};
 use crate::{
     Failure, Hamiltonian, Kept, Outcome, Plan, Solver, StageStorage, State, Statistics, Step,
     Stopping, Summation, Vector, Work,
@@ -166,13 +166,20 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
 }
 
 /// Exchanges two vectors, or their handles: what is short without [`mem::swap`], which may be a call and keep it out of
-/// registers.
+/// registers. Copies of six components as a whole are two that overlap, which processors wait for; by component they are not.
 #[inline(always)]
 fn swap<V: Vector>(a: &mut V, b: &mut V) {
-    if size_of::<V>() <= SHORT {
-        let first = mem::replace(a, V::blank());
-        *a = mem::replace(b, first);
-    } else {
-        mem::swap(a, b);
+    let short = size_of::<V>() <= SHORT && is_in_place(a) && is_in_place(b);
+    match short {
+        true if size_of::<V>().is_power_of_two() => {
+            let first = mem::replace(a, V::blank());
+            *a = mem::replace(b, first);
+        }
+        true => {
+            for (a, b) in a.as_mut_slice().iter_mut().zip(b.as_mut_slice()) {
+                (*a, *b) = (*b, *a);
+            }
+        }
+        false => mem::swap(a, b),
     }
 }
