@@ -73,8 +73,9 @@ enum Ends {
 /// [free ends](Self::with_free_ends) one less, and in a [ring](Self::ring) as many, for `q_{n+1} = q_1`.
 ///
 /// Of a system that is a chain an integrator knows who feels whom. In blocks of explicit steps with plain sums and 64
-/// components or more, force, kicks and drift are made in one pass through the chain, with eight particles of doubles side by side;
-/// steps one by one have the same bits.
+/// components or more, force, kicks and drift are made in one pass through the chain, with eight particles of doubles side by side.
+/// For many passes the chain is laid in eight strands (a [`Layout`]), one in each lane, and put back after them. Steps one by one
+/// have the same bits.
 ///
 /// ```
 /// use symplectic::nalgebra::DVector;

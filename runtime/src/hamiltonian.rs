@@ -223,7 +223,8 @@ pub trait SeparableHamiltonian<V: Vector> {
     }
 
     /// The layout in which [`kick_and_drift`](Self::kick_and_drift) goes fastest for positions and momenta that are where `q` and `p`
-    /// are in memory. An integrator puts them into it for many passes, and back after them.
+    /// are in memory. An integrator puts them into it for many passes, and back after them; one that has no place in them counts as
+    /// [`Layout::NATURAL`].
     #[inline(always)]
     fn layout(&self, _q: &[V::Scalar], _p: &[V::Scalar]) -> Layout {
         Layout::NATURAL

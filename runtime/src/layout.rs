@@ -73,6 +73,16 @@ impl Layout {
         self.put_back((q.as_mut_slice(), p.as_mut_slice()), place.as_mut_slice());
     }
 
+    /// This layout; [`NATURAL`](Self::NATURAL) where it is none of so many components.
+    pub(crate) fn within(self, dimension: usize) -> Self {
+        let end = (self.strands.checked_mul(self.length))
+            .and_then(|count| self.begin[0].max(self.begin[1]).checked_add(count));
+        match end {
+            Some(end) if end <= dimension && !self.is_natural() => self,
+            _ => Self::NATURAL,
+        }
+    }
+
     /// From where to where the rows of strands are in the positions.
     pub(crate) const fn rows(&self) -> (usize, usize) {
         let [begin, _] = self.begin;
@@ -91,20 +101,19 @@ impl Layout {
         change: impl Fn(&Parts, &mut [T], &[T]),
     ) {
         let n = q.len().min(p.len()).min(place.len());
-        let end = (self.strands.checked_mul(self.length))
-            .and_then(|count| self.begin[0].max(self.begin[1]).checked_add(count));
-        if self.is_natural() || end.is_none_or(|end| end > n) {
+        let layout = self.within(n);
+        if layout.is_natural() {
             return;
         }
         let Self {
             strands,
             length,
             begin,
-        } = *self;
+        } = layout;
         for (vector, begin) in [q, p].into_iter().zip(begin) {
             let (vector, place) = (&mut vector[..n], &mut place[..n]);
             place.copy_from_slice(vector);
-            let parts = parts(self.rows(), begin, n);
+            let parts = parts(layout.rows(), begin, n);
             let lies = Parts {
                 parts,
                 strands,

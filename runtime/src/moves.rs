@@ -189,7 +189,8 @@ impl Waiting {
         drift: V::Scalar,
     ) -> bool {
         if mem::take(&mut self.passes) > MANY {
-            self.layout = system.layout(q.as_slice(), p.as_slice());
+            let n = q.dimension().min(p.dimension()).min(place.dimension());
+            self.layout = system.layout(q.as_slice(), p.as_slice()).within(n);
             self.layout.put_vectors((q, p), place);
         }
         let state = (q.as_mut_slice(), p.as_mut_slice());

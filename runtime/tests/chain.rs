@@ -201,10 +201,11 @@ fn one_pass_has_the_bits_of_three() {
     }
 }
 
-/// A chain whose passes are counted, and may be too many kicks for it.
+/// A chain whose passes are counted, and may be too many kicks for it, or in a layout that it asks for and does not know.
 struct Watched<'a> {
     passes: &'a Cell<u64>,
     most_kicks: usize,
+    layout: Option<Layout>,
 }
 
 impl SeparableHamiltonian<DVector<f64>> for Watched<'_> {
@@ -237,7 +238,8 @@ impl SeparableHamiltonian<DVector<f64>> for Watched<'_> {
     }
 
     fn layout(&self, q: &[f64], p: &[f64]) -> Layout {
-        SeparableHamiltonian::<DVector<f64>>::layout(&Chain::ring(Driven), q, p)
+        let best = || SeparableHamiltonian::<DVector<f64>>::layout(&Chain::ring(Driven), q, p);
+        self.layout.unwrap_or_else(best)
     }
 }
 
@@ -249,6 +251,7 @@ fn long_vectors_make_passes() -> Result<(), Error> {
         let watched = Watched {
             passes: &passes,
             most_kicks,
+            layout: None,
         };
         let start = State::new(0.0, waves(64, 0.1), waves(64, 1.3));
         let mut plain = Integrator::plain(method, watched, start.clone(), 0.02)?;
@@ -265,6 +268,36 @@ fn long_vectors_make_passes() -> Result<(), Error> {
     check(TripleJump, 2, 299)?;
     check(TripleJump, 1, 200)?;
     check(SymplecticEuler, 1, 100)
+}
+
+/// One that has no place in the vectors is the natural one; of one that the system does not know after all it declines the first pass.
+#[test]
+fn a_system_may_ask_for_any_layout() -> Result<(), Error> {
+    let start = State::new(0.0, waves(70, 0.1), waves(70, 1.3));
+    let mut chain = Integrator::plain(PositionJump, Chain::ring(Driven), start.clone(), 0.02)?;
+    let expected = chain.take_steps(200)?;
+    for layout in [
+        Layout::NATURAL,
+        Layout::strands(1, 5, [2, 3]),
+        Layout::strands(8, 9, [0, 0]),
+        Layout::strands(8, 8, [0, 7]),
+        Layout::strands(usize::MAX, 2, [0, 0]),
+        Layout::strands(2, 2, [usize::MAX, 0]),
+        Layout::strands(2, 30, [1, 3]),
+        Layout::strands(2, 30, [10, 0]),
+    ] {
+        let passes = Cell::new(0);
+        let watched = Watched {
+            passes: &passes,
+            most_kicks: 2,
+            layout: Some(layout),
+        };
+        let mut plain = Integrator::plain(PositionJump, watched, start.clone(), 0.02)?;
+        passes.set(0);
+        assert_eq!(plain.take_steps(200)?, expected, "{layout:?}");
+        assert_eq!(passes.get(), 594, "{layout:?}");
+    }
+    Ok(())
 }
 
 #[test]

@@ -63,7 +63,7 @@ pub(super) fn check_pass<V: Vector, S: Hamiltonian<V>>(
         copy(of_q, &state.q);
         copy(of_p, &state.p);
         let layout = match in_layout {
-            true => system.layout(of_q.as_slice(), of_p.as_slice()),
+            true => (system.layout(of_q.as_slice(), of_p.as_slice())).within(place.dimension()),
             false => Layout::NATURAL,
         };
         if in_layout && layout.is_natural() {
