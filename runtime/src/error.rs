@@ -167,7 +167,8 @@ pub enum Error {
     /// A system makes kicks and a drift in one pass, and what comes out is not what comes out by its force.
     #[error(
         "component {component} of the state is {of_pass} in size after `kick_and_drift` and {expected} by `force`: they have to be \
-         the same to the last bit; leave `kick_and_drift` out, or make it from the same operations"
+         the same to the last bit, in the natural layout and in that of `layout`; leave `kick_and_drift` out, or make it from the same \
+         operations"
     )]
     NotTheSameForce {
         /// The component of the position or the momentum, from 0.

@@ -204,11 +204,11 @@ pub trait SeparableHamiltonian<V: Vector> {
     ///
     /// component by component, with the same bits as by [`force`](Self::force) and [`Scalar::fused`](crate::Scalar::fused). `false`
     /// where it cannot; then nothing may have changed, and an integrator makes them one after the other. The components are in their
-    /// order, or in the [layout](Self::layout) that the system has asked for.
+    /// order, `layout` is natural, or in the [layout](Self::layout) that the system itself says for these slices.
     ///
     /// With plain sums and 64 components or more an integrator asks for it in blocks of explicit steps. It looks at one and at two
     /// kicks of the first state: where other bits come out of them than by `force`, making it fails with
-    /// [`Error::NotTheSameForce`](crate::Error::NotTheSameForce). A system that wraps another one has to pass it on, and
+    /// [`Error::NotTheSameForce`](crate::Error::NotTheSameForce). A system that wraps another one has to pass it on, with `layout` and
     /// `UNIT_MASSES`, to keep it.
     #[inline(always)]
     fn kick_and_drift(

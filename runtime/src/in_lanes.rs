@@ -413,6 +413,12 @@ pub(crate) fn lane_of<L: Lanes>(group: L, stage: usize) -> f64 {
     group.to_array().as_ref()[stage % L::WIDTH]
 }
 
+/// The double of a stage in some groups.
+#[inline(always)]
+pub(crate) fn in_groups<L: Lanes>(groups: &[L], stage: usize) -> f64 {
+    lane_of(groups[stage / L::WIDTH], stage)
+}
+
 /// What the stages are sums of: a matrix by its columns, which have an entry for each lane, and the factor of each, if any.
 pub(crate) struct Sums<C, F> {
     pub(crate) count: usize,

@@ -20,10 +20,10 @@ use crate::Vector;
 /// let layout = Layout::strands(2, 4, [1, 2]);
 /// let (mut q, mut p) = ([0, 1, 2, 3, 4, 5, 6, 7, 8, 9], [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]);
 /// let mut place = [0; 10];
-/// layout.put((&mut q, &mut p), &mut place);
+/// assert!(layout.put((&mut q, &mut p), &mut place));
 /// assert_eq!(q, [0, 1, 5, 2, 6, 3, 7, 4, 8, 9]);
 /// assert_eq!(p, [0, 9, 1, 5, 2, 6, 3, 7, 4, 8]);
-/// layout.put_back((&mut q, &mut p), &mut place);
+/// assert!(layout.put_back((&mut q, &mut p), &mut place));
 /// assert_eq!((q, p), ([0, 1, 2, 3, 4, 5, 6, 7, 8, 9], [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]));
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,11 +35,19 @@ pub struct Layout {
 
 impl Layout {
     /// All in their order.
-    pub const NATURAL: Self = Self::strands(0, 0, [0, 0]);
+    pub const NATURAL: Self = Self {
+        strands: 0,
+        length: 0,
+        begin: [0, 0],
+    };
 
     /// So many strands of so many components each, side by side, where `begin` is where their rows begin in the positions and in the
-    /// momenta. They are the components from where they begin in the positions on.
+    /// momenta. They are the components from where they begin in the positions on. Of less than two strands, or of strands of less
+    /// than two components, it is [`NATURAL`](Self::NATURAL).
     pub const fn strands(strands: usize, length: usize, begin: [usize; 2]) -> Self {
+        if strands < 2 || length < 2 {
+            return Self::NATURAL;
+        }
         Self {
             strands,
             length,
@@ -49,38 +57,39 @@ impl Layout {
 
     /// Whether all are in their order.
     pub const fn is_natural(&self) -> bool {
-        self.strands < 2 || self.length < 2
+        self.strands == 0
     }
 
-    /// Puts positions and momenta, which are in their order, into this layout, with a `place` for as many components; where one of
-    /// the three is too short for it, all stay as they are.
-    pub fn put<T: Copy>(&self, state: (&mut [T], &mut [T]), place: &mut [T]) {
-        self.change(state, place, Parts::put);
+    /// Puts positions and momenta, which are in their order, into this layout, with a `place` for as many components. `false` where
+    /// one of the three is too short for it; then all stay as they are.
+    pub fn put<T: Copy>(&self, state: (&mut [T], &mut [T]), place: &mut [T]) -> bool {
+        self.change(state, place, Lying::put)
     }
 
-    /// Puts positions and momenta, which are in this layout, back into their order.
-    pub fn put_back<T: Copy>(&self, state: (&mut [T], &mut [T]), place: &mut [T]) {
-        self.change(state, place, Parts::put_back);
+    /// Puts positions and momenta, which are in this layout, back into their order; as [`put`](Self::put) with a `place`.
+    pub fn put_back<T: Copy>(&self, state: (&mut [T], &mut [T]), place: &mut [T]) -> bool {
+        self.change(state, place, Lying::put_back)
     }
 
     /// [`put`](Self::put) of vectors.
-    pub(crate) fn put_vectors<V: Vector>(&self, (q, p): (&mut V, &mut V), place: &mut V) {
-        self.put((q.as_mut_slice(), p.as_mut_slice()), place.as_mut_slice());
+    pub(crate) fn put_vectors<V: Vector>(&self, (q, p): (&mut V, &mut V), place: &mut V) -> bool {
+        self.put((q.as_mut_slice(), p.as_mut_slice()), place.as_mut_slice())
     }
 
     /// [`put_back`](Self::put_back) of vectors.
-    pub(crate) fn put_vectors_back<V: Vector>(&self, (q, p): (&mut V, &mut V), place: &mut V) {
-        self.put_back((q.as_mut_slice(), p.as_mut_slice()), place.as_mut_slice());
+    pub(crate) fn put_vectors_back<V: Vector>(
+        &self,
+        (q, p): (&mut V, &mut V),
+        place: &mut V,
+    ) -> bool {
+        self.put_back((q.as_mut_slice(), p.as_mut_slice()), place.as_mut_slice())
     }
 
-    /// This layout; [`NATURAL`](Self::NATURAL) where it is none of so many components.
-    pub(crate) fn within(self, dimension: usize) -> Self {
+    /// Whether it has a place in so many components.
+    fn fits(&self, dimension: usize) -> bool {
         let end = (self.strands.checked_mul(self.length))
             .and_then(|count| self.begin[0].max(self.begin[1]).checked_add(count));
-        match end {
-            Some(end) if end <= dimension && !self.is_natural() => self,
-            _ => Self::NATURAL,
-        }
+        end.is_some_and(|end| end <= dimension)
     }
 
     /// From where to where the rows of strands are in the positions.
@@ -98,29 +107,31 @@ impl Layout {
         &self,
         (q, p): (&mut [T], &mut [T]),
         place: &mut [T],
-        change: impl Fn(&Parts, &mut [T], &[T]),
-    ) {
+        change: impl Fn(&Lying, &mut [T], &[T]),
+    ) -> bool {
+        if self.is_natural() {
+            return true;
+        }
         let n = q.len().min(p.len()).min(place.len());
-        let layout = self.within(n);
-        if layout.is_natural() {
-            return;
+        if !self.fits(n) {
+            return false;
         }
         let Self {
             strands,
             length,
             begin,
-        } = layout;
+        } = *self;
         for (vector, begin) in [q, p].into_iter().zip(begin) {
             let (vector, place) = (&mut vector[..n], &mut place[..n]);
             place.copy_from_slice(vector);
-            let parts = parts(layout.rows(), begin, n);
-            let lies = Parts {
-                parts,
+            let lying = Lying {
+                parts: parts(self.rows(), begin, n),
                 strands,
                 length,
             };
-            change(&lies, vector, place);
+            change(&lying, vector, place);
         }
+        true
     }
 }
 
@@ -172,14 +183,14 @@ pub(crate) fn parts((begin, end): (usize, usize), in_p: usize, dimension: usize)
 }
 
 /// How one vector lies.
-struct Parts {
+struct Lying {
     /// Where its components are in their order, and where in memory.
     parts: [Part; 5],
     strands: usize,
     length: usize,
 }
 
-impl Parts {
+impl Lying {
     /// From `place`, in their order.
     fn put<T: Copy>(&self, vector: &mut [T], place: &[T]) {
         for (number, part) in self.parts.iter().enumerate() {

@@ -189,9 +189,10 @@ impl Waiting {
         drift: V::Scalar,
     ) -> bool {
         if mem::take(&mut self.passes) > MANY {
-            let n = q.dimension().min(p.dimension()).min(place.dimension());
-            self.layout = system.layout(q.as_slice(), p.as_slice()).within(n);
-            self.layout.put_vectors((q, p), place);
+            let layout = system.layout(q.as_slice(), p.as_slice());
+            if layout.put_vectors((q, p), place) {
+                self.layout = layout;
+            }
         }
         let state = (q.as_mut_slice(), p.as_mut_slice());
         let made = system.kick_and_drift(time, state, self.layout, kicks, drift);
@@ -217,7 +218,8 @@ impl Waiting {
     /// Puts positions and momenta back into their order.
     #[inline(always)]
     fn put_back<V: Vector>(&mut self, (q, p): (&mut V, &mut V), place: &mut V) {
-        mem::take(&mut self.layout).put_vectors_back((q, p), place);
+        let are_back = mem::take(&mut self.layout).put_vectors_back((q, p), place);
+        debug_assert!(are_back, "a place as long as the one before");
     }
 
     /// Evaluates the force that waits.

@@ -4,19 +4,19 @@ use core::marker::PhantomData;
 use core::mem;
 
 use crate::in_lanes::{
-    ByLanes, Sums, entry, extend, extrapolate, fill, is_about, lane_of, lanes, scale, scale_of,
-    shortest, total, values,
+    ByLanes, Sums, entry, extend, extrapolate, fill, in_groups, is_about, lane_of, lanes, scale,
+    scale_of, shortest, total, values,
 };
 use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::kernel::sum_of_products;
 use crate::lane_movement::{LaneMovement, LanePart};
-use crate::lane_stages::LaneStages;
+use crate::lane_stages::{LaneStages, Laned};
 use crate::starting_values::{StartingColumns, starting_columns, starts_at_once};
 use crate::summation::add;
 use crate::{
     Change, Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes,
-    Inside, Kept, Lanes, Outcome, Quantity, Scalar, SecondOrderTableau, Solver, StageTableau, Step,
-    Stopping, Summation, Vector, Work,
+    Inside, Kept, Lanes, Outcome, Plain, Quantity, Scalar, SecondOrderTableau, Solver,
+    StageTableau, Step, Stopping, Summation, Vector, Work,
 };
 
 /// [`InLanes`] for second-order systems `q'' = M⁻¹ f(q)`, whose velocity `M⁻¹ p` is linear in the momentum: only the
@@ -113,49 +113,12 @@ where
             },
         };
         let mut work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
-        if !R::COMPENSATED {
-            sweeps.increments();
-        }
         work.evaluations += sweeps.evaluations().finish;
-        let Outcome { q, q_low, p, p_low } = outcome;
-        total::<R, P, V>(
-            (p, p_low),
-            (step.p, step.p_low),
-            stages.force.as_ref(),
-            &P::POSITIONS,
-            step.size,
-        );
-        // The velocity of what the momentum leaves out, in the place of the result.
-        let h = step.size;
         if R::COMPENSATED {
-            system.velocity(step.time, step.q, step.p_low, q);
-        }
-        let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force).as_ref();
-        let n = shortest(slopes)
-            .min(step.q.dimension())
-            .min(step.p.dimension());
-        let slopes = P::groups(|group| &slopes[group].as_slice()[..n]);
-        let (base, low) = (&step.q.as_slice()[..n], &step.q_low.as_slice()[..n]);
-        let (q, q_low) = (&mut q.as_mut_slice()[..n], &mut q_low.as_mut_slice()[..n]);
-        for k in 0..n {
-            let low = match R::COMPENSATED {
-                true => low[k] + h * q[k],
-                false => low[k],
-            };
-            let velocity = start::<P, V, S>(step.p, stages, k);
-            // As a rule small beside the velocity, by the step size: its rounding errors are like those that the increments have.
-            let sum = sum_of_products(None, P::POSITIONS.count, |stage| {
-                let slope = slopes.as_ref()[stage / P::Lanes::WIDTH][k];
-                (tableau::<P>().rest[stage], lane_of(slope, stage))
-            });
-            let (high, rest) = match R::COMPENSATED {
-                true => add::<R, f64>(base[k], low, 2, |part| h * [sum, velocity][part]),
-                false => (h.fused(velocity + sum, base[k]), low),
-            };
-            q[k] = high;
-            if R::COMPENSATED {
-                q_low[k] = rest;
-            }
+            compensated_result::<P, R, V, S>(step, system, stages, outcome);
+        } else {
+            sweeps.plain_result(outcome);
+            sweeps.increments();
         }
         Ok(work)
     }
@@ -179,6 +142,53 @@ where
                 *out += factor * (start::<P, V, S>(at.momentum, stages, k) + sum);
             }
         }
+    }
+}
+
+/// The result of a step with compensated sums: of increments.
+#[inline(always)]
+fn compensated_result<P, R, V, S>(
+    step: &Step<'_, V>,
+    system: &S,
+    stages: &mut LaneStages<V, P>,
+    Outcome { q, q_low, p, p_low }: Outcome<'_, V>,
+) where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    let h = step.size;
+    total::<R, P, V>(
+        (p, p_low),
+        (step.p, step.p_low),
+        stages.force.as_ref(),
+        &P::POSITIONS,
+        h,
+    );
+    // The velocity of what the momentum leaves out, in the place of the result.
+    system.velocity(step.time, step.q, step.p_low, q);
+    if q.dimension() != step.q.dimension() {
+        // Seen there when the step is looked at.
+        stages.velocity.as_mut()[0] = q.zeros_with::<P::Lanes>();
+        *q = step.q.zeros_like();
+    }
+    let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force).as_ref();
+    let n = shortest(slopes)
+        .min(step.q.dimension())
+        .min(step.p.dimension());
+    let slopes = P::groups(|group| &slopes[group].as_slice()[..n]);
+    let (base, low) = (&step.q.as_slice()[..n], &step.q_low.as_slice()[..n]);
+    let (q, q_low) = (&mut q.as_mut_slice()[..n], &mut q_low.as_mut_slice()[..n]);
+    for k in 0..n {
+        let velocity = start::<P, V, S>(step.p, stages, k);
+        // As a rule small beside the velocity, by the step size: its rounding errors are like those that the increments have.
+        let sum = sum_of_products(None, P::POSITIONS.count, |stage| {
+            let slope = slopes.as_ref()[stage / P::Lanes::WIDTH][k];
+            (tableau::<P>().rest[stage], lane_of(slope, stage))
+        });
+        let parts = [sum, velocity];
+        (q[k], q_low[k]) = add::<R, f64>(base[k], low[k] + h * q[k], 2, |part| h * parts[part]);
     }
 }
 
@@ -328,7 +338,43 @@ where
         for (group, velocity) in velocity.as_mut().iter_mut().enumerate() {
             let time = P::Lanes::from_f64(self.lanes.step.time);
             let (q, force) = (&q[group], &force[group]);
-            P::Lanes::velocity::<V, S>(self.lanes.system, time, q, force, velocity);
+            // A force of another dimension, which is seen when the step is looked at, is not shown to the system.
+            if force.dimension() == velocity.dimension() {
+                P::Lanes::velocity::<V, S>(self.lanes.system, time, q, force, velocity);
+            }
+        }
+    }
+
+    /// The result of a step with plain sums: of forces, which are no increments yet, and not looked at one by one before they have met
+    /// their weights, all at once.
+    #[inline(always)]
+    fn plain_result(&self, Outcome { q, p, .. }: Outcome<'_, V>) {
+        let (step, stages) = (self.lanes.step, &*self.lanes.stages);
+        let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force).as_ref();
+        let forces = stages.force.as_ref();
+        let n = (shortest(slopes).min(shortest(forces)))
+            .min(step.q.dimension())
+            .min(step.p.dimension());
+        let h = P::Lanes::from_f64(step.size);
+        let weights = P::groups(|group| lanes::<P::Lanes>(P::POSITIONS.weights, group) * h);
+        let weights = weights.as_ref();
+        let rest = P::groups(|group| lanes::<P::Lanes>(tableau::<P>().rest, group));
+        // `base + Σ_j factor_j term_j` in component k.
+        let total = |base: f64, terms: &[Laned<V, P>], factor: &[P::Lanes], k: usize| {
+            let terms = P::groups(|group| factor[group] * terms[group].as_slice()[k]);
+            let term = |stage: usize| in_groups(terms.as_ref(), stage);
+            add::<Plain, f64>(base, 0.0, P::POSITIONS.count, term).0
+        };
+        let factors = P::groups(|group| rest.as_ref()[group] * weights[group]);
+        let (q, p) = (&mut q.as_mut_slice()[..n], &mut p.as_mut_slice()[..n]);
+        let (q_base, p_base) = (&step.q.as_slice()[..n], &step.p.as_slice()[..n]);
+        for k in 0..n {
+            p[k] = total(p_base[k], forces, weights, k);
+        }
+        for k in 0..n {
+            let velocity = start::<P, V, S>(step.p, stages, k);
+            let mean = total(velocity, slopes, factors.as_ref(), k);
+            q[k] = step.size.fused(mean, q_base[k]);
         }
     }
 
@@ -346,7 +392,7 @@ where
     #[inline(always)]
     fn start(&mut self) {
         let step = self.lanes.step;
-        let LaneStages { q, p, .. } = &mut *self.lanes.stages;
+        let LaneStages { q, p, velocity, .. } = &mut *self.lanes.stages;
         if <S as Hamiltonian<V>>::UNIT_MASSES {
             return;
         }
@@ -356,7 +402,12 @@ where
             let time = P::Lanes::from_f64(step.time);
             // It does not look at the position, and the place of this is free.
             P::Lanes::velocity::<V, S>(self.lanes.system, time, p, p, q);
-            p.as_mut_slice().copy_from_slice(q.as_slice());
+            if q.dimension() == p.dimension() {
+                p.as_mut_slice().copy_from_slice(q.as_slice());
+            } else {
+                // Seen there when the step is looked at.
+                mem::swap(q, &mut velocity.as_mut()[group]);
+            }
         }
     }
 }

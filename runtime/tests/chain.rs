@@ -5,7 +5,7 @@ use std::cell::Cell;
 use symplectic::nalgebra::DVector;
 use symplectic::{
     Bonds, Chain, Compensated, Error, F64x4, Hamiltonian, Integrator, Lanes, Layout, Method, Plain,
-    Scalar, SeparableHamiltonian, State, Vector, composition, copy, tableau,
+    Scalar, SeparableHamiltonian, State, Vector, acceleration, composition, copy, tableau,
 };
 
 tableau! { VelocityVerlet { basis: polynomial(2), nodes: lobatto(2) } }
@@ -297,6 +297,19 @@ fn a_system_may_ask_for_any_layout() -> Result<(), Error> {
         assert_eq!(plain.take_steps(200)?, expected, "{layout:?}");
         assert_eq!(passes.get(), 594, "{layout:?}");
     }
+    Ok(())
+}
+
+#[test]
+fn a_system_without_passes_is_not_evaluated_while_an_integrator_is_made() -> Result<(), Error> {
+    let calls = Cell::new(0);
+    let system = acceleration(|_, q: &DVector<f64>, force: &mut DVector<f64>| {
+        calls.set(calls.get() + 1);
+        copy(force, q);
+    });
+    let start = State::new(0.0, waves(70, 0.1), waves(70, 1.3));
+    Integrator::plain(VelocityVerlet, system, start, 0.02)?;
+    assert_eq!(calls.get(), 0);
     Ok(())
 }
 

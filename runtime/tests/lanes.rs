@@ -595,3 +595,88 @@ fn other_velocities_are_refused() -> Result<(), Error> {
     );
     Ok(())
 }
+
+/// Unit masses pulled to the origin; results of the wrong dimension while it is broken.
+struct Resizing<const UNIT_MASSES: bool> {
+    what: Quantity,
+    to: usize,
+    broken: Cell<bool>,
+}
+
+impl<const UNIT_MASSES: bool> Resizing<UNIT_MASSES> {
+    fn write<T: Scalar>(&self, what: Quantity, from: DVector<T>, into: &mut DVector<T>) {
+        match self.broken.get() && self.what == what {
+            true => *into = DVector::from_element(self.to, T::one()),
+            false => into.copy_from(&from),
+        }
+    }
+}
+
+impl<T: Scalar, const UNIT_MASSES: bool> SeparableHamiltonian<DVector<T>>
+    for Resizing<UNIT_MASSES>
+{
+    const UNIT_MASSES: bool = UNIT_MASSES;
+
+    fn velocity(&self, _time: T, p: &DVector<T>, velocity: &mut DVector<T>) {
+        self.write(Quantity::Velocity, p.clone(), velocity);
+    }
+
+    fn force(&self, _time: T, q: &DVector<T>, force: &mut DVector<T>) {
+        self.write(Quantity::Force, -q, force);
+    }
+}
+
+#[test]
+fn a_resized_result_is_an_error_in_lanes() -> Result<(), Error> {
+    type Made<const UNIT: bool, R> = Integrator<Gauss2, Resizing<UNIT>, DVector<f64>, R>;
+    fn check<const UNIT: bool, R: Summation, N: Solver<DVector<f64>, Resizing<UNIT>>>(
+        solved: impl Fn(
+            Made<UNIT, R>,
+        )
+            -> Result<Integrator<Gauss2, Resizing<UNIT>, DVector<f64>, R, N>, Error>,
+    ) -> Result<(), Error> {
+        let start = State::new(
+            0.0,
+            DVector::from_element(2, 1.0),
+            DVector::from_element(2, 0.5),
+        );
+        for what in [Quantity::Velocity, Quantity::Force] {
+            for (to, before) in [0, 1, 3].into_iter().flat_map(|to| [(to, 0), (to, 1)]) {
+                let made = || {
+                    let system = Resizing {
+                        what,
+                        to,
+                        broken: Cell::new(false),
+                    };
+                    solved(Made::with_summation(Gauss2, system, start.clone(), 0.1)?)
+                };
+                let (mut broken, mut good) = (made()?, made()?);
+                for _ in 0..before {
+                    assert_eq!(broken.step()?, good.step()?);
+                }
+                broken.system().broken.set(true);
+                match broken.step() {
+                    Err(Error::EvaluationDimension { what: found, .. }) => assert_eq!(found, what),
+                    // Velocities of unit masses need not be asked for.
+                    Ok(_) if UNIT && what == Quantity::Velocity => continue,
+                    other => panic!("{what:?} {to} {UNIT}: {other:?}"),
+                }
+                assert_eq!(broken.state(), good.state());
+                broken.system().broken.set(false);
+                for _ in 0..3 {
+                    let (broken, good) = (broken.step()?, good.step()?);
+                    assert!((&broken.q - &good.q).amax() < 1e-15);
+                }
+            }
+        }
+        Ok(())
+    }
+    check::<false, Plain, _>(|made| Ok(made.in_lanes()))?;
+    check::<false, Compensated, _>(|made| Ok(made.in_lanes()))?;
+    check::<true, Plain, _>(|made| Ok(made.in_lanes()))?;
+    check::<true, Compensated, _>(|made| Ok(made.in_lanes()))?;
+    check::<false, Plain, _>(Integrator::in_second_order_lanes)?;
+    check::<false, Compensated, _>(Integrator::in_second_order_lanes)?;
+    check::<true, Plain, _>(Integrator::in_second_order_lanes)?;
+    check::<true, Compensated, _>(Integrator::in_second_order_lanes)
+}

@@ -14,7 +14,7 @@ use crate::{
 /// Steps of vectors of this dimension that are taken in place before what comes out is looked at: what that costs does not
 /// show beside them, and where something is not finite, few of them are in vain.
 fn block(dimension: usize) -> u64 {
-    (1 << 20) / (dimension as u64).clamp(16, 1 << 10)
+    (1 << 20) / (dimension as u64).clamp(16, 1 << 13)
 }
 
 /// Components of a vector from which on forces and kicks wait for the drift after them.

@@ -83,8 +83,6 @@ struct Problem<S, B, V> {
     compared: u64,
     /// What no stage of the iteration by hand may move by in the end; rounding errors are smaller.
     tolerance: f64,
-    /// Whether the library iterates positions and momenta at once, as it is done by hand for Hamiltonians that are not separable.
-    at_once: bool,
 }
 
 /// Every pair.
@@ -102,7 +100,6 @@ pub fn pairs() -> Vec<Pair> {
             steps: 641,
             compared: 128,
             tolerance: 1e-14,
-            at_once: false,
         },
     );
     few::separable(
@@ -117,7 +114,6 @@ pub fn pairs() -> Vec<Pair> {
             steps: 1025,
             compared: 20,
             tolerance: 1e-12,
-            at_once: false,
         },
     );
     few::separable(
@@ -132,7 +128,6 @@ pub fn pairs() -> Vec<Pair> {
             steps: 25641,
             compared: 100,
             tolerance: 1e-14,
-            at_once: false,
         },
     );
     few::separable(
@@ -151,7 +146,6 @@ pub fn pairs() -> Vec<Pair> {
             steps: 5000,
             compared: 100,
             tolerance: 1e-14,
-            at_once: false,
         },
     );
     few::general(
@@ -166,7 +160,6 @@ pub fn pairs() -> Vec<Pair> {
             steps: 1000,
             compared: 100,
             tolerance: 1e-13,
-            at_once: false,
         },
     );
     few::general(
@@ -181,7 +174,6 @@ pub fn pairs() -> Vec<Pair> {
             steps: 1000,
             compared: 100,
             tolerance: 1e-14,
-            at_once: true,
         },
     );
     many::chain(&mut pairs);
