@@ -157,6 +157,7 @@ where
                 (false, _) => Some(h),
             },
             with_low: R::COMPENSATED,
+            beyond: R::BEYOND,
         };
         values::<P, V>(&sums, out, base, terms, sum::<P>)
     }
@@ -177,6 +178,7 @@ where
             column: |j: usize| &Starting::<P>::MOMENTA[j][..],
             factor: |_| factor,
             with_low: R::COMPENSATED,
+            beyond: false,
         };
         let base = (step.p, step.p_low);
         values::<P, V>(&sums, p.as_mut(), base, force.as_ref(), sum::<P>);
@@ -185,6 +187,7 @@ where
             column: |j: usize| &Starting::<P>::POSITIONS[j][..],
             factor: |_| factor,
             with_low: R::COMPENSATED,
+            beyond: false,
         };
         let base = (step.q, step.q_low);
         values::<P, V>(&sums, q.as_mut(), base, velocity.as_ref(), sum::<P>);
@@ -280,6 +283,11 @@ where
             self.0.velocities();
         }
         self.stages()
+    }
+
+    #[inline(always)]
+    fn sweep_beyond(&mut self) -> LaneMovement<P::Lanes> {
+        Halves(self.0.beyond()).sweep()
     }
 
     #[inline(always)]

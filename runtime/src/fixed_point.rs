@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 use core::mem;
 
 use crate::iteration::{Begun, Sweeps, patiently, settle};
+use crate::summation::Beyond;
 use crate::vector::{LIGHT, is_in_place};
 use crate::{
     Change, Class, EvaluationCounts, Failure, Hamiltonian, Inside, Kept, Outcome, Quantity, Scalar,
@@ -29,8 +30,9 @@ use crate::{
 /// that the starting values come from says at which of them it ends. The energy would drift by that too, though by 1e-21 of it
 /// a step (measured; Hénon–Heiles, Gauss 8). At half of these steps, by a bit of their time that is as good as random, there
 /// is one sweep more, unless there were ten. Where it stands still, at one of several roundings that solve the rounded equations,
-/// that side says at which: a drift of 1e-20 of the energy a step is left of a system that is not separable (measured;
-/// `(q² + 1)(p² + 1)/2`, Gauss 6 and 8).
+/// that side says at which: a drift of 1e-20 of the energy a step of a system that is not separable (measured;
+/// `(q² + 1)(p² + 1)/2`, Gauss 6 and 8). Of such a system half of the steps, by another such bit, therefore come from the other side:
+/// their second sweep moves the stages twice as far, to about the mirror image of where the first one had left them.
 ///
 /// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for the stagnation: it
 /// ends with a change that is at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) if the next one, should it shrink by the same factor,
@@ -167,6 +169,11 @@ where
     #[inline(always)]
     fn sweep(&mut self) -> Change {
         P::sweep::<R, V, S>(self.step, self.system, self.stages)
+    }
+
+    #[inline(always)]
+    fn sweep_beyond(&mut self) -> Change {
+        P::sweep::<Beyond<R>, V, S>(self.step, self.system, self.stages)
     }
 
     #[inline(always)]

@@ -7,7 +7,7 @@ use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::kernel::sum_of_products;
 use crate::lane_movement::{LaneMovement, LanePart};
 use crate::lane_stages::{LaneStages, Laned};
-use crate::summation::add;
+use crate::summation::{Beyond, add, moved};
 use crate::vector::{LIGHT, is_in_place};
 use crate::{
     Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, HamiltonianInLanes, Inside,
@@ -191,6 +191,11 @@ where
     }
 
     #[inline(always)]
+    fn sweep_beyond(&mut self) -> LaneMovement<P::Lanes> {
+        self.beyond().sweep()
+    }
+
+    #[inline(always)]
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
         let (step, stages) = (self.step, &*self.stages);
         Change {
@@ -244,6 +249,17 @@ where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
+    /// The same with sweeps that move the stages twice as far.
+    #[inline(always)]
+    pub(crate) fn beyond(&mut self) -> ByLanes<'_, P, Beyond<R>, V, S> {
+        ByLanes {
+            step: self.step,
+            system: self.system,
+            stages: &mut *self.stages,
+            sums: PhantomData,
+        }
+    }
+
     /// What `go_on` makes of these stages. It is given them in another place, unless they are many or on the heap: stages that nothing
     /// points to can be in registers from step to step. Those of the step before, where it begins `anew`, need not be in any.
     #[inline(always)]
@@ -426,6 +442,8 @@ pub(crate) struct Sums<C, F> {
     pub(crate) factor: F,
     /// Whether they start with what the base leaves out.
     pub(crate) with_low: bool,
+    /// Whether stages are moved twice as far.
+    pub(crate) beyond: bool,
 }
 
 /// The sums of one half of the stages.
@@ -441,6 +459,7 @@ fn sums<R: Summation, P: StageTableau>(
         column: move |j: usize| columns[j],
         factor: move |_| factor,
         with_low: R::COMPENSATED,
+        beyond: R::BEYOND,
     }
 }
 
@@ -471,9 +490,10 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
             let sum_of_terms = combination(sums, group, with, |j| entry::<P, V>(terms, j, k));
             let new = value((group, k), (start, low), sum_of_terms);
             let component = &mut out.as_mut_slice()[k];
-            let moved = (new - *component).abs();
+            let new = moved(sums.beyond, *component, new);
+            let change = (new - *component).abs();
             *component = new;
-            part = Some(LanePart::noted(part, moved));
+            part = Some(LanePart::noted(part, change));
         }
     }
     part.unwrap_or_else(LanePart::none)
@@ -505,9 +525,10 @@ fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
             let term = |j: usize| lane_of(terms[j / P::Lanes::WIDTH][k], j);
             let sum_of_terms = combination(sums, group, with, term);
             let new = value((group, k), (start, low), sum_of_terms);
-            let moved = (new - out[k]).abs();
+            let new = moved(sums.beyond, out[k], new);
+            let change = (new - out[k]).abs();
             out[k] = new;
-            part = Some(LanePart::noted(part, moved));
+            part = Some(LanePart::noted(part, change));
         }
     }
     part.unwrap_or_else(LanePart::none)
@@ -554,6 +575,7 @@ pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
         column: |j: usize| columns[j],
         factor: |_| None,
         with_low: false,
+        beyond: false,
     };
     let mut new = P::groups(|_| P::Lanes::from_f64(0.0));
     for k in 0..n {

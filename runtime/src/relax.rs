@@ -5,6 +5,7 @@ use num_traits::Zero;
 use crate::array::array;
 use crate::kernel::{shortest, starts, value};
 use crate::rows::{Eight, Row, splats};
+use crate::summation::moved;
 use crate::{F64x8, Lanes, PartChange, Scalar, Summation, Vector};
 
 /// [`combine`](crate::combine) for a stage that is solved for: notes in `change` how far `out` moved.
@@ -24,6 +25,7 @@ pub fn relax<R: Summation, V: Vector, const N: usize>(
     let rest = relax_rows::<R, V::Scalar, N>(out, base, low, &factors, &terms, &mut local);
     for i in rest..n {
         let new = value::<R, _, N>(base[i], low[i], &factors, |j| terms[j][i]);
+        let new = moved(R::BEYOND, out[i], new);
         local.record(base[i], out[i], new);
         out[i] = new;
     }
@@ -68,11 +70,13 @@ fn relax_rows<R: Summation, T: Scalar, const N: usize>(
         let start = Eight::load(&base[i]);
         let low = Eight::load(&low[i]);
         let new = value::<R, _, N>(start, low, &factors, |j| Eight::load(&terms[j][i]));
-        let moved = (new - Eight::load(&out[i])).abs();
+        let old = Eight::load(&out[i]);
+        let new = moved(R::BEYOND, old, new);
+        let change = (new - old).abs();
         out[i] = Eight::store(new);
-        difference = difference.larger(moved);
+        difference = difference.larger(change);
         scale = scale.larger(start.abs()).larger(new.abs());
-        sum += moved;
+        sum += change;
     }
     let difference = if sum.any_nan() {
         f64::NAN

@@ -273,6 +273,7 @@ where
             column: |j: usize| columns[j],
             factor: |j: usize| Some(h * (h * P::POSITIONS.weights[j])),
             with_low: false,
+            beyond: false,
         })
     }
 
@@ -288,6 +289,7 @@ where
             column,
             factor: |_| None,
             with_low: false,
+            beyond: false,
         })
     }
 

@@ -1,17 +1,24 @@
 //! How increments are added to the state.
 
+use core::marker::PhantomData;
+
 use crate::Scalar;
 
 mod sealed {
     pub trait Sealed {}
     impl Sealed for super::Compensated {}
     impl Sealed for super::Plain {}
+    impl<R> Sealed for super::Beyond<R> {}
 }
 
 /// How a step adds its increments to the state: [`Compensated`] or [`Plain`]. Sealed.
 pub trait Summation: sealed::Sealed + Copy + Default + 'static {
     /// Whether the state carries what the sums leave out.
     const COMPENSATED: bool;
+
+    /// Whether stages that are solved for are moved twice as far as these sums would.
+    #[doc(hidden)]
+    const BEYOND: bool = false;
 }
 
 /// The state is carried as an unevaluated sum of two numbers, and increments are added in this precision.
@@ -36,6 +43,25 @@ impl Summation for Compensated {
 
 impl Summation for Plain {
     const COMPENSATED: bool = false;
+}
+
+/// `R`, of a sweep that moves stages twice as far: where it converges fast, to about the mirror image of where they were.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Beyond<R>(PhantomData<R>);
+
+impl<R: Summation> Summation for Beyond<R> {
+    const COMPENSATED: bool = R::COMPENSATED;
+
+    const BEYOND: bool = true;
+}
+
+/// Where a stage goes that was `old` and would be `new`.
+#[inline(always)]
+pub(crate) fn moved<T: Scalar>(beyond: bool, old: T, new: T) -> T {
+    match beyond {
+        true => new + (new - old),
+        false => new,
+    }
 }
 
 /// The rounded sum, and what rounding left out of it (Knuth).

@@ -4,7 +4,7 @@
 
 use super::{
     Begun, Class, Kept, Movement, PATIENCE, ROUNDING, STAGNATION, Scalar, Stopping, Sweeps, coin,
-    is_known, units,
+    is_known, other_coin, units,
 };
 
 /// A tolerance of so many units of EPSILON is waited for, for as long as sweeps are [early](PATIENCE): rounding lets changes
@@ -31,7 +31,14 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     let late = stopping.max_iterations.min(PATIENCE);
     if !W::HASTY {
         let bound = stopping.max_iterations.min(STAGNATION);
-        return to_stagnation::<T, W>(sweeps, kept.scales, [late, bound], both);
+        let mut begun = Begun::NOTHING;
+        if !C::SEPARABLE && late == PATIENCE && other_coin(sweeps.time()) {
+            // From the other side: what is beyond is nearer to a mirror image where the largest contraction shows.
+            begun.first = Some(sweeps.sweep());
+            sweeps.sweep_beyond();
+            begun.iterations = 2;
+        }
+        return to_stagnation::<T, W>(sweeps, kept.scales, begun, [late, bound], both);
     }
     let [q, p] = units::<T>(WITHIN_REACH, kept.scales);
     let tolerance = stopping.tolerance;
@@ -114,11 +121,12 @@ fn to_rounding<T: Scalar, W: Sweeps>(
 fn to_stagnation<T: Scalar, W: Sweeps>(
     sweeps: &mut W,
     scales: [f64; 2],
+    begun: Begun<W::Movement>,
     [late, bound]: [u32; 2],
     both: bool,
 ) -> Hastened<W::Movement> {
     let mut size = Size::of::<T>(scales);
-    let mut begun = Begun::NOTHING;
+    let mut begun = begun;
     let mut this = loop {
         let this = sweeps.sweep();
         begun.iterations += 1;

@@ -14,6 +14,8 @@ struct Scripted<'a, const HASTY: bool> {
     made: usize,
     /// How often it was begun.
     begun: usize,
+    /// How many sweeps there were before the one that moved the stages twice as far.
+    beyond: Option<usize>,
     time: f64,
 }
 
@@ -24,6 +26,7 @@ impl<'a, const HASTY: bool> Scripted<'a, HASTY> {
             scales,
             made: 0,
             begun: 0,
+            beyond: None,
             time,
         }
     }
@@ -68,6 +71,11 @@ impl<const HASTY: bool> Sweeps for Scripted<'_, HASTY> {
         Change { q, p }
     }
 
+    fn sweep_beyond(&mut self) -> Change {
+        self.beyond = Some(self.made);
+        self.sweep()
+    }
+
     fn change(&self, movement: &Change) -> Change {
         *movement
     }
@@ -87,10 +95,10 @@ fn made<C: Class, W: Sweeps>(
     })
 }
 
-/// A time with this side of the coin.
+/// A time with this side of the coin, at which stages do not come from the other side.
 fn time(side: bool) -> f64 {
     let mut time = 1.0;
-    while coin(time) != side {
+    while coin(time) != side || other_coin(time) {
         time += 1.0;
     }
     time
@@ -428,7 +436,7 @@ fn shrinking(seed: u64) -> Vec<[f64; 2]> {
 /// How many of a thousand iterations end at another sweep after a step with values this large than without one; values are one.
 fn others<C: Class, const HASTY: bool>(before: f64) -> usize {
     let scripted = |seed: u64, changes: &[[f64; 2]], kept: Kept| {
-        let mut script = Scripted::<HASTY>::new(changes, &[1.0], seed as f64);
+        let mut script = Scripted::<HASTY>::new(changes, &[1.0], time(seed % 2 == 0));
         let bound = at_most(changes.len());
         let quick = hasten::<C, f64, _>(&mut script, kept, bound).is_ok();
         (script.made, script.begun) = (0, 0);
@@ -567,4 +575,31 @@ fn values_that_were_large_once_leave_no_bound_that_is_too_wide() {
     let scales = [1e6, 1.0];
     let changes = alike([1e12, 5e7, 1e4, 1.0, 0.5]);
     assert_eq!(sweeps::<Separable, true>(&changes, &scales, true), Ok(4));
+}
+
+/// Only where the other half of the stages does not follow from the first, where changes are waited for that stagnate, after a step,
+/// and where there are sweeps enough.
+#[test]
+fn half_of_the_steps_come_from_the_other_side() {
+    fn beyond<C: Class, const HASTY: bool>(time: f64, kept: Kept, sweeps: usize) -> Option<usize> {
+        let changes: Vec<_> = [1e6, 1e3, 1e6, 1.0, 0.0].map(|x| [x; 2]).to_vec();
+        let mut script = Scripted::<HASTY>::new(&changes, &[1.0], time);
+        let (made, _) = made::<C, _>(&mut script, kept, at_most(sweeps)).expect("settled");
+        // It counts.
+        assert_eq!(made as usize, script.made);
+        script.beyond
+    }
+    let kept = || stages([1.0; 2]);
+    let [mut heads, steps] = [0, 1000];
+    for step in 0..steps {
+        let time = 0.1 * f64::from(step);
+        let expected = other_coin(time).then_some(1);
+        heads += u32::from(other_coin(time));
+        assert_eq!(beyond::<General, false>(time, kept(), 100), expected);
+        assert_eq!(beyond::<Separable, false>(time, kept(), 100), None);
+        assert_eq!(beyond::<General, true>(time, kept(), 100), None);
+        assert_eq!(beyond::<General, false>(time, Kept::default(), 100), None);
+        assert_eq!(beyond::<General, false>(time, kept(), 5), None);
+    }
+    assert!((450..550).contains(&heads), "{heads}");
 }

@@ -162,6 +162,20 @@ fn largest_change<L: Lanes, const N: usize>(a: &[L; N], b: &[L; N]) -> L {
     change
 }
 
+/// Whether stages start from the other side of where they will be, at half of the steps: else rounding shows from which they come, and
+/// the energy drifts.
+#[inline(always)]
+const fn is_odd(step: u64) -> bool {
+    let bits = step.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    (bits ^ bits >> 32).wrapping_mul(0xc4ce_b9fe_1a85_ec53) >> 63 == 1
+}
+
+/// As far beyond `new` as it is from `old`.
+#[inline(always)]
+fn beyond<L: Lanes, const N: usize>(old: &[L; N], new: &[L; N]) -> [L; N] {
+    array::from_fn(|k| new[k] + (new[k] - old[k]))
+}
+
 /// The method for any Hamiltonian.
 #[derive(Clone, Copy, Debug)]
 pub struct NoDriftGeneral<L, const S: usize> {
@@ -192,23 +206,34 @@ impl<L: Lanes, const S: usize> NoDriftGeneral<L, S> {
         let (mut velocity, mut force) = system.slopes(&q.high.map(L::splat), &p.high.map(L::splat));
         let mut matrix = &self.rough.stages;
         let mut sweeps = 0;
-        for _ in 0..steps {
+        for step in 0..steps {
             let mut at = (
                 FirstOrder::<L, S>::stages(&matrix[0], &q.high, &velocity),
                 FirstOrder::<L, S>::stages(&matrix[1], &p.high, &force),
             );
             matrix = &self.rough.extrapolated;
+            let stages = |(velocity, force): ([L; N], [L; N])| {
+                let (drifts, kicks) = (weigh(velocity), weigh(force));
+                let next = (
+                    q.stages(&self.mu[0], &drifts),
+                    p.stages(&self.mu[1], &kicks),
+                );
+                (drifts, kicks, next)
+            };
+            if is_odd(step) {
+                let (_, _, next) = stages(system.slopes(&at.0, &at.1));
+                let (_, _, after) = stages(system.slopes(&next.0, &next.1));
+                sweeps += 2;
+                at = (beyond(&next.0, &after.0), beyond(&next.1, &after.1));
+            }
             let mut least = L::splat(f64::INFINITY);
             let mut drifts;
             let mut kicks;
             loop {
                 (velocity, force) = system.slopes(&at.0, &at.1);
                 sweeps += 1;
-                (drifts, kicks) = (weigh(velocity), weigh(force));
-                let next = (
-                    q.stages(&self.mu[0], &drifts),
-                    p.stages(&self.mu[1], &kicks),
-                );
+                let next;
+                (drifts, kicks, next) = stages((velocity, force));
                 let change = largest_change(&next.0, &at.0).max(largest_change(&next.1, &at.1));
                 if !shrinks(change, &mut least) {
                     break;
