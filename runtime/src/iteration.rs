@@ -65,7 +65,8 @@ pub(crate) trait Sweeps {
     /// One sweep over all of them.
     fn sweep(&mut self) -> Self::Movement;
 
-    /// One that moves them twice as far. Only of systems that are not separable, and of sums that wait for stagnation.
+    /// One that moves them twice as far. Only asked for of systems that are not separable, of sums that wait for stagnation, and where
+    /// changes that are far from rounding are not looked at: others need not have it.
     #[inline(always)]
     fn sweep_beyond(&mut self) -> Self::Movement {
         self.sweep()

@@ -62,11 +62,13 @@ impl Layout {
 
     /// Puts positions and momenta, which are in their order, into this layout, with a `place` for as many components. `false` where
     /// one of the three is too short for it; then all stay as they are.
+    #[must_use = "where there is no place for the layout the state is as before"]
     pub fn put<T: Copy>(&self, state: (&mut [T], &mut [T]), place: &mut [T]) -> bool {
         self.change(state, place, Lying::put)
     }
 
     /// Puts positions and momenta, which are in this layout, back into their order; as [`put`](Self::put) with a `place`.
+    #[must_use = "where there is no place for the layout the state is as before"]
     pub fn put_back<T: Copy>(&self, state: (&mut [T], &mut [T]), place: &mut [T]) -> bool {
         self.change(state, place, Lying::put_back)
     }

@@ -141,7 +141,7 @@ fn one_pass_has_the_bits_of_three() {
             false => Layout::NATURAL,
         };
         let mut place = in_q.to_vec();
-        layout.put((&mut *in_q, &mut *in_p), &mut place);
+        assert!(layout.put((&mut *in_q, &mut *in_p), &mut place));
         let made = SeparableHamiltonian::<DVector<T>>::kick_and_drift(
             chain,
             time,
@@ -150,7 +150,7 @@ fn one_pass_has_the_bits_of_three() {
             &kicks,
             drift,
         );
-        layout.put_back((in_q, in_p), &mut place);
+        assert!(layout.put_back((in_q, in_p), &mut place));
         assert_eq!(made, (1..=2).contains(&kicks.len()));
         let [mut expected_q, mut expected_p] = all.map(|x| x.as_slice().to_vec());
         if made {

@@ -109,7 +109,14 @@ fn lanes_give_the_same_bits() -> Result<(), Error> {
             DVector::from_column_slice(q.as_slice()),
             DVector::from_column_slice(p.as_slice()),
         );
-        compare(method, || Coupled, &State::new(0.0, q, p), -0.05)
+        compare(method, || Coupled, &State::new(0.0, q, p), -0.05)?;
+        let wave = |phase: f64| DVector::from_fn(19, |k, _| (phase + 1.3 * k as f64).sin());
+        compare(
+            method,
+            || Coupled,
+            &State::new(0.0, wave(0.1), wave(2.0)),
+            0.05,
+        )
     }
     check(Gauss1)?;
     check(Gauss2)?;

@@ -74,7 +74,8 @@ struct Ensemble<'a, S, V> {
 }
 
 impl<S: HamiltonianInLanes<V> + Copy, V: Vector<Scalar = f64>> Ensemble<'_, S, V> {
-    /// A row for each kind of sums, and one for the step without momentum stages where the Hamiltonian is separable.
+    /// A row for each kind of sums, and one for the step without momentum stages where the Hamiltonian is separable, or for that with
+    /// positions and momenta at once where it is not.
     fn rows<M: Method>(&self, method: M, step_size: f64, steps: &[u64]) -> Result<(), Error> {
         let system = self.system;
         let row = |sums, samples: Vec<Sample>| self.row::<M>(sums, &samples);
@@ -87,6 +88,13 @@ impl<S: HamiltonianInLanes<V> + Copy, V: Vector<Scalar = f64>> Ensemble<'_, S, V
             row(
                 "compensated, second order",
                 ensemble(second_order, self.starts, steps)?,
+            );
+        } else {
+            let at_once =
+                |start| Ok(Integrator::new(method, system, start, step_size)?.at_once_in_lanes());
+            row(
+                "compensated, at once",
+                ensemble(at_once, self.starts, steps)?,
             );
         }
         let plain = |start| Ok(Integrator::plain(method, system, start, step_size)?.in_lanes());

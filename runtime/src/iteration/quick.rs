@@ -33,7 +33,7 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
         let bound = stopping.max_iterations.min(STAGNATION);
         let mut begun = Begun::NOTHING;
         if !C::SEPARABLE && late == PATIENCE && other_coin(sweeps.time()) {
-            // From the other side: what is beyond is nearer to a mirror image where the largest contraction shows.
+            // From the other side. An ordinary sweep comes first: it leaves mostly the error that shrinks least, to be mirrored.
             begun.first = Some(sweeps.sweep());
             sweeps.sweep_beyond();
             begun.iterations = 2;

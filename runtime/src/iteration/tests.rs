@@ -436,7 +436,7 @@ fn shrinking(seed: u64) -> Vec<[f64; 2]> {
 /// How many of a thousand iterations end at another sweep after a step with values this large than without one; values are one.
 fn others<C: Class, const HASTY: bool>(before: f64) -> usize {
     let scripted = |seed: u64, changes: &[[f64; 2]], kept: Kept| {
-        let mut script = Scripted::<HASTY>::new(changes, &[1.0], time(seed % 2 == 0));
+        let mut script = Scripted::<HASTY>::new(changes, &[1.0], time(seed.is_multiple_of(2)));
         let bound = at_most(changes.len());
         let quick = hasten::<C, f64, _>(&mut script, kept, bound).is_ok();
         (script.made, script.begun) = (0, 0);
