@@ -83,6 +83,8 @@ struct Problem<S, B, V> {
     compared: u64,
     /// What no stage of the iteration by hand may move by in the end; rounding errors are smaller.
     tolerance: f64,
+    /// Whether the library iterates positions and momenta at once, as it is done by hand for Hamiltonians that are not separable.
+    at_once: bool,
 }
 
 /// Every pair.
@@ -100,6 +102,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 641,
             compared: 128,
             tolerance: 1e-14,
+            at_once: false,
         },
     );
     few::separable(
@@ -114,6 +117,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 1025,
             compared: 20,
             tolerance: 1e-12,
+            at_once: false,
         },
     );
     few::separable(
@@ -128,6 +132,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 25641,
             compared: 100,
             tolerance: 1e-14,
+            at_once: false,
         },
     );
     few::separable(
@@ -146,22 +151,29 @@ pub fn pairs() -> Vec<Pair> {
             steps: 5000,
             compared: 100,
             tolerance: 1e-14,
+            at_once: false,
         },
     );
-    few::general(
-        &mut pairs,
-        &Problem {
-            name: "double pendulum",
-            system: double_pendulum::DoublePendulum,
-            by_hand: systems::DoublePendulum,
-            start: double_pendulum::start(),
-            step_size: 0.1,
-            // To t = 100.
-            steps: 1000,
-            compared: 100,
-            tolerance: 1e-13,
-        },
-    );
+    for (name, at_once) in [
+        ("double pendulum", true),
+        ("double pendulum, in turn", false),
+    ] {
+        few::general(
+            &mut pairs,
+            &Problem {
+                name,
+                system: double_pendulum::DoublePendulum,
+                by_hand: systems::DoublePendulum,
+                start: double_pendulum::start(),
+                step_size: 0.1,
+                // To t = 100.
+                steps: 1000,
+                compared: 100,
+                tolerance: 1e-13,
+                at_once,
+            },
+        );
+    }
     few::general(
         &mut pairs,
         &Problem {
@@ -174,6 +186,7 @@ pub fn pairs() -> Vec<Pair> {
             steps: 1000,
             compared: 100,
             tolerance: 1e-14,
+            at_once: true,
         },
     );
     many::chain(&mut pairs);

@@ -165,7 +165,7 @@ fn largest_change<L: Lanes, const N: usize>(a: &[L; N], b: &[L; N]) -> L {
 /// Whether stages start from the other side of where they will be, at half of the steps: else rounding shows from which they come, and
 /// the energy drifts.
 #[inline(always)]
-const fn is_odd(step: u64) -> bool {
+const fn mirrors(step: u64) -> bool {
     let bits = step.wrapping_mul(0x9e37_79b9_7f4a_7c15);
     (bits ^ bits >> 32).wrapping_mul(0xc4ce_b9fe_1a85_ec53) >> 63 == 1
 }
@@ -220,7 +220,7 @@ impl<L: Lanes, const S: usize> NoDriftGeneral<L, S> {
                 );
                 (drifts, kicks, next)
             };
-            if is_odd(step) {
+            if mirrors(step) {
                 let (_, _, next) = stages(system.slopes(&at.0, &at.1));
                 let (_, _, after) = stages(system.slopes(&next.0, &next.1));
                 sweeps += 2;

@@ -185,7 +185,7 @@ where
         );
     }
 
-    /// A pair with the stages in lanes, positions and momenta at once, as by hand.
+    /// A pair with the stages in lanes, both halves at once where that was chosen.
     fn coupled_in_lanes<M: Method, R: Summation>(
         &self,
         method: (&'static str, M),
@@ -193,8 +193,13 @@ where
         set: impl Fn(Made<M, S, N, R>) -> Result<Made<M, S, N, R>, Error> + 'static,
         baseline: impl Fn(u64) -> Vec<f64> + 'static,
     ) -> Pair {
-        let solved = move |made| Ok(set(made)?.at_once_in_lanes());
-        self.pair(method, step_size, solved, baseline)
+        if self.at_once {
+            let solved = move |made| Ok(set(made)?.at_once_in_lanes());
+            self.pair(method, step_size, solved, baseline)
+        } else {
+            let solved = move |made| Ok(set(made)?.in_lanes());
+            self.pair(method, step_size, solved, baseline)
+        }
     }
 }
 

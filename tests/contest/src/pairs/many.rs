@@ -23,6 +23,7 @@ pub(super) fn chain(pairs: &mut Vec<Pair>) {
         steps: 200,
         compared: 200,
         tolerance: 1e-14,
+        at_once: false,
     };
     let Problem {
         step_size,
