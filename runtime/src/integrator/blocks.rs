@@ -86,11 +86,10 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             copy(&mut next_low.1, &low.1);
         }
         let waits = !R::COMPENSATED && self.course.state.q.dimension() >= LONG;
-        match (size_of::<V>() <= SHORT, R::COMPENSATED) {
+        match size_of::<V>() <= SHORT {
             _ if waits => self.run_here(clock, steps, size, Waiting::new(steps)),
-            (true, true) => self.run_apart(clock, steps, size),
-            (true, false) => self.run_alone(clock, steps, size),
-            (false, _) => self.run_here(clock, steps, size, ()),
+            true => self.run_apart(clock, steps, size),
+            false => self.run_here(clock, steps, size, ()),
         }
         if !self.course.is_sound() {
             self.course.memory = StageStorage::like(&self.course.state.q);
@@ -122,7 +121,10 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     }
 
     /// Takes steps in these places moved out of the memory of the integrator, so that they are in registers from step to step.
-    #[inline(always)]
+    ///
+    /// A function of its own: steps are so short that it shows what is in registers around them, and what is made of the last of them
+    /// shows the compiler components to pack that it had better leave apart.
+    #[inline(never)]
     fn run_apart(&mut self, clock: &Clock, steps: u64, size: f64) {
         let blank = || (V::blank(), V::blank());
         // The order shows in how registers are given to six components: see `ratios`, springs, and `instructions`.
@@ -140,13 +142,6 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         );
         (self.course.next, self.course.next_low) = (next, low);
         self.course.memory = memory;
-    }
-
-    /// [`run_apart`](Self::run_apart), in a function of its own: plain steps are so short that it shows what is in registers around
-    /// them.
-    #[inline(never)]
-    fn run_alone(&mut self, clock: &Clock, steps: u64, size: f64) {
-        self.run_apart(clock, steps, size);
     }
 
     /// Takes steps in the places of a state.
