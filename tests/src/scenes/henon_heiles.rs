@@ -29,7 +29,7 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for HenonHeiles {
     #[inline]
     fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         let product = q[0] * q[1];
-        force[0] = -(q[0] + product + product);
+        force[0] = -q[0] - product - product;
         force[1] = q[1] * q[1] - q[0] * q[0] - q[1];
     }
 

@@ -45,7 +45,7 @@ impl Separable<2> for HenonHeiles {
     #[inline(always)]
     fn force<L: Lanes>(&self, &[x, y]: &[L; 2]) -> [L; 2] {
         let product = x * y;
-        [-(x + product + product), y * y - x * x - y]
+        [-x - product - product, y * y - x * x - y]
     }
 }
 
