@@ -6,7 +6,7 @@ use num_traits::Zero;
 
 use crate::layout::{Part, parts};
 use crate::rows::{Eight, Row, Single, splats};
-use crate::{Layout, Scalar, SeparableHamiltonian, Vector, copy};
+use crate::{Components, Layout, Scalar, SeparableHamiltonian, Vector, copy};
 
 /// What the particles of a [`Chain`] feel.
 ///
@@ -417,6 +417,31 @@ impl<V: Vector, B: Bonds> SeparableHamiltonian<V> for Chain<B> {
             return self.walk::<f64, Eight>(time, Layout::NATURAL, &mut Forces { q, force });
         }
         self.walk::<V::Scalar, Single>(time, Layout::NATURAL, &mut Forces { q, force });
+    }
+
+    const LOCAL_FORCE: bool = true;
+
+    #[inline(always)]
+    fn local_force(&self, time: V::Scalar, components: &mut impl Components<V::Scalar>) {
+        let Some(last) = components.dimension().checked_sub(1) else {
+            return;
+        };
+        let first = components.position(0);
+        let zero = V::Scalar::zero();
+        let (at_last, beyond) = match self.ends {
+            Ends::Ring => (components.position(last), Some(first)),
+            Ends::Walls => (zero, Some(zero)),
+            Ends::Free => (zero, None),
+        };
+        let (mut here, mut left) = (first, self.first_tension(time, first, at_last));
+        for k in 0..last {
+            let next = components.position(k + 1);
+            let right = self.bonds.tension(time, next - here);
+            components.set_force(k, self.between(time, left, here, right));
+            (here, left) = (next, right);
+        }
+        let right = beyond.map_or(zero, |beyond| self.bonds.tension(time, beyond - here));
+        components.set_force(last, self.between(time, left, here, right));
     }
 
     #[inline]

@@ -179,6 +179,20 @@ pub enum Error {
         expected: f64,
     },
 
+    /// A system makes its force component by component, and what comes out is not its force.
+    #[error(
+        "component {component} of the force is {local} in size by `local_force` and {expected} by `force`: they have to be the same to \
+         the last bit; leave `local_force` and `LOCAL_FORCE = true` out, or make it from the same operations"
+    )]
+    NotTheSameLocalForce {
+        /// The component, from 0.
+        component: usize,
+        /// Its size component by component; not a number where it was not set.
+        local: f64,
+        /// Its size by the force.
+        expected: f64,
+    },
+
     /// A system evaluates velocity and force at once, and one of them is not what comes out alone.
     #[error(
         "component {component} of the {what} is {at_once} in size by `slopes` and {alone} alone: they have to be the same to the \

@@ -1,6 +1,6 @@
 //! The systems that are integrated.
 
-use crate::{Class, Layout, Separable, Vector};
+use crate::{Class, Components, Layout, Separable, Vector};
 
 /// A Hamiltonian system, given by the right-hand sides of Hamilton's equations
 ///
@@ -112,6 +112,13 @@ pub trait Hamiltonian<V: Vector> {
         self.force(time, q, p, force);
     }
 
+    /// Whether the force is local: see [`SeparableHamiltonian::LOCAL_FORCE`].
+    const LOCAL_FORCE: bool = false;
+
+    /// The force, component by component: see [`SeparableHamiltonian::local_force`].
+    #[inline(always)]
+    fn local_force(&self, _time: V::Scalar, _components: &mut impl Components<V::Scalar>) {}
+
     /// Kicks and a drift in one pass: see [`SeparableHamiltonian::kick_and_drift`].
     #[inline(always)]
     fn kick_and_drift(
@@ -195,6 +202,57 @@ pub trait SeparableHamiltonian<V: Vector> {
     /// Writes −∂H/∂q at `(time, q)` into `force`.
     fn force(&self, time: V::Scalar, q: &V, force: &mut V);
 
+    /// Whether [`local_force`](Self::local_force) is written out.
+    const LOCAL_FORCE: bool = false;
+
+    /// The force with the same bits as by [`force`](Self::force), in one walk along the components: to be written out, and
+    /// [said](Self::LOCAL_FORCE), where the force on a component sees those beside it and few others, as in a [`Chain`](crate::Chain).
+    ///
+    /// For long vectors of a system of [unit masses](Self::UNIT_MASSES) [`SecondOrderInLanes`](crate::SecondOrderInLanes) then makes sums
+    /// over stages, evaluates, and notes what changed in one pass, and no positions of stages go to memory. Making that solver fails with
+    /// [`Error::NotTheSameLocalForce`](crate::Error::NotTheSameLocalForce) where other bits come out of it for the present state.
+    ///
+    /// ```
+    /// use symplectic::nalgebra::DVector;
+    /// use symplectic::{Components, Scalar, SeparableHamiltonian, copy};
+    ///
+    /// /// V(q_k, q_{k+1}) = q_k² q_{k+1}²/2 between neighbours of unit mass.
+    /// struct Coupled;
+    ///
+    /// /// What two neighbours do to the first of them; nothing where there is none.
+    /// fn pull<T: Scalar>(here: T, there: Option<T>) -> T {
+    ///     there.map_or(T::zero(), |there| here * (there * there))
+    /// }
+    ///
+    /// impl<T: Scalar> SeparableHamiltonian<DVector<T>> for Coupled {
+    ///     const UNIT_MASSES: bool = true;
+    ///     const LOCAL_FORCE: bool = true;
+    ///
+    ///     fn velocity(&self, _time: T, p: &DVector<T>, velocity: &mut DVector<T>) {
+    ///         copy(velocity, p);
+    ///     }
+    ///
+    ///     fn force(&self, _time: T, q: &DVector<T>, force: &mut DVector<T>) {
+    ///         for k in 0..q.len() {
+    ///             let left = k.checked_sub(1).map(|left| q[left]);
+    ///             force[k] = -(pull(q[k], left) + pull(q[k], q.get(k + 1).copied()));
+    ///         }
+    ///     }
+    ///
+    ///     fn local_force(&self, _time: T, components: &mut impl Components<T>) {
+    ///         let n = components.dimension();
+    ///         let (mut left, mut here) = (None, components.position(0));
+    ///         for k in 0..n {
+    ///             let right = (k + 1 < n).then(|| components.position(k + 1));
+    ///             components.set_force(k, -(pull(here, left) + pull(here, right)));
+    ///             (left, here) = (Some(here), right.unwrap_or(here));
+    ///         }
+    ///     }
+    /// }
+    /// ```
+    #[inline(always)]
+    fn local_force(&self, _time: V::Scalar, _components: &mut impl Components<V::Scalar>) {}
+
     /// For a system of [unit masses](Self::UNIT_MASSES) that can do it in one pass over its components, as a [`Chain`](crate::Chain)
     /// can: kicks of the momenta by one force, one after the other, and a drift of the positions,
     ///
@@ -249,6 +307,13 @@ impl<V: Vector, S: SeparableHamiltonian<V>> Hamiltonian<V> for S {
     #[inline(always)]
     fn force(&self, time: V::Scalar, q: &V, _p: &V, force: &mut V) {
         SeparableHamiltonian::force(self, time, q, force);
+    }
+
+    const LOCAL_FORCE: bool = S::LOCAL_FORCE;
+
+    #[inline(always)]
+    fn local_force(&self, time: V::Scalar, components: &mut impl Components<V::Scalar>) {
+        SeparableHamiltonian::local_force(self, time, components);
     }
 
     #[inline(always)]

@@ -374,9 +374,23 @@ pub(crate) fn lanes<L: Lanes>(list: &[f64], group: usize) -> L {
 
 /// The times of the evaluations of a group.
 #[inline(always)]
-fn times<P: StageTableau, V>(half: &HalfTableau, step: &Step<'_, V>, group: usize) -> P::Lanes {
+pub(crate) fn times<P: StageTableau, V>(
+    half: &HalfTableau,
+    step: &Step<'_, V>,
+    group: usize,
+) -> P::Lanes {
     let fractions: P::Lanes = lanes(half.times, group);
     P::Lanes::from_f64(step.time) + fractions * P::Lanes::from_f64(step.size)
+}
+
+/// What evaluations of a group are multiplied by to become increments.
+#[inline(always)]
+pub(crate) fn increment_factor<P: StageTableau>(
+    half: &HalfTableau,
+    h: f64,
+    group: usize,
+) -> P::Lanes {
+    lanes::<P::Lanes>(half.weights, group) * P::Lanes::from_f64(h)
 }
 
 /// Evaluations become increments.
@@ -388,7 +402,7 @@ pub(crate) fn scale<P: StageTableau, V: Vector>(
 ) {
     if P::INCREMENTS {
         for (group, evaluation) in evaluations.iter_mut().enumerate() {
-            let factor = lanes::<P::Lanes>(half.weights, group) * P::Lanes::from_f64(h);
+            let factor = increment_factor::<P>(half, h, group);
             for component in evaluation.as_mut_slice() {
                 *component *= factor;
             }
@@ -546,7 +560,7 @@ pub(crate) fn sum<P: StageTableau>(
 
 /// `start + factor Σ_j columns_j terms_j` in one component, for the stages of one group; the factor, if any, is in the products.
 #[inline(always)]
-fn combination<L: Lanes>(
+pub(crate) fn combination<L: Lanes>(
     sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
     group: usize,
     start: Option<L>,

@@ -22,7 +22,9 @@ pub(crate) mod checks;
 mod course;
 mod parts;
 
-use checks::{check_masses, check_pass, check_slopes, check_state, check_step_size};
+use checks::{
+    check_local_force, check_masses, check_pass, check_slopes, check_state, check_step_size,
+};
 use course::Course;
 
 /// The plan of the method `M` for the class of the system `S`.
@@ -205,10 +207,12 @@ impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
     ///
     /// # Errors
     ///
-    /// [`Error::NotSecondOrder`], where the velocity is not linear in the momentum, or depends on time.
+    /// [`Error::NotSecondOrder`], where the velocity is not linear in the momentum, or depends on time;
+    /// [`Error::NotTheSameLocalForce`], where the force component by component is another one.
     pub fn in_second_order_lanes(
         self,
     ) -> Result<Integrator<M, S, V, R, SecondOrderInLanes>, Error> {
+        check_local_force(&self.system, &self.course.state)?;
         let State { time, q, p } = &self.course.state;
         let solver = SecondOrderInLanes::new(&self.system, *time, q, p)?;
         Ok(self.with_solver(solver))

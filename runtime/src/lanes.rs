@@ -6,7 +6,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 use num_traits::{One, Zero};
 
 use crate::array::array;
-use crate::{Hamiltonian, Scalar, Vector};
+use crate::{Components, Hamiltonian, Scalar, Vector};
 
 /// A few doubles side by side, in one register of the processor where it has so wide ones.
 ///
@@ -71,6 +71,12 @@ pub trait Lanes: Scalar {
         p: &V::With<Self>,
         force: &mut V::With<Self>,
     ) where
+        V: Vector,
+        S: HamiltonianInLanes<V>;
+
+    /// [`Hamiltonian::local_force`] in every lane at once.
+    fn local_force<V, S>(system: &S, time: Self, components: &mut impl Components<Self>)
+    where
         V: Vector,
         S: HamiltonianInLanes<V>;
 
@@ -344,6 +350,15 @@ macro_rules! lanes {
                 S: HamiltonianInLanes<V>,
             {
                 Hamiltonian::<V::With<Self>>::force(system, time, q, p, force);
+            }
+
+            #[inline(always)]
+            fn local_force<V, S>(system: &S, time: Self, components: &mut impl Components<Self>)
+            where
+                V: Vector,
+                S: HamiltonianInLanes<V>,
+            {
+                Hamiltonian::<V::With<Self>>::local_force(system, time, components);
             }
 
             #[inline(always)]

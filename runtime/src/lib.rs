@@ -81,6 +81,7 @@ mod change;
 mod class;
 mod closures;
 mod coefficient;
+mod components;
 mod composition;
 mod coupled;
 mod dense;
@@ -144,6 +145,7 @@ pub use closures::{
     separable,
 };
 pub use coefficient::{Coefficient, Coefficients};
+pub use components::Components;
 pub use composition::{Composition, CompositionMemory, Substep, Substeps};
 pub use coupled::Coupled;
 pub use dense::DenseOutput;

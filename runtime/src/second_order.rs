@@ -1,8 +1,11 @@
 //! Second-order systems: coupled stages without the momenta.
 
+mod local;
+
 use core::marker::PhantomData;
 use core::mem;
 
+use self::local::{Locally, is_local};
 use crate::in_lanes::{
     ByLanes, Sums, entry, extend, extrapolate, fill, in_groups, is_about, lane_of, lanes, scale,
     scale_of, shortest, total, values,
@@ -11,7 +14,7 @@ use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::kernel::sum_of_products;
 use crate::lane_movement::{LaneMovement, LanePart};
 use crate::lane_stages::{LaneStages, Laned};
-use crate::starting_values::{StartingColumns, starting_columns, starts_at_once};
+use crate::starting_values::{MOST, StartingColumns, starting_columns, starts_at_once};
 use crate::summation::add;
 use crate::{
     Change, Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes,
@@ -24,6 +27,10 @@ use crate::{
 /// [`Integrator::in_second_order_lanes`](crate::Integrator::in_second_order_lanes).
 ///
 /// Methods that have no such coefficients, and systems that are not separable, are taken as by [`InLanes`].
+///
+/// For long vectors and up to eight stages a system whose force is [local](crate::SeparableHamiltonian::LOCAL_FORCE), a
+/// [`Chain`](crate::Chain), is gone through once in a sweep: the positions of the stages are made, and used, component by component. What
+/// is then compared with a tolerance is by how much the next positions can differ, at most, from those of the sweep.
 #[derive(Clone, Copy, Debug)]
 pub struct SecondOrderInLanes(());
 
@@ -112,7 +119,10 @@ where
                 sums: PhantomData,
             },
         };
-        let mut work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
+        let mut work = match is_local::<P, V, S>() {
+            true => settle::<P::Class, f64>(&mut Locally::new(&mut sweeps), kept, stopping)?,
+            false => settle::<P::Class, f64>(&mut sweeps, kept, stopping)?,
+        };
         work.evaluations += sweeps.evaluations().finish;
         if R::COMPENSATED {
             compensated_result::<P, R, V, S>(step, system, stages, outcome);
@@ -220,6 +230,58 @@ fn start<P: StageTableau, V: Vector<Scalar = f64>, S: Hamiltonian<V>>(
     }
 }
 
+/// Sums of the velocities of increments.
+#[inline(always)]
+fn of_increments<C: AsRef<[f64]>>(
+    columns: &'static [C],
+) -> Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>> {
+    Sums {
+        count: columns.len(),
+        column: |j: usize| columns[j].as_ref(),
+        factor: |_| None,
+        with_low: false,
+        beyond: false,
+    }
+}
+
+/// Those of the velocities of forces, in steps of this size.
+#[inline(always)]
+fn of_forces<P: StageTableau>(
+    h: f64,
+) -> Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>> {
+    let columns = tableau::<P>().columns;
+    Sums {
+        count: columns.len(),
+        column: |j: usize| columns[j],
+        factor: move |j: usize| Some(h * (h * P::POSITIONS.weights[j])),
+        with_low: false,
+        beyond: false,
+    }
+}
+
+/// The position of stages with this base and velocity at the start, for steps of such a size, and the part of it that is before each;
+/// whether the step size is in the sum already.
+#[inline(always)]
+fn position<R: Summation, L: Lanes>(
+    (base, low): (L, L),
+    (size, node): (f64, L),
+    velocity: L,
+    sum: L,
+    scaled: bool,
+) -> L {
+    let h = L::from_f64(size);
+    // All but the sum is the same in every sweep.
+    if R::COMPENSATED {
+        // A product of step size and node would be off by the same part in every step, and the energy would drift.
+        return base + h.fused(sum, h.fused(node * velocity, low));
+    }
+    let start = (h * node).fused(velocity, base);
+    match scaled {
+        true => start + sum,
+        false => h.fused(sum, start),
+    }
+}
+
 /// Does `work` in a function of its own.
 #[inline(never)]
 fn apart<T>(work: impl FnOnce() -> T) -> T {
@@ -251,6 +313,12 @@ struct Start<P>(PhantomData<P>);
 impl<P: StageTableau> Start<P> {
     const COLUMNS: &'static StartingColumns =
         &starting_columns(tableau::<P>().columns, &P::POSITIONS);
+
+    /// One for each increment of the step before.
+    #[inline(always)]
+    fn columns() -> &'static [[f64; MOST]] {
+        &Self::COLUMNS[..P::POSITIONS.extrapolation.len()]
+    }
 }
 
 impl<P, R, V, S> Positions<'_, P, R, V, S>
@@ -263,34 +331,10 @@ where
     /// New positions; returns how much they changed.
     #[inline(always)]
     fn positions(&mut self) -> LanePart<P::Lanes> {
-        let columns = tableau::<P>().columns;
-        if R::COMPENSATED {
-            return self.of_increments(columns.len(), |j: usize| columns[j]);
+        match R::COMPENSATED {
+            true => self.sums(&of_increments(tableau::<P>().columns)),
+            false => self.sums(&of_forces::<P>(self.lanes.step.size)),
         }
-        let h = self.lanes.step.size;
-        self.sums(&Sums {
-            count: columns.len(),
-            column: |j: usize| columns[j],
-            factor: |j: usize| Some(h * (h * P::POSITIONS.weights[j])),
-            with_low: false,
-            beyond: false,
-        })
-    }
-
-    /// New positions by so many columns, of the velocities of increments; returns how much they changed.
-    #[inline(always)]
-    fn of_increments(
-        &mut self,
-        count: usize,
-        column: impl Fn(usize) -> &'static [f64],
-    ) -> LanePart<P::Lanes> {
-        self.sums(&Sums {
-            count,
-            column,
-            factor: |_| None,
-            with_low: false,
-            beyond: false,
-        })
     }
 
     /// The positions that are these sums of the velocities of increments, or, with factors, of those of forces; returns how
@@ -302,25 +346,15 @@ where
     ) -> LanePart<P::Lanes> {
         let scaled = (sums.factor)(0).is_some();
         let (step, stages) = (self.lanes.step, &mut *self.lanes.stages);
-        let h = P::Lanes::from_f64(step.size);
         let start = stages.p.as_ref();
-        let value = |(group, k): (usize, usize), (base, low): (P::Lanes, P::Lanes), sum| {
-            let node: P::Lanes = lanes(tableau::<P>().nodes, group);
+        let value = |(group, k): (usize, usize), base: (P::Lanes, P::Lanes), sum| {
             // The momentum itself is shorter than the same in all lanes, which long vectors would read in every sweep.
             let velocity = match <S as Hamiltonian<V>>::UNIT_MASSES {
                 true => P::Lanes::from_f64(step.p.as_slice()[k]),
                 false => start[group].as_slice()[k],
             };
-            // All but the sum is the same in every sweep.
-            if R::COMPENSATED {
-                // A product of step size and node would be off by the same part in every step, and the energy would drift.
-                return base + h.fused(sum, h.fused(node * velocity, low));
-            }
-            let start = (h * node).fused(velocity, base);
-            match scaled {
-                true => start + sum,
-                false => h.fused(sum, start),
-            }
+            let node = lanes(tableau::<P>().nodes, group);
+            position::<R, P::Lanes>(base, (step.size, node), velocity, sum, scaled)
         };
         let base = (step.q, step.q_low);
         let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force);
@@ -452,8 +486,7 @@ where
     fn begin(&mut self, kept: Kept) {
         self.start();
         if kept.stages && starts_at_once(&P::POSITIONS) {
-            let count = P::POSITIONS.extrapolation.len();
-            self.of_increments(count, |k: usize| &Start::<P>::COLUMNS[k]);
+            self.sums(&of_increments(Start::<P>::columns()));
             return;
         }
         if kept.stages && !P::POSITIONS.extrapolation.is_empty() {
@@ -466,8 +499,7 @@ where
             }
         }
         self.velocities();
-        let columns = tableau::<P>().columns;
-        self.of_increments(columns.len(), |j: usize| columns[j]);
+        self.sums(&of_increments(tableau::<P>().columns));
     }
 
     #[inline(always)]

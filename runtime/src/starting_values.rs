@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use crate::{HalfTableau, StageTableau};
 
 /// The most stages of which starting values are made at once.
-const MOST: usize = 16;
+pub(crate) const MOST: usize = 16;
 
 /// `μ E` by its columns: the matrix `E` takes the increments of one half to those of the next step, and `μ` these to stage values
 /// of the other half. A product of doubles, for it is only where iterations start.

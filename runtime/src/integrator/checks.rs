@@ -2,7 +2,7 @@
 
 use crate::kernel::kick_and_drift;
 use crate::stage::is_finite;
-use crate::{Class, Error, Hamiltonian, Layout, Quantity, Scalar, State, Vector, copy};
+use crate::{Class, Components, Error, Hamiltonian, Layout, Quantity, Scalar, State, Vector, copy};
 
 pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {
     if value.is_finite() && value != 0.0 {
@@ -80,6 +80,60 @@ pub(super) fn check_pass<V: Vector, S: Hamiltonian<V>>(
         }
     }
     Ok(())
+}
+
+/// Checks that the force component by component is the force, where the system makes it so.
+pub(super) fn check_local_force<V: Vector, S: Hamiltonian<V>>(
+    system: &S,
+    state: &State<V>,
+) -> Result<(), Error> {
+    if !S::LOCAL_FORCE {
+        return Ok(());
+    }
+    let State { time, q, p } = state;
+    let time = V::Scalar::from_f64(*time);
+    let [mut force, mut local] = [q.zeros_like(), q.zeros_like()];
+    system.force(time, q, p, &mut force);
+    local.as_mut_slice().fill(V::Scalar::from_f64(f64::NAN));
+    system.local_force(
+        time,
+        &mut InMemory {
+            q: q.as_slice(),
+            force: local.as_mut_slice(),
+        },
+    );
+    first_difference(&local, &force).map_or(Ok(()), |(component, local, expected)| {
+        Err(Error::NotTheSameLocalForce {
+            component,
+            local,
+            expected,
+        })
+    })
+}
+
+/// Components that are in memory. The positions of those whose forces are set are no numbers any more.
+struct InMemory<'a, T> {
+    q: &'a [T],
+    force: &'a mut [T],
+}
+
+impl<T: Scalar> Components<T> for InMemory<'_, T> {
+    fn dimension(&self) -> usize {
+        self.q.len()
+    }
+
+    fn position(&mut self, component: usize) -> T {
+        match (self.q.get(component), self.force.get(component)) {
+            (Some(&q), Some(force)) if force.magnitude().is_nan() => q,
+            _ => T::from_f64(f64::NAN),
+        }
+    }
+
+    fn set_force(&mut self, component: usize, force: T) {
+        if let Some(place) = self.force.get_mut(component) {
+            *place = force;
+        }
+    }
 }
 
 /// Checks that velocity and force at once are those one by one, where the system says so.

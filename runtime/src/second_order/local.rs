@@ -1,0 +1,242 @@
+//! Second-order systems whose force is local: positions of stages that never go to memory.
+
+use core::marker::PhantomData;
+use core::mem;
+
+use super::{Positions, Start, apart, eliminates, of_forces, of_increments, position, tableau};
+use crate::in_lanes::{Sums, combination, increment_factor, is_about, lane_of, lanes, times};
+use crate::iteration::{Begun, Sweeps};
+use crate::kernel::sum_of_products;
+use crate::lane_movement::{LaneMovement, LanePart};
+use crate::starting_values::starts_at_once;
+use crate::{
+    Change, Class, Components, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, Kept,
+    Lanes, Quantity, Scalar, StageTableau, Stopping, Summation, Vector, Work,
+};
+
+/// Whether stages are iterated along the components: for vectors on the heap, where all stages of a component are in one group.
+#[inline(always)]
+pub(super) const fn is_local<P: StageTableau, V: Vector, S: Hamiltonian<V>>() -> bool {
+    S::LOCAL_FORCE
+        && S::UNIT_MASSES
+        && mem::needs_drop::<V>()
+        && eliminates::<P>()
+        && starts_at_once(&P::POSITIONS)
+        && P::POSITIONS.count <= P::Lanes::WIDTH
+}
+
+/// The forces at the positions of the stages, which are made from those of the sweep before where they are needed. What a sweep
+/// has moved is by how much the next positions can differ from those that it was made at.
+pub(super) struct Locally<'p, 'a, P: StageTableau, R, V: Vector, S> {
+    positions: &'p mut Positions<'a, P, R, V, S>,
+    /// The largest component of the positions.
+    scale: P::Lanes,
+}
+
+impl<'p, 'a, P, R, V, S> Locally<'p, 'a, P, R, V, S>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    pub(super) fn new(positions: &'p mut Positions<'a, P, R, V, S>) -> Self {
+        Self {
+            positions,
+            scale: P::Lanes::from_f64(0.0),
+        }
+    }
+
+    /// The forces at the positions that are these sums of them; returns how much they changed.
+    #[inline(always)]
+    fn walk(
+        &mut self,
+        sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
+    ) -> LanePart<P::Lanes> {
+        let lanes = &mut self.positions.lanes;
+        let (step, stages) = (lanes.step, &mut *lanes.stages);
+        let [force, ..] = stages.force.as_mut() else {
+            return LanePart::none();
+        };
+        let force = force.as_mut_slice();
+        let n = (force.len().min(step.q.dimension()))
+            .min(step.q_low.dimension())
+            .min(step.p.dimension());
+        let mut along = Along::<P, R, _, _> {
+            sums,
+            size: step.size,
+            q: &step.q.as_slice()[..n],
+            q_low: &step.q_low.as_slice()[..n],
+            p: &step.p.as_slice()[..n],
+            force: &mut force[..n],
+            scale: P::Lanes::from_f64(0.0),
+            part: None,
+            summation: PhantomData,
+        };
+        let time = times::<P, V>(&P::POSITIONS, step, 0);
+        P::Lanes::local_force::<V, S>(lanes.system, time, &mut along);
+        self.scale = along.scale;
+        along.part.unwrap_or_else(LanePart::none)
+    }
+
+    /// By how much sums of forces, or of the increments made of them, can change where each stage has changed by so much.
+    #[inline(always)]
+    fn reach(&self, changes: P::Lanes) -> P::Lanes {
+        let h = self.positions.lanes.step.size;
+        let columns = tableau::<P>().columns;
+        sum_of_products(None, columns.len(), |j| {
+            let factor = match R::COMPENSATED {
+                true => h,
+                false => h * (h * P::POSITIONS.weights[j]),
+            };
+            let column: P::Lanes = lanes(columns[j], 0);
+            let change = P::Lanes::from_f64(lane_of(changes, j));
+            ((column * P::Lanes::from_f64(factor)).abs(), change)
+        })
+    }
+}
+
+/// The stages of a step along its components.
+struct Along<'a, P: StageTableau, R, C, F> {
+    sums: &'a Sums<C, F>,
+    size: f64,
+    q: &'a [f64],
+    q_low: &'a [f64],
+    p: &'a [f64],
+    /// Those of the sweep before, and the new ones where they have been set; or the increments made of them.
+    force: &'a mut [P::Lanes],
+    scale: P::Lanes,
+    part: Option<LanePart<P::Lanes>>,
+    summation: PhantomData<R>,
+}
+
+impl<P, R, C, F> Components<P::Lanes> for Along<'_, P, R, C, F>
+where
+    P: StageTableau,
+    R: Summation,
+    C: Fn(usize) -> &'static [f64],
+    F: Fn(usize) -> Option<f64>,
+{
+    #[inline(always)]
+    fn dimension(&self) -> usize {
+        self.force.len()
+    }
+
+    #[inline(always)]
+    fn position(&mut self, k: usize) -> P::Lanes {
+        let (Some(force), Some(&q), Some(&q_low), Some(&p)) = (
+            self.force.get(k),
+            self.q.get(k),
+            self.q_low.get(k),
+            self.p.get(k),
+        ) else {
+            return P::Lanes::from_f64(f64::NAN);
+        };
+        let sum = combination(self.sums, 0, None, |j| lane_of(*force, j));
+        let base = (P::Lanes::from_f64(q), P::Lanes::from_f64(q_low));
+        let node = lanes(tableau::<P>().nodes, 0);
+        let scaled = (self.sums.factor)(0).is_some();
+        let velocity = P::Lanes::from_f64(p);
+        let position = position::<R, P::Lanes>(base, (self.size, node), velocity, sum, scaled);
+        self.scale = self.scale.larger(position.abs());
+        position
+    }
+
+    #[inline(always)]
+    fn set_force(&mut self, k: usize, force: P::Lanes) {
+        let Some(place) = self.force.get_mut(k) else {
+            return;
+        };
+        let new = match R::COMPENSATED && P::INCREMENTS {
+            true => force * increment_factor::<P>(&P::POSITIONS, self.size, 0),
+            false => force,
+        };
+        let change = (new - *place).abs();
+        *place = new;
+        self.part = Some(LanePart::noted(self.part, change));
+    }
+}
+
+impl<P, R, V, S> Sweeps for Locally<'_, '_, P, R, V, S>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    type Movement = LaneMovement<P::Lanes>;
+
+    const HASTY: bool = !R::COMPENSATED;
+
+    #[inline(always)]
+    fn evaluations(&self) -> EvaluationCounts {
+        let counts = self.positions.evaluations();
+        // Those at the starting values come before the first sweep.
+        EvaluationCounts {
+            begin: counts.begin + counts.sweep,
+            ..counts
+        }
+    }
+
+    #[inline(always)]
+    fn time(&self) -> f64 {
+        self.positions.time()
+    }
+
+    #[inline(always)]
+    fn begin(&mut self, _kept: Kept) {
+        apart(|| self.walk(&of_increments(Start::<P>::columns())));
+    }
+
+    #[inline(always)]
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.positions.non_finite()
+    }
+
+    #[inline(always)]
+    fn non_finite_force(&self) -> Option<usize> {
+        self.positions.non_finite_force()
+    }
+
+    /// With positions in memory, where errors look for them.
+    #[inline(always)]
+    fn go_on<C: Class, T: Scalar>(
+        &mut self,
+        kept: Kept,
+        stopping: Stopping,
+        begun: Begun<Self::Movement>,
+    ) -> Result<Work, Failure> {
+        if begun.is_nothing() {
+            return self.positions.go_on::<C, T>(kept, stopping, begun);
+        }
+        self.positions.positions();
+        let mut work = self.positions.go_on::<C, T>(kept, stopping, begun)?;
+        work.evaluations += self.positions.evaluations().sweep;
+        Ok(work)
+    }
+
+    #[inline(always)]
+    fn sweep(&mut self) -> LaneMovement<P::Lanes> {
+        let moved = apart(|| match R::COMPENSATED {
+            true => self.walk(&of_increments(tableau::<P>().columns)),
+            false => self.walk(&of_forces::<P>(self.positions.lanes.step.size)),
+        });
+        let q = LanePart {
+            difference: self.reach(moved.difference),
+            ..moved
+        };
+        // Both halves are this one.
+        LaneMovement { q, p: q }
+    }
+
+    #[inline(always)]
+    fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
+        let q = movement.q.change(self.scale);
+        Change { q, p: q }
+    }
+
+    #[inline(always)]
+    fn are_about(&self, _movement: &Self::Movement, [q, _]: [f64; 2], _both: bool) -> bool {
+        is_about(self.scale, q)
+    }
+}

@@ -1,0 +1,307 @@
+//! Forces component by component: second-order stages along a chain.
+
+use std::cell::Cell;
+
+use symplectic::nalgebra::DVector;
+use symplectic::{
+    Bonds, Chain, Compensated, Components, Error, Hamiltonian, HamiltonianInLanes, Integrator,
+    Method, Plain, Scalar, SeparableHamiltonian, State, Statistics, Summation, Vector, copy,
+    tableau,
+};
+
+tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
+tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
+tableau! { Gauss8 { basis: polynomial(8), nodes: gauss(8) } }
+tableau! { Gauss10 { basis: polynomial(10), nodes: gauss(10) } }
+tableau! { Lobatto3 { basis: polynomial(3), nodes: lobatto(3) } }
+
+/// `V(d) = d²/2 + d⁴/4`, a driven pendulum on every particle, and no number for bonds that are stretched by more than so much.
+#[derive(Clone, Copy, Debug)]
+struct Breaking {
+    at: f64,
+}
+
+impl Bonds for Breaking {
+    fn tension<T: Scalar>(&self, _time: T, stretch: T) -> T {
+        let square = stretch * stretch;
+        let breaks = (T::from_f64(self.at * self.at) - square).sqrt();
+        square.fused(stretch, stretch) + breaks * T::zero()
+    }
+
+    fn outer_force<T: Scalar>(&self, time: T, position: T) -> Option<T> {
+        Some(time * T::from_f64(0.01) - position.sin())
+    }
+}
+
+/// What its force does not show: that it is local, or how it is.
+struct Global<S>(S);
+
+impl<V: Vector, S: SeparableHamiltonian<V>> SeparableHamiltonian<V> for Global<S> {
+    const UNIT_MASSES: bool = true;
+
+    fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V) {
+        self.0.velocity(time, p, velocity);
+    }
+
+    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
+        self.0.force(time, q, force);
+    }
+}
+
+/// Counts evaluations of the force, and those component by component.
+struct Counted<'a, S> {
+    system: S,
+    forces: &'a Cell<u64>,
+    local_forces: &'a Cell<u64>,
+}
+
+impl<V: Vector, S: SeparableHamiltonian<V>> SeparableHamiltonian<V> for Counted<'_, S> {
+    const UNIT_MASSES: bool = true;
+    const LOCAL_FORCE: bool = true;
+
+    fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V) {
+        self.system.velocity(time, p, velocity);
+    }
+
+    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
+        self.forces.set(self.forces.get() + 1);
+        self.system.force(time, q, force);
+    }
+
+    fn local_force(&self, time: V::Scalar, components: &mut impl Components<V::Scalar>) {
+        self.local_forces.set(self.local_forces.get() + 1);
+        self.system.local_force(time, components);
+    }
+}
+
+fn chains(bonds: Breaking) -> [Chain<Breaking>; 3] {
+    [
+        Chain::between_walls(bonds),
+        Chain::with_free_ends(bonds),
+        Chain::ring(bonds),
+    ]
+}
+
+fn start(n: usize) -> State<DVector<f64>> {
+    let waves = |phase: f64| DVector::from_fn(n, |i, _| 0.3 * (phase + 1.7 * i as f64).sin());
+    State::new(0.5, waves(0.2), waves(1.1))
+}
+
+const STEP_SIZE: f64 = 0.2;
+
+/// The state after 50 steps in second-order lanes, and what they took.
+fn run<M: Method, S, R: Summation>(
+    method: M,
+    system: S,
+    n: usize,
+    set: impl Fn(&mut Integrator<M, S, DVector<f64>, R>) -> Result<(), Error>,
+) -> Result<(State<DVector<f64>>, Statistics), Error>
+where
+    S: HamiltonianInLanes<DVector<f64>>,
+{
+    let mut integrator = Integrator::with_summation(method, system, start(n), STEP_SIZE)?;
+    set(&mut integrator)?;
+    let mut integrator = integrator.in_second_order_lanes()?;
+    let end = integrator.take_steps(50)?.clone();
+    Ok((end, *integrator.statistics()))
+}
+
+/// How far apart two states are, in any component.
+fn distance(a: &State<DVector<f64>>, b: &State<DVector<f64>>) -> f64 {
+    (&a.q - &b.q).amax().max((&a.p - &b.p).amax())
+}
+
+/// Compares the steps of a method by the force and by the local force.
+macro_rules! compare {
+    ($($method:ident),+; $set:expr) => {$(
+        for n in [1, 2, 3, 40] {
+            for chain in chains(Breaking { at: 1e3 }) {
+                let (local, made) = run($method, chain, n, $set)?;
+                let (global, expected) = run($method, Global(chain), n, $set)?;
+                let distance = distance(&local, &global);
+                assert!(distance <= 2e-13, "{n} {chain:?}: {distance:e}");
+                let ratio = made.evaluations as f64 / expected.evaluations as f64;
+                // To the last bit one evaluation more: that forces stand still shows an evaluation after positions do.
+                assert!((0.95..=1.35).contains(&ratio), "{n} {chain:?}: {ratio}");
+            }
+        }
+    )+};
+}
+
+#[test]
+fn stages_along_the_components_are_those_of_the_force() -> Result<(), Error> {
+    fn plain<M: Method, S>(made: &mut Integrator<M, S, DVector<f64>, Plain>) -> Result<(), Error>
+    where
+        S: HamiltonianInLanes<DVector<f64>>,
+    {
+        made.set_tolerance(1e-14)
+    }
+    fn to_rounding<M, S, V, R>(_made: &mut Integrator<M, S, V, R>) -> Result<(), Error>
+    where
+        M: Method,
+        V: Vector,
+        S: Hamiltonian<V>,
+        R: Summation,
+    {
+        Ok(())
+    }
+    compare!(Gauss2, Gauss3, Gauss8, Gauss10, Lobatto3; plain);
+    compare!(Gauss2, Gauss3, Gauss8, Gauss10, Lobatto3; to_rounding::<_, _, _, Plain>);
+    compare!(Gauss2, Gauss3, Gauss8, Gauss10, Lobatto3; to_rounding::<_, _, _, Compensated>);
+    Ok(())
+}
+
+#[test]
+fn many_steps_are_the_steps_one_by_one() -> Result<(), Error> {
+    fn check<R: Summation>() -> Result<(), Error> {
+        for chain in chains(Breaking { at: 1e3 }) {
+            let made =
+                || Integrator::<_, _, _, R>::with_summation(Gauss8, chain, start(20), STEP_SIZE);
+            let mut one_by_one = made()?.in_second_order_lanes()?;
+            for _ in 0..30 {
+                one_by_one.step()?;
+            }
+            let mut many = made()?.in_second_order_lanes()?;
+            assert_eq!(many.take_steps(30)?, one_by_one.state());
+            assert_eq!(many.statistics(), one_by_one.statistics());
+        }
+        Ok(())
+    }
+    check::<Plain>()?;
+    check::<Compensated>()
+}
+
+#[test]
+fn after_the_first_step_the_force_is_evaluated_component_by_component() -> Result<(), Error> {
+    let (forces, local_forces) = (&Cell::new(0), &Cell::new(0));
+    let counted = Counted {
+        system: Chain::ring(Breaking { at: 1e3 }),
+        forces,
+        local_forces,
+    };
+    let integrator = Integrator::plain(Gauss8, counted, start(20), STEP_SIZE)?;
+    let mut integrator = integrator.in_second_order_lanes()?;
+    integrator.step()?;
+    let before = (forces.get(), local_forces.get());
+    integrator.take_steps(20)?;
+    assert_eq!(forces.get(), before.0);
+    assert!(local_forces.get() >= before.1 + 3 * 20);
+    Ok(())
+}
+
+/// The error, and the state after it.
+fn failure<S>(system: S, iterations: u32) -> (Error, State<DVector<f64>>)
+where
+    S: HamiltonianInLanes<DVector<f64>>,
+{
+    let mut start = start(20);
+    start.p *= 3.0;
+    let integrator = Integrator::new(Gauss8, system, start, STEP_SIZE).expect("a start");
+    let mut integrator = integrator.in_second_order_lanes().expect("second order");
+    integrator.step().expect("a step");
+    integrator.set_max_iterations(iterations);
+    let error = loop {
+        let before = integrator.state().clone();
+        if let Err(error) = integrator.step() {
+            assert_eq!(integrator.state(), &before);
+            break error;
+        }
+    };
+    (error, integrator.state().clone())
+}
+
+#[test]
+fn steps_fail_as_they_do_by_the_force() {
+    for chain in chains(Breaking { at: 1.75 }) {
+        let (local, state) = failure(chain, 200);
+        let (global, expected) = failure(Global(chain), 200);
+        assert!(matches!(local, Error::NonFinite { .. }), "{local}");
+        assert_eq!(local, global);
+        assert!(distance(&state, &expected) <= 1e-13);
+    }
+    for iterations in [1, 2, 3] {
+        let (local, _) = failure(Chain::ring(Breaking { at: 1e3 }), iterations);
+        assert!(matches!(local, Error::NoConvergence { .. }), "{local}");
+    }
+}
+
+/// Springs, with faults in the force component by component.
+#[derive(Clone, Copy, PartialEq)]
+enum Faulty {
+    None,
+    OtherBits,
+    LastMissing,
+    AsksTooLate,
+    AsksBeyond,
+    NotWritten,
+}
+
+struct FaultySprings(Faulty);
+
+impl<V: Vector> SeparableHamiltonian<V> for FaultySprings {
+    const UNIT_MASSES: bool = true;
+    const LOCAL_FORCE: bool = true;
+
+    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
+        copy(velocity, p);
+    }
+
+    fn force(&self, _time: V::Scalar, q: &V, force: &mut V) {
+        for (force, &q) in force.as_mut_slice().iter_mut().zip(q.as_slice()) {
+            *force = q * V::Scalar::from_f64(-3.0);
+        }
+    }
+
+    fn local_force(&self, _time: V::Scalar, components: &mut impl Components<V::Scalar>) {
+        let fault = self.0;
+        let n = components.dimension();
+        let last = if fault == Faulty::LastMissing {
+            n - 1
+        } else {
+            n
+        };
+        for k in 0..last {
+            if fault == Faulty::NotWritten {
+                return;
+            }
+            let at = match fault {
+                Faulty::AsksTooLate => k.saturating_sub(1),
+                Faulty::AsksBeyond => k + 1,
+                _ => k,
+            };
+            let q = components.position(at);
+            let force = match fault {
+                Faulty::OtherBits => q * V::Scalar::from_f64(-3.0 - f64::EPSILON * 2.0),
+                _ => q * V::Scalar::from_f64(-3.0),
+            };
+            components.set_force(k, force);
+            // Nowhere.
+            components.set_force(n + k, force);
+        }
+    }
+}
+
+#[test]
+fn another_force_component_by_component_is_refused() {
+    let made = |fault| {
+        let integrator =
+            Integrator::plain(Gauss2, FaultySprings(fault), start(5), STEP_SIZE).expect("a start");
+        integrator.in_second_order_lanes()
+    };
+    let mut sound = made(Faulty::None).expect("no fault");
+    sound.take_steps(10).expect("steps");
+    for (fault, at) in [
+        (Faulty::OtherBits, None),
+        (Faulty::LastMissing, Some(4)),
+        (Faulty::AsksTooLate, Some(1)),
+        (Faulty::AsksBeyond, Some(0)),
+        (Faulty::NotWritten, Some(0)),
+    ] {
+        match made(fault) {
+            Err(Error::NotTheSameLocalForce { component, .. }) => {
+                assert!(at.is_none_or(|at| at == component), "{component}");
+            }
+            other => panic!("{:?}", other.map(|_| ())),
+        }
+    }
+}
