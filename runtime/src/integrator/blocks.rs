@@ -20,6 +20,9 @@ fn block(dimension: usize) -> u64 {
 /// Components of a vector from which on forces and kicks wait for the drift after them.
 const LONG: usize = 1 << 6;
 
+/// Bytes of a vector of a few components.
+const FEW: usize = 1 << 6;
+
 impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     Integrator<M, S, V, R, N>
 {
@@ -86,10 +89,12 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             copy(&mut next_low.1, &low.1);
         }
         let waits = !R::COMPENSATED && self.course.state.q.dimension() >= LONG;
-        match size_of::<V>() <= SHORT {
+        match size_of::<V>() {
             _ if waits => self.run_here(clock, steps, size, Waiting::new(steps)),
-            true => self.run_apart(clock, steps, size),
-            false => self.run_here(clock, steps, size, ()),
+            ..=FEW => self.run_alone(clock, steps, size),
+            ..=SHORT if R::COMPENSATED => self.run_apart(clock, steps, size),
+            ..=SHORT => self.run_alone(clock, steps, size),
+            _ => self.run_here(clock, steps, size, ()),
         }
         if !self.course.is_sound() {
             self.course.memory = StageStorage::like(&self.course.state.q);
@@ -121,10 +126,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     }
 
     /// Takes steps in these places moved out of the memory of the integrator, so that they are in registers from step to step.
-    ///
-    /// A function of its own: steps are so short that it shows what is in registers around them, and what is made of the last of them
-    /// shows the compiler components to pack that it had better leave apart.
-    #[inline(never)]
+    #[inline(always)]
     fn run_apart(&mut self, clock: &Clock, steps: u64, size: f64) {
         let blank = || (V::blank(), V::blank());
         // The order shows in how registers are given to six components: see `ratios`, springs, and `instructions`.
@@ -142,6 +144,13 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         );
         (self.course.next, self.course.next_low) = (next, low);
         self.course.memory = memory;
+    }
+
+    /// [`run_apart`](Self::run_apart), in a function of its own: steps that are plain, or of a few components, are so short that it
+    /// shows what is in registers around them, and that the compiler packs components for the sake of what is made of the last step.
+    #[inline(never)]
+    fn run_alone(&mut self, clock: &Clock, steps: u64, size: f64) {
+        self.run_apart(clock, steps, size);
     }
 
     /// Takes steps in the places of a state.
