@@ -168,7 +168,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
     }
     // Whatever moves them at all is below infinity.
     let moves = this.shrinks(f64::INFINITY, size.weights, both);
-    if moves && begun.iterations < late && coin(sweeps.time()) {
+    if moves && coin(sweeps.time()) {
         sweeps.sweep();
         begun.iterations += 1;
     }

@@ -174,6 +174,26 @@ fn what_stagnates_after_another_step_has_one_sweep_more_at_half_of_all_times() {
 }
 
 #[test]
+fn the_sweep_more_does_not_depend_on_how_many_there_were() {
+    let near = [60.0, 50.0, 40.0, 30.0, 20.0, 10.0, 5.0, 6.0, 6.0, 6.0];
+    for far in 1..=20 {
+        // Each ends where what is near has grown: with more than sixteen sweeps, for two of them.
+        let first = (0..far).map(|sweep| 1e12 / 3_f64.powi(sweep));
+        let changes: Vec<_> = first.chain(near).map(|change| [change; 2]).collect();
+        let made = |kept: Kept, coin: bool| {
+            let mut script = Scripted::<false>::new(&changes, &[1.0], time(coin));
+            made::<Separable, _>(&mut script, kept, at_most(100)).map(|x| x.0)
+        };
+        for kept in [stages([1.0; 2]), Kept::default()] {
+            let sweeps = made(kept, false).expect("it stagnates");
+            let waits = if sweeps > 16 { 2 } else { 1 };
+            assert_eq!(sweeps, far as u32 + 7 + waits, "{far}");
+            assert_eq!(made(kept, true), Ok(sweeps + 1), "{far}");
+        }
+    }
+}
+
+#[test]
 fn an_iteration_is_begun_once_whatever_its_bound_is() {
     fn check<const HASTY: bool>(bound: usize) {
         let changes = alike([1e3, 100.0, 60.0, 60.0, 60.0, 60.0]);
