@@ -1,7 +1,7 @@
 //! A system, component by component.
 
 /// The components of a system whose force is [local](crate::SeparableHamiltonian::LOCAL_FORCE): positions are made where they are asked
-/// for, and need not be in memory.
+/// for, and need not be in memory. The force on every component has to be set, once.
 pub trait Components<T> {
     /// How many there are.
     fn dimension(&self) -> usize;

@@ -208,9 +208,11 @@ pub trait SeparableHamiltonian<V: Vector> {
     /// The force with the same bits as by [`force`](Self::force), in one walk along the components: to be written out, and
     /// [said](Self::LOCAL_FORCE), where the force on a component sees those beside it and few others, as in a [`Chain`](crate::Chain).
     ///
-    /// For long vectors of a system of [unit masses](Self::UNIT_MASSES) [`SecondOrderInLanes`](crate::SecondOrderInLanes) then makes sums
-    /// over stages, evaluates, and notes what changed in one pass, and no positions of stages go to memory. Making that solver fails with
-    /// [`Error::NotTheSameLocalForce`](crate::Error::NotTheSameLocalForce) where other bits come out of it for the present state.
+    /// For vectors on the heap, [unit masses](Self::UNIT_MASSES) and up to eight stages at different times
+    /// [`SecondOrderInLanes`](crate::SecondOrderInLanes) then makes sums over stages, evaluates, and notes what changed in one pass. The
+    /// positions of the stages need not go to memory, but where a step does not go on from one before it, or its iteration does not
+    /// settle in the first sweeps. Making that solver fails with [`Error::NotTheSameLocalForce`](crate::Error::NotTheSameLocalForce) where
+    /// other bits come out of it for the present state, in doubles or in lanes.
     ///
     /// ```
     /// use symplectic::nalgebra::DVector;

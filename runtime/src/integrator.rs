@@ -23,7 +23,7 @@ mod course;
 mod parts;
 
 use checks::{
-    check_local_force, check_masses, check_pass, check_slopes, check_state, check_step_size,
+    check_local_forces, check_masses, check_pass, check_slopes, check_state, check_step_size,
 };
 use course::Course;
 
@@ -212,7 +212,7 @@ impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
     pub fn in_second_order_lanes(
         self,
     ) -> Result<Integrator<M, S, V, R, SecondOrderInLanes>, Error> {
-        check_local_force(&self.system, &self.course.state)?;
+        check_local_forces(&self.system, &self.course.state)?;
         let State { time, q, p } = &self.course.state;
         let solver = SecondOrderInLanes::new(&self.system, *time, q, p)?;
         Ok(self.with_solver(solver))

@@ -74,6 +74,12 @@ pub trait Lanes: Scalar {
         V: Vector,
         S: HamiltonianInLanes<V>;
 
+    /// [`Hamiltonian::LOCAL_FORCE`] of a system over these lanes.
+    fn has_local_force<V, S>() -> bool
+    where
+        V: Vector,
+        S: HamiltonianInLanes<V>;
+
     /// [`Hamiltonian::local_force`] in every lane at once.
     fn local_force<V, S>(system: &S, time: Self, components: &mut impl Components<Self>)
     where
@@ -350,6 +356,15 @@ macro_rules! lanes {
                 S: HamiltonianInLanes<V>,
             {
                 Hamiltonian::<V::With<Self>>::force(system, time, q, p, force);
+            }
+
+            #[inline(always)]
+            fn has_local_force<V, S>() -> bool
+            where
+                V: Vector,
+                S: HamiltonianInLanes<V>,
+            {
+                <S as Hamiltonian<V::With<Self>>>::LOCAL_FORCE
             }
 
             #[inline(always)]

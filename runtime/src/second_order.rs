@@ -28,9 +28,10 @@ use crate::{
 ///
 /// Methods that have no such coefficients, and systems that are not separable, are taken as by [`InLanes`].
 ///
-/// For long vectors and up to eight stages a system whose force is [local](crate::SeparableHamiltonian::LOCAL_FORCE), a
-/// [`Chain`](crate::Chain), is gone through once in a sweep: the positions of the stages are made, and used, component by component. What
-/// is then compared with a tolerance is by how much the next positions can differ, at most, from those of the sweep.
+/// For vectors on the heap and up to eight stages at different times a system of unit masses whose force is
+/// [local](crate::SeparableHamiltonian::LOCAL_FORCE), a [`Chain`](crate::Chain), is gone through once in a sweep, as long as a step goes
+/// on from the one before and settles in its first sweeps: the positions of the stages are made, and used, component by component. What
+/// is then compared with a tolerance is by how much the next positions can differ, at most but for rounding, from those of the sweep.
 #[derive(Clone, Copy, Debug)]
 pub struct SecondOrderInLanes(());
 

@@ -94,12 +94,13 @@ fn run<M: Method, S, R: Summation>(
     method: M,
     system: S,
     n: usize,
+    step_size: f64,
     set: impl Fn(&mut Integrator<M, S, DVector<f64>, R>) -> Result<(), Error>,
 ) -> Result<(State<DVector<f64>>, Statistics), Error>
 where
     S: HamiltonianInLanes<DVector<f64>>,
 {
-    let mut integrator = Integrator::with_summation(method, system, start(n), STEP_SIZE)?;
+    let mut integrator = Integrator::with_summation(method, system, start(n), step_size)?;
     set(&mut integrator)?;
     let mut integrator = integrator.in_second_order_lanes()?;
     let end = integrator.take_steps(50)?.clone();
@@ -113,11 +114,11 @@ fn distance(a: &State<DVector<f64>>, b: &State<DVector<f64>>) -> f64 {
 
 /// Compares the steps of a method by the force and by the local force.
 macro_rules! compare {
-    ($($method:ident),+; $set:expr) => {$(
+    ($($method:ident),+; $step_size:expr, $set:expr) => {$(
         for n in [1, 2, 3, 40] {
             for chain in chains(Breaking { at: 1e3 }) {
-                let (local, made) = run($method, chain, n, $set)?;
-                let (global, expected) = run($method, Global(chain), n, $set)?;
+                let (local, made) = run($method, chain, n, $step_size, $set)?;
+                let (global, expected) = run($method, Global(chain), n, $step_size, $set)?;
                 let distance = distance(&local, &global);
                 assert!(distance <= 2e-13, "{n} {chain:?}: {distance:e}");
                 let ratio = made.evaluations as f64 / expected.evaluations as f64;
@@ -145,47 +146,107 @@ fn stages_along_the_components_are_those_of_the_force() -> Result<(), Error> {
     {
         Ok(())
     }
-    compare!(Gauss2, Gauss3, Gauss8, Gauss10, Lobatto3; plain);
-    compare!(Gauss2, Gauss3, Gauss8, Gauss10, Lobatto3; to_rounding::<_, _, _, Plain>);
-    compare!(Gauss2, Gauss3, Gauss8, Gauss10, Lobatto3; to_rounding::<_, _, _, Compensated>);
+    for step_size in [STEP_SIZE, -STEP_SIZE, 3.0 * STEP_SIZE] {
+        compare!(Gauss2, Gauss3, Gauss8, Gauss10, Lobatto3; step_size, plain);
+        compare!(Gauss2, Gauss3, Gauss8, Gauss10, Lobatto3; step_size, to_rounding::<_, _, _, Plain>);
+        compare!(Gauss2, Gauss3, Gauss8, Gauss10, Lobatto3; step_size, to_rounding::<_, _, _, Compensated>);
+    }
     Ok(())
 }
 
 #[test]
-fn many_steps_are_the_steps_one_by_one() -> Result<(), Error> {
-    fn check<R: Summation>() -> Result<(), Error> {
-        for chain in chains(Breaking { at: 1e3 }) {
-            let made =
-                || Integrator::<_, _, _, R>::with_summation(Gauss8, chain, start(20), STEP_SIZE);
-            let mut one_by_one = made()?.in_second_order_lanes()?;
-            for _ in 0..30 {
-                one_by_one.step()?;
+fn steps_may_change_and_have_states_inside() -> Result<(), Error> {
+    fn check<S, R: Summation>(system: S) -> Result<Vec<f64>, Error>
+    where
+        S: HamiltonianInLanes<DVector<f64>>,
+    {
+        let integrator = Integrator::<_, _, _, R>::with_summation(Gauss8, system, start(20), 0.2)?;
+        let mut integrator = integrator.in_second_order_lanes()?;
+        let mut seen = Vec::new();
+        for step_size in [0.2, 0.15, -0.1] {
+            integrator.set_step_size(step_size)?;
+            integrator.take_steps(5)?;
+            let time = integrator.state().time - 0.3 * step_size;
+            let inside = integrator.dense()?.state(time)?;
+            for state in [&inside, integrator.state()] {
+                seen.extend(state.q.iter().chain(&state.p));
             }
-            let mut many = made()?.in_second_order_lanes()?;
-            assert_eq!(many.take_steps(30)?, one_by_one.state());
-            assert_eq!(many.statistics(), one_by_one.statistics());
         }
-        Ok(())
+        Ok(seen)
     }
-    check::<Plain>()?;
-    check::<Compensated>()
+    for chain in chains(Breaking { at: 1e3 }) {
+        let pairs = [
+            [check::<_, Plain>(chain)?, check::<_, Plain>(Global(chain))?],
+            [
+                check::<_, Compensated>(chain)?,
+                check::<_, Compensated>(Global(chain))?,
+            ],
+        ];
+        for [local, global] in pairs {
+            let differences = local.iter().zip(&global).map(|(x, y)| (x - y).abs());
+            assert!(differences.fold(0.0, f64::max) <= 1e-13);
+        }
+    }
+    Ok(())
 }
 
-#[test]
-fn after_the_first_step_the_force_is_evaluated_component_by_component() -> Result<(), Error> {
+/// How often the force was evaluated, and how often component by component, in 30 steps; the statistics count both.
+fn counts<M: Method, R: Summation>(method: M, step_size: f64) -> Result<(u64, u64), Error> {
     let (forces, local_forces) = (&Cell::new(0), &Cell::new(0));
     let counted = Counted {
         system: Chain::ring(Breaking { at: 1e3 }),
         forces,
         local_forces,
     };
-    let integrator = Integrator::plain(Gauss8, counted, start(20), STEP_SIZE)?;
+    let integrator =
+        Integrator::<_, _, _, R>::with_summation(method, counted, start(20), step_size)?;
     let mut integrator = integrator.in_second_order_lanes()?;
+    // That of the first step comes from no step before.
     integrator.step()?;
-    let before = (forces.get(), local_forces.get());
-    integrator.take_steps(20)?;
-    assert_eq!(forces.get(), before.0);
-    assert!(local_forces.get() >= before.1 + 3 * 20);
+    let before = (forces.get(), local_forces.get(), *integrator.statistics());
+    integrator.take_steps(30)?;
+    let made = (forces.get() - before.0, local_forces.get() - before.1);
+    let evaluations = integrator.statistics().evaluations - before.2.evaluations;
+    // A velocity for each force, that at the start, and with compensated sums that of what the momentum leaves out.
+    let velocities = if R::COMPENSATED { 2 } else { 1 };
+    let of_forces = 2 * M::STAGES as u64 * (made.0 + made.1);
+    assert_eq!(
+        evaluations,
+        of_forces + 30 * velocities,
+        "{} {made:?}",
+        M::NAME
+    );
+    Ok(made)
+}
+
+#[test]
+fn after_the_first_step_the_force_is_evaluated_component_by_component() -> Result<(), Error> {
+    fn check<M: Method>(method: M) -> Result<(), Error> {
+        for (forces, local_forces) in [
+            counts::<M, Plain>(method, STEP_SIZE)?,
+            counts::<M, Compensated>(method, 0.1 * STEP_SIZE)?,
+        ] {
+            assert_eq!(forces, 0, "{}", M::NAME);
+            assert!(local_forces >= 3 * 30, "{} {local_forces}", M::NAME);
+        }
+        Ok(())
+    }
+    check(Gauss2)?;
+    check(Gauss3)?;
+    check(Gauss8)?;
+    check(Lobatto3)
+}
+
+#[test]
+fn iterations_of_many_sweeps_go_on_by_the_force() -> Result<(), Error> {
+    for (forces, local_forces) in [
+        counts::<_, Plain>(Gauss2, 3.0 * STEP_SIZE)?,
+        counts::<_, Plain>(Gauss3, 3.0 * STEP_SIZE)?,
+        counts::<_, Plain>(Lobatto3, 3.0 * STEP_SIZE)?,
+        counts::<_, Compensated>(Gauss2, 3.0 * STEP_SIZE)?,
+    ] {
+        assert!(forces > 0 && local_forces > 0, "{forces} {local_forces}");
+    }
     Ok(())
 }
 
@@ -234,6 +295,8 @@ enum Faulty {
     AsksTooLate,
     AsksBeyond,
     NotWritten,
+    SetTwice,
+    InLanes,
 }
 
 struct FaultySprings(Faulty);
@@ -270,11 +333,16 @@ impl<V: Vector> SeparableHamiltonian<V> for FaultySprings {
                 _ => k,
             };
             let q = components.position(at);
+            let in_lanes = size_of::<V::Scalar>() > size_of::<f64>();
             let force = match fault {
+                Faulty::InLanes if in_lanes => V::Scalar::from_f64(0.0),
                 Faulty::OtherBits => q * V::Scalar::from_f64(-3.0 - f64::EPSILON * 2.0),
                 _ => q * V::Scalar::from_f64(-3.0),
             };
             components.set_force(k, force);
+            if fault == Faulty::SetTwice {
+                components.set_force(k, force);
+            }
             // Nowhere.
             components.set_force(n + k, force);
         }
@@ -296,6 +364,8 @@ fn another_force_component_by_component_is_refused() {
         (Faulty::AsksTooLate, Some(1)),
         (Faulty::AsksBeyond, Some(0)),
         (Faulty::NotWritten, Some(0)),
+        (Faulty::SetTwice, Some(0)),
+        (Faulty::InLanes, Some(0)),
     ] {
         match made(fault) {
             Err(Error::NotTheSameLocalForce { component, .. }) => {

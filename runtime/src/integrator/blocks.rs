@@ -20,7 +20,7 @@ fn block(dimension: usize) -> u64 {
 /// Components of a vector from which on forces and kicks wait for the drift after them.
 const LONG: usize = 1 << 6;
 
-/// Bytes of a vector of a few components.
+/// Bytes of a vector of a few components, or of one whose components are elsewhere.
 const FEW: usize = 1 << 6;
 
 impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
@@ -89,12 +89,12 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             copy(&mut next_low.1, &low.1);
         }
         let waits = !R::COMPENSATED && self.course.state.q.dimension() >= LONG;
-        match size_of::<V>() {
+        let alone = !R::COMPENSATED || size_of::<V>() <= FEW;
+        match (size_of::<V>() <= SHORT, alone) {
             _ if waits => self.run_here(clock, steps, size, Waiting::new(steps)),
-            ..=FEW => self.run_alone(clock, steps, size),
-            ..=SHORT if R::COMPENSATED => self.run_apart(clock, steps, size),
-            ..=SHORT => self.run_alone(clock, steps, size),
-            _ => self.run_here(clock, steps, size, ()),
+            (true, true) => self.run_alone(clock, steps, size),
+            (true, false) => self.run_apart(clock, steps, size),
+            (false, _) => self.run_here(clock, steps, size, ()),
         }
         if !self.course.is_sound() {
             self.course.memory = StageStorage::like(&self.course.state.q);

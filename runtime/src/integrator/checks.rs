@@ -2,7 +2,10 @@
 
 use crate::kernel::kick_and_drift;
 use crate::stage::is_finite;
-use crate::{Class, Components, Error, Hamiltonian, Layout, Quantity, Scalar, State, Vector, copy};
+use crate::{
+    Class, Components, Error, F64x2, F64x4, F64x8, Hamiltonian, HamiltonianInLanes, Lanes, Layout,
+    Quantity, Scalar, State, Vector, copy,
+};
 
 pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {
     if value.is_finite() && value != 0.0 {
@@ -82,26 +85,48 @@ pub(super) fn check_pass<V: Vector, S: Hamiltonian<V>>(
     Ok(())
 }
 
-/// Checks that the force component by component is the force, where the system makes it so.
-pub(super) fn check_local_force<V: Vector, S: Hamiltonian<V>>(
+/// Checks that the force component by component is the force, where the system makes it so: of doubles and of all lanes, for which it
+/// may be written apart.
+pub(super) fn check_local_forces<V, S>(system: &S, state: &State<V>) -> Result<(), Error>
+where
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    let State { time, q, p } = state;
+    check_local_force(system, *time, q, p)?;
+    check_local_force(system, *time, &splat::<V, F64x2>(q), &splat(p))?;
+    check_local_force(system, *time, &splat::<V, F64x4>(q), &splat(p))?;
+    check_local_force(system, *time, &splat::<V, F64x8>(q), &splat(p))
+}
+
+/// A vector in all lanes.
+fn splat<V: Vector<Scalar = f64>, L: Lanes>(vector: &V) -> V::With<L> {
+    let mut lanes = vector.zeros_with::<L>();
+    let components = lanes.as_mut_slice().iter_mut();
+    for (lanes, &component) in components.zip(vector.as_slice()) {
+        *lanes = L::from_f64(component);
+    }
+    lanes
+}
+
+fn check_local_force<V: Vector, S: Hamiltonian<V>>(
     system: &S,
-    state: &State<V>,
+    time: f64,
+    q: &V,
+    p: &V,
 ) -> Result<(), Error> {
     if !S::LOCAL_FORCE {
         return Ok(());
     }
-    let State { time, q, p } = state;
-    let time = V::Scalar::from_f64(*time);
+    let time = V::Scalar::from_f64(time);
     let [mut force, mut local] = [q.zeros_like(), q.zeros_like()];
     system.force(time, q, p, &mut force);
     local.as_mut_slice().fill(V::Scalar::from_f64(f64::NAN));
-    system.local_force(
-        time,
-        &mut InMemory {
-            q: q.as_slice(),
-            force: local.as_mut_slice(),
-        },
-    );
+    let mut components = InMemory {
+        q: q.as_slice(),
+        force: local.as_mut_slice(),
+    };
+    system.local_force(time, &mut components);
     first_difference(&local, &force).map_or(Ok(()), |(component, local, expected)| {
         Err(Error::NotTheSameLocalForce {
             component,
@@ -111,7 +136,8 @@ pub(super) fn check_local_force<V: Vector, S: Hamiltonian<V>>(
     })
 }
 
-/// Components that are in memory. The positions of those whose forces are set are no numbers any more.
+/// Components that are in memory. The positions of those whose forces are set are no numbers any more, and neither are forces that are
+/// set twice.
 struct InMemory<'a, T> {
     q: &'a [T],
     force: &'a mut [T],
@@ -131,7 +157,10 @@ impl<T: Scalar> Components<T> for InMemory<'_, T> {
 
     fn set_force(&mut self, component: usize, force: T) {
         if let Some(place) = self.force.get_mut(component) {
-            *place = force;
+            *place = match place.magnitude().is_nan() {
+                true => force,
+                false => T::from_f64(f64::NAN),
+            };
         }
     }
 }

@@ -1,10 +1,12 @@
-//! Second-order systems whose force is local: positions of stages that never go to memory.
+//! Second-order systems whose force is local: positions of stages that need not go to memory.
 
 use core::marker::PhantomData;
 use core::mem;
 
 use super::{Positions, Start, apart, eliminates, of_forces, of_increments, position, tableau};
-use crate::in_lanes::{Sums, combination, increment_factor, is_about, lane_of, lanes, times};
+use crate::in_lanes::{
+    Sums, combination, increment_factor, is_about, lane_of, lanes, scale_of, times,
+};
 use crate::iteration::{Begun, Sweeps};
 use crate::kernel::sum_of_products;
 use crate::lane_movement::{LaneMovement, LanePart};
@@ -16,9 +18,9 @@ use crate::{
 
 /// Whether stages are iterated along the components: for vectors on the heap, where all stages of a component are in one group.
 #[inline(always)]
-pub(super) const fn is_local<P: StageTableau, V: Vector, S: Hamiltonian<V>>() -> bool {
-    S::LOCAL_FORCE
-        && S::UNIT_MASSES
+pub(super) fn is_local<P: StageTableau, V: Vector, S: HamiltonianInLanes<V>>() -> bool {
+    P::Lanes::has_local_force::<V, S>()
+        && <S as Hamiltonian<V>>::UNIT_MASSES
         && mem::needs_drop::<V>()
         && eliminates::<P>()
         && starts_at_once(&P::POSITIONS)
@@ -27,10 +29,12 @@ pub(super) const fn is_local<P: StageTableau, V: Vector, S: Hamiltonian<V>>() ->
 
 /// The forces at the positions of the stages, which are made from those of the sweep before where they are needed. What a sweep
 /// has moved is by how much the next positions can differ from those that it was made at.
+///
+/// Where an iteration does not settle in its first sweeps it goes on by [`Positions`], with positions in memory.
 pub(super) struct Locally<'p, 'a, P: StageTableau, R, V: Vector, S> {
     positions: &'p mut Positions<'a, P, R, V, S>,
-    /// The largest component of the positions.
-    scale: P::Lanes,
+    /// The largest component of the positions of the stages.
+    largest: P::Lanes,
 }
 
 impl<'p, 'a, P, R, V, S> Locally<'p, 'a, P, R, V, S>
@@ -43,8 +47,14 @@ where
     pub(super) fn new(positions: &'p mut Positions<'a, P, R, V, S>) -> Self {
         Self {
             positions,
-            scale: P::Lanes::from_f64(0.0),
+            largest: P::Lanes::from_f64(0.0),
         }
+    }
+
+    /// The largest component of the positions of the stages and of what they start from.
+    #[inline(always)]
+    fn scale(&self) -> P::Lanes {
+        scale_of::<P, V>(self.positions.lanes.step.q, &[]).larger(self.largest)
     }
 
     /// The forces at the positions that are these sums of them; returns how much they changed.
@@ -69,30 +79,40 @@ where
             q_low: &step.q_low.as_slice()[..n],
             p: &step.p.as_slice()[..n],
             force: &mut force[..n],
-            scale: P::Lanes::from_f64(0.0),
+            largest: P::Lanes::from_f64(0.0),
             part: None,
             summation: PhantomData,
         };
         let time = times::<P, V>(&P::POSITIONS, step, 0);
         P::Lanes::local_force::<V, S>(lanes.system, time, &mut along);
-        self.scale = along.scale;
+        self.largest = along.largest;
         along.part.unwrap_or_else(LanePart::none)
     }
 
-    /// By how much sums of forces, or of the increments made of them, can change where each stage has changed by so much.
+    /// [`walk`](Self::walk), but by how much the next positions can differ from those that the forces are at, but for rounding.
     #[inline(always)]
-    fn reach(&self, changes: P::Lanes) -> P::Lanes {
+    fn moves(
+        &mut self,
+        sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
+    ) -> LanePart<P::Lanes> {
+        let LanePart {
+            difference: changes,
+            sum,
+        } = self.walk(sums);
         let h = self.positions.lanes.step.size;
-        let columns = tableau::<P>().columns;
-        sum_of_products(None, columns.len(), |j| {
-            let factor = match R::COMPENSATED {
-                true => h,
-                false => h * (h * P::POSITIONS.weights[j]),
-            };
-            let column: P::Lanes = lanes(columns[j], 0);
-            let change = P::Lanes::from_f64(lane_of(changes, j));
-            ((column * P::Lanes::from_f64(factor)).abs(), change)
-        })
+        let difference = sum_of_products(None, sums.count, |j| {
+            let factor = P::Lanes::from_f64((sums.factor)(j).unwrap_or(h));
+            let column: P::Lanes = lanes((sums.column)(j), 0);
+            (
+                (column * factor).abs(),
+                P::Lanes::from_f64(lane_of(changes, j)),
+            )
+        });
+        LanePart {
+            difference,
+            // What is infinite is no number in a product with zero.
+            sum: sum + difference,
+        }
     }
 }
 
@@ -105,7 +125,7 @@ struct Along<'a, P: StageTableau, R, C, F> {
     p: &'a [f64],
     /// Those of the sweep before, and the new ones where they have been set; or the increments made of them.
     force: &'a mut [P::Lanes],
-    scale: P::Lanes,
+    largest: P::Lanes,
     part: Option<LanePart<P::Lanes>>,
     summation: PhantomData<R>,
 }
@@ -138,7 +158,7 @@ where
         let scaled = (self.sums.factor)(0).is_some();
         let velocity = P::Lanes::from_f64(p);
         let position = position::<R, P::Lanes>(base, (self.size, node), velocity, sum, scaled);
-        self.scale = self.scale.larger(position.abs());
+        self.largest = self.largest.larger(position.abs());
         position
     }
 
@@ -147,7 +167,7 @@ where
         let Some(place) = self.force.get_mut(k) else {
             return;
         };
-        let new = match R::COMPENSATED && P::INCREMENTS {
+        let new = match R::COMPENSATED {
             true => force * increment_factor::<P>(&P::POSITIONS, self.size, 0),
             false => force,
         };
@@ -217,26 +237,22 @@ where
 
     #[inline(always)]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
-        let moved = apart(|| match R::COMPENSATED {
-            true => self.walk(&of_increments(tableau::<P>().columns)),
-            false => self.walk(&of_forces::<P>(self.positions.lanes.step.size)),
+        let q = apart(|| match R::COMPENSATED {
+            true => self.moves(&of_increments(tableau::<P>().columns)),
+            false => self.moves(&of_forces::<P>(self.positions.lanes.step.size)),
         });
-        let q = LanePart {
-            difference: self.reach(moved.difference),
-            ..moved
-        };
         // Both halves are this one.
         LaneMovement { q, p: q }
     }
 
     #[inline(always)]
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
-        let q = movement.q.change(self.scale);
+        let q = movement.q.change(self.scale());
         Change { q, p: q }
     }
 
     #[inline(always)]
     fn are_about(&self, _movement: &Self::Movement, [q, _]: [f64; 2], _both: bool) -> bool {
-        is_about(self.scale, q)
+        is_about(self.scale(), q)
     }
 }
