@@ -29,12 +29,11 @@ use crate::{
 /// Where it has settled with a change that is not zero, rounding makes stages jump to and fro between two values, and the side
 /// that the starting values come from says at which of them it ends. The energy would drift by that too, though by 1e-21 of it
 /// a step (measured; Hénon–Heiles, Gauss 8). At half of these steps, by a bit of their time that is as good as random, there
-/// is one sweep more, unless there were ten. Where it stands still, at one of several roundings that solve the rounded equations,
+/// is one sweep more. Where it stands still, at one of several roundings that solve the rounded equations,
 /// that side says at which: a drift of 1e-20 of the energy a step of a system that is not separable (measured;
 /// `(q² + 1)(p² + 1)/2`, Gauss 6 and 8). Of such a system half of the steps that go on from another one, by another such bit, therefore
 /// come from the other side: their second sweep moves the stages twice as far, where sweeps converge fast to about the mirror image of
-/// where the first one had left them. Both count; where less than ten sweeps are allowed there is none of it. What is left of the drift
-/// is 2e-21 of the energy a step with Gauss 8.
+/// where the first one had left them. Both count; where less than ten sweeps are allowed there is none of it.
 ///
 /// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for the stagnation: it
 /// ends with a change that is at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) if the next one, should it shrink by the same factor,

@@ -128,7 +128,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> Integrator<M, S, 
     /// units of [`Scalar::EPSILON`] of the largest position or momentum: down to rounding.
     ///
     /// A tolerance saves sweeps, and the search for the largest position that rounding is compared with. It is for plain sums only:
-    /// compensated ones are for runs with no or hardly any drift, and the energy drifts by iterations that end above rounding.
+    /// compensated ones are for runs without drift, and the energy drifts by iterations that end above rounding.
     ///
     /// # Errors
     ///

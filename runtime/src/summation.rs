@@ -27,8 +27,8 @@ pub trait Summation: sealed::Sealed + Copy + Default + 'static {
 /// relative to the increment of the error itself. With coefficients that are symplectic as rounded (`μ̃_ij + μ_ji = 1`)
 /// and an iteration that goes on until it stagnates, what remains is Brouwer's law, an energy error that grows like the
 /// square root of the number of steps, without a drift (Hairer, McLachlan & Razakarivony, 2008; Antoñana, Makazaga &
-/// Murua, 2017). So it is measured for Kepler and Hénon–Heiles; for `(q² + 1)(p² + 1)/2`, which is not separable, and Gauss 8 a drift
-/// of 2e-21 of the energy a step is left (`--example drift` of the tests).
+/// Murua, 2017). So it is measured for Kepler, Hénon–Heiles and `(q² + 1)(p² + 1)/2`, which is not separable (`--example drift` of the
+/// tests).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Compensated;
 
