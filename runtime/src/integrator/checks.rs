@@ -95,6 +95,9 @@ where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
+    if !<S as Hamiltonian<V>>::LOCAL_FORCE {
+        return Ok(());
+    }
     let State { time, q, p } = state;
     check_local_force(system, *time, q, p)?;
     check_local_force(system, *time, &splat::<V, F64x2>(q), &splat(p))?;

@@ -19,7 +19,8 @@ use crate::{
 /// Whether stages are iterated along the components: for vectors on the heap, where all stages of a component are in one group.
 #[inline(always)]
 pub(super) fn is_local<P: StageTableau, V: Vector, S: HamiltonianInLanes<V>>() -> bool {
-    P::Lanes::has_local_force::<V, S>()
+    <S as Hamiltonian<V>>::LOCAL_FORCE
+        && P::Lanes::has_local_force::<V, S>()
         && <S as Hamiltonian<V>>::UNIT_MASSES
         && mem::needs_drop::<V>()
         && eliminates::<P>()
