@@ -140,11 +140,11 @@ impl<B: Bonds> Chain<B> {
 
     /// What is right of the last particle; `None` for no bond.
     #[inline(always)]
-    fn beyond<T: Scalar>(&self, q: &[T]) -> Option<T> {
+    fn beyond<T: Scalar>(&self, first: T) -> Option<T> {
         match self.ends {
             Ends::Walls => Some(T::zero()),
             Ends::Free => None,
-            Ends::Ring => q.first().copied(),
+            Ends::Ring => Some(first),
         }
     }
 
@@ -184,7 +184,7 @@ impl<B: Bonds> Chain<B> {
         let (Some(&first), Some(&last)) = (q.first(), q.last()) else {
             return;
         };
-        let beyond = self.beyond(q);
+        let beyond = self.beyond(first);
         let mut tension = self.first_tension(time, first, last);
         // With no bond to the right of it the last particle is apart.
         let bound = self.bound(n);
@@ -427,11 +427,10 @@ impl<V: Vector, B: Bonds> SeparableHamiltonian<V> for Chain<B> {
             return;
         };
         let first = components.position(0);
-        let zero = V::Scalar::zero();
-        let (at_last, beyond) = match self.ends {
-            Ends::Ring => (components.position(last), Some(first)),
-            Ends::Walls => (zero, Some(zero)),
-            Ends::Free => (zero, None),
+        // Only a ring looks at its other end.
+        let at_last = match self.ends {
+            Ends::Ring => components.position(last),
+            Ends::Walls | Ends::Free => first,
         };
         let (mut here, mut left) = (first, self.first_tension(time, first, at_last));
         for k in 0..last {
@@ -440,7 +439,10 @@ impl<V: Vector, B: Bonds> SeparableHamiltonian<V> for Chain<B> {
             components.set_force(k, self.between(time, left, here, right));
             (here, left) = (next, right);
         }
-        let right = beyond.map_or(zero, |beyond| self.bonds.tension(time, beyond - here));
+        let right = match self.beyond(first) {
+            Some(beyond) => self.bonds.tension(time, beyond - here),
+            None => V::Scalar::zero(),
+        };
         components.set_force(last, self.between(time, left, here, right));
     }
 

@@ -120,10 +120,10 @@ macro_rules! compare {
                 let (local, made) = run($method, chain, n, $step_size, $set)?;
                 let (global, expected) = run($method, Global(chain), n, $step_size, $set)?;
                 let distance = distance(&local, &global);
-                assert!(distance <= 2e-13, "{n} {chain:?}: {distance:e}");
+                assert!(distance <= 2e-13, "{} {n} {chain:?}: {distance:e}", stringify!($method));
                 let ratio = made.evaluations as f64 / expected.evaluations as f64;
                 // To the last bit one evaluation more: that forces stand still shows an evaluation after positions do.
-                assert!((0.95..=1.35).contains(&ratio), "{n} {chain:?}: {ratio}");
+                assert!((0.95..=1.35).contains(&ratio), "{} {n} {chain:?}: {ratio}", stringify!($method));
             }
         }
     )+};
@@ -146,6 +146,7 @@ fn stages_along_the_components_are_those_of_the_force() -> Result<(), Error> {
     {
         Ok(())
     }
+    // Ten stages are too many to go along the components.
     for step_size in [STEP_SIZE, -STEP_SIZE, 3.0 * STEP_SIZE] {
         compare!(Gauss2, Gauss3, Gauss8, Gauss10, Lobatto3; step_size, plain);
         compare!(Gauss2, Gauss3, Gauss8, Gauss10, Lobatto3; step_size, to_rounding::<_, _, _, Plain>);

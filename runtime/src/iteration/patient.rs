@@ -178,6 +178,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
             // At the bound one sweep without progress will do.
             let waited = iteration == max_iterations || idle > iteration / STAGNATION;
             if idle > 0 && waited && (is_rounding() || idle >= PATIENCE && is_noise()) {
+                // At the bound there is no sweep left to make.
                 if W::HASTY || iteration == max_iterations || !coin(sweeps.time()) {
                     return Ok((iteration, change.scales()));
                 }
