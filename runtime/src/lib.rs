@@ -183,7 +183,7 @@ pub use progress::Progress;
 pub use relax::relax;
 pub use retry::Retry;
 pub use scalar::Scalar;
-pub use second_order::SecondOrderInLanes;
+pub use second_order::{SecondOrderInLanes, SecondOrderStages};
 pub use solver::Solver;
 pub use splitting::{Splitting, SplittingPlan};
 pub use splitting_macros::{composition, splitting};

@@ -1,13 +1,15 @@
 //! Second-order systems: coupled stages without the momenta.
 
 mod local;
+mod stages;
 
 use core::marker::PhantomData;
 use core::mem;
 
 use self::local::{Locally, is_local};
+pub use self::stages::SecondOrderStages;
 use crate::in_lanes::{
-    ByLanes, Sums, entry, extend, extrapolate, fill, in_groups, is_about, lane_of, lanes, scale,
+    ByLanes, Sums, entry, extend, extrapolate, in_groups, is_about, lane_of, lanes, scale,
     scale_of, shortest, total, values,
 };
 use crate::iteration::{Begun, Sweeps, patiently, settle};
@@ -16,6 +18,7 @@ use crate::lane_movement::{LaneMovement, LanePart};
 use crate::lane_stages::{LaneStages, Laned};
 use crate::starting_values::{MOST, StartingColumns, starting_columns, starts_at_once};
 use crate::summation::add;
+use crate::vector::is_in_place;
 use crate::{
     Change, Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes,
     Inside, Kept, Lanes, Outcome, Plain, Quantity, Scalar, SecondOrderTableau, Solver,
@@ -91,13 +94,13 @@ where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
-    type Memory<P: StageTableau> = LaneStages<V, P>;
+    type Memory<P: StageTableau> = SecondOrderStages<V, P>;
 
     #[inline(always)]
     fn take<P, R>(
         step: &Step<'_, V>,
         system: &S,
-        stages: &mut LaneStages<V, P>,
+        memory: &mut SecondOrderStages<V, P>,
         kept: Kept,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
@@ -107,18 +110,24 @@ where
         R: Summation,
         S: Hamiltonian<V, Class = P::Class>,
     {
+        let SecondOrderStages { lanes, start } = memory;
         if !eliminates::<P>() {
             return <InLanes as Solver<V, S>>::take::<P, R>(
-                step, system, stages, kept, stopping, outcome,
+                step, system, lanes, kept, stopping, outcome,
             );
         }
+        if !<S as Hamiltonian<V>>::UNIT_MASSES {
+            velocity::<P, V, S>(system, step, step.p, start, lanes);
+        }
+        let start = start_of::<V, S>(step.p, start);
         let mut sweeps = Positions::<P, R, V, S> {
             lanes: ByLanes {
                 step,
                 system,
-                stages: &mut *stages,
+                stages: &mut *lanes,
                 sums: PhantomData,
             },
+            start,
         };
         let mut work = match is_local::<P, V, S>() {
             true => settle::<P::Class, f64>(&mut Locally::new(&mut sweeps), kept, stopping)?,
@@ -126,7 +135,7 @@ where
         };
         work.evaluations += sweeps.evaluations().finish;
         if R::COMPENSATED {
-            compensated_result::<P, R, V, S>(step, system, stages, outcome);
+            compensated_result::<P, R, V, S>(step, system, start, lanes, outcome);
         } else {
             sweeps.plain_result(outcome);
             sweeps.increments();
@@ -134,7 +143,13 @@ where
         Ok(work)
     }
 
-    fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
+    fn extend<P: StageTableau>(
+        memory: &SecondOrderStages<V, P>,
+        at: Inside<'_, V>,
+        q: &mut V,
+        p: &mut V,
+    ) {
+        let stages = &memory.lanes;
         if !eliminates::<P>() {
             return <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
         }
@@ -143,6 +158,7 @@ where
             return;
         };
         let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force);
+        let start = start_of::<V, S>(at.momentum, &memory.start).as_slice();
         // The velocities at the stages: M⁻¹(p0 + Σ_j μ̃_ij w_j).
         for stage in 0..P::MOMENTA.count {
             let factor = at.size * P::MOMENTA.weights[stage] * at.factor(polynomial, stage);
@@ -150,7 +166,7 @@ where
                 let part =
                     |j: usize| P::MOMENTA.columns[j][stage] * entry::<P, V>(slopes.as_ref(), j, k);
                 let sum: f64 = (0..P::POSITIONS.count).map(part).sum();
-                *out += factor * (start::<P, V, S>(at.momentum, stages, k) + sum);
+                *out += factor * (start[k] + sum);
             }
         }
     }
@@ -161,6 +177,7 @@ where
 fn compensated_result<P, R, V, S>(
     step: &Step<'_, V>,
     system: &S,
+    start: &V,
     stages: &mut LaneStages<V, P>,
     Outcome { q, q_low, p, p_low }: Outcome<'_, V>,
 ) where
@@ -178,38 +195,54 @@ fn compensated_result<P, R, V, S>(
         h,
     );
     // The velocity of what the momentum leaves out, in the place of the result.
-    system.velocity(step.time, step.q, step.p_low, q);
-    if q.dimension() != step.q.dimension() {
-        // Seen there when the step is looked at.
-        stages.velocity.as_mut()[0] = q.zeros_with::<P::Lanes>();
-        *q = step.q.zeros_like();
-    }
+    velocity::<P, V, S>(system, step, step.p_low, q, stages);
     let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force).as_ref();
     let n = shortest(slopes)
         .min(step.q.dimension())
-        .min(step.p.dimension());
+        .min(start.dimension());
     let slopes = P::groups(|group| &slopes[group].as_slice()[..n]);
+    let start = &start.as_slice()[..n];
     let (base, low) = (&step.q.as_slice()[..n], &step.q_low.as_slice()[..n]);
     let (q, q_low) = (&mut q.as_mut_slice()[..n], &mut q_low.as_mut_slice()[..n]);
     for k in 0..n {
-        let velocity = start::<P, V, S>(step.p, stages, k);
         // As a rule small beside the velocity, by the step size: its rounding errors are like those that the increments have.
         let sum = sum_of_products(None, P::POSITIONS.count, |stage| {
             let slope = slopes.as_ref()[stage / P::Lanes::WIDTH][k];
             (tableau::<P>().rest[stage], lane_of(slope, stage))
         });
-        let parts = [sum, velocity];
+        let parts = [sum, start[k]];
         (q[k], q_low[k]) = add::<R, f64>(base[k], low[k] + h * q[k], 2, |part| h * parts[part]);
     }
 }
 
-/// The positions of the stages alone. In the place of the momenta is the velocity at the start, in all lanes, and in that
-/// of the velocities are those of the increments of the momentum.
+/// The velocity of a momentum. One of another dimension goes to a place where it is seen when the step is looked at.
+#[inline(always)]
+fn velocity<P, V, S>(
+    system: &S,
+    step: &Step<'_, V>,
+    momentum: &V,
+    out: &mut V,
+    stages: &mut LaneStages<V, P>,
+) where
+    P: StageTableau,
+    V: Vector<Scalar = f64>,
+    S: Hamiltonian<V>,
+{
+    system.velocity(step.time, step.q, momentum, out);
+    if out.dimension() != step.q.dimension() {
+        stages.velocity.as_mut()[0] = out.zeros_with::<P::Lanes>();
+        *out = step.q.zeros_like();
+    }
+}
+
+/// The positions of the stages alone. In the place of the velocities are those of the increments of the momentum.
 ///
 /// With plain sums the forces are no increments while the stages are iterated, and the matrix has the factors that would make them
 /// such: a sweep is a product shorter.
 struct Positions<'a, P: StageTableau, R, V: Vector, S> {
     lanes: ByLanes<'a, P, R, V, S>,
+    /// The velocity at the start.
+    start: &'a V,
 }
 
 /// The velocities of the increments of the momentum, which are these themselves where masses are one.
@@ -218,17 +251,10 @@ const fn slopes<'a, V: Vector, S: Hamiltonian<V>, G>(velocity: &'a G, force: &'a
     if S::UNIT_MASSES { force } else { velocity }
 }
 
-/// A component of the velocity at the start, which is the momentum where masses are one.
+/// The velocity at the start, which is the momentum where masses are one.
 #[inline(always)]
-fn start<P: StageTableau, V: Vector<Scalar = f64>, S: Hamiltonian<V>>(
-    momentum: &V,
-    stages: &LaneStages<V, P>,
-    component: usize,
-) -> f64 {
-    match S::UNIT_MASSES {
-        true => momentum.as_slice()[component],
-        false => entry::<P, V>(stages.p.as_ref(), 0, component),
-    }
+const fn start_of<'a, V: Vector, S: Hamiltonian<V>>(momentum: &'a V, velocity: &'a V) -> &'a V {
+    if S::UNIT_MASSES { momentum } else { velocity }
 }
 
 /// Sums of the velocities of increments.
@@ -347,13 +373,9 @@ where
     ) -> LanePart<P::Lanes> {
         let scaled = (sums.factor)(0).is_some();
         let (step, stages) = (self.lanes.step, &mut *self.lanes.stages);
-        let start = stages.p.as_ref();
+        let start = self.start.as_slice();
         let value = |(group, k): (usize, usize), base: (P::Lanes, P::Lanes), sum| {
-            // The momentum itself is shorter than the same in all lanes, which long vectors would read in every sweep.
-            let velocity = match <S as Hamiltonian<V>>::UNIT_MASSES {
-                true => P::Lanes::from_f64(step.p.as_slice()[k]),
-                false => start[group].as_slice()[k],
-            };
+            let velocity = P::Lanes::from_f64(start[k]);
             let node = lanes(tableau::<P>().nodes, group);
             position::<R, P::Lanes>(base, (step.size, node), velocity, sum, scaled)
         };
@@ -391,7 +413,8 @@ where
         let forces = stages.force.as_ref();
         let n = (shortest(slopes).min(shortest(forces)))
             .min(step.q.dimension())
-            .min(step.p.dimension());
+            .min(step.p.dimension())
+            .min(self.start.dimension());
         let h = P::Lanes::from_f64(step.size);
         let weights = P::groups(|group| lanes::<P::Lanes>(P::POSITIONS.weights, group) * h);
         let weights = weights.as_ref();
@@ -405,12 +428,12 @@ where
         let factors = P::groups(|group| rest.as_ref()[group] * weights[group]);
         let (q, p) = (&mut q.as_mut_slice()[..n], &mut p.as_mut_slice()[..n]);
         let (q_base, p_base) = (&step.q.as_slice()[..n], &step.p.as_slice()[..n]);
+        let start = &self.start.as_slice()[..n];
         for k in 0..n {
             p[k] = total(p_base[k], forces, weights, k);
         }
         for k in 0..n {
-            let velocity = start::<P, V, S>(step.p, stages, k);
-            let mean = total(velocity, slopes, factors.as_ref(), k);
+            let mean = total(start[k], slopes, factors.as_ref(), k);
             q[k] = step.size.fused(mean, q_base[k]);
         }
     }
@@ -422,29 +445,6 @@ where
         if !<S as Hamiltonian<V>>::UNIT_MASSES {
             let (h, velocity) = (self.lanes.step.size, &mut self.lanes.stages.velocity);
             scale::<P, V>(&P::POSITIONS, h, velocity.as_mut());
-        }
-    }
-
-    /// The velocity at the start, for all stages, unless it is the momentum itself.
-    #[inline(always)]
-    fn start(&mut self) {
-        let step = self.lanes.step;
-        let LaneStages { q, p, velocity, .. } = &mut *self.lanes.stages;
-        if <S as Hamiltonian<V>>::UNIT_MASSES {
-            return;
-        }
-        fill::<P, V>(p.as_mut(), step.p);
-        for (group, p) in p.as_mut().iter_mut().enumerate() {
-            let q = &mut q.as_mut()[group];
-            let time = P::Lanes::from_f64(step.time);
-            // It does not look at the position, and the place of this is free.
-            P::Lanes::velocity::<V, S>(self.lanes.system, time, p, p, q);
-            if q.dimension() == p.dimension() {
-                p.as_mut_slice().copy_from_slice(q.as_slice());
-            } else {
-                // Seen there when the step is looked at.
-                mem::swap(q, &mut velocity.as_mut()[group]);
-            }
         }
     }
 }
@@ -485,7 +485,6 @@ where
 
     #[inline(always)]
     fn begin(&mut self, kept: Kept) {
-        self.start();
         if kept.stages && starts_at_once(&P::POSITIONS) {
             self.sums(&of_increments(Start::<P>::columns()));
             return;
@@ -520,8 +519,16 @@ where
         stopping: Stopping,
         begun: Begun<Self::Movement>,
     ) -> Result<Work, Failure> {
+        let start = self.start;
         self.lanes.elsewhere(begun.is_nothing(), |lanes| {
-            patiently::<C, T, _>(&mut Positions { lanes }, kept, stopping, begun)
+            let patiently = |start| {
+                patiently::<C, T, _>(&mut Positions { lanes, start }, kept, stopping, begun)
+            };
+            // Nothing points to what is in registers from step to step.
+            match is_in_place(start) {
+                true => patiently(&start.clone()),
+                false => patiently(start),
+            }
         })
     }
 

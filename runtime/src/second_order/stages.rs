@@ -1,0 +1,33 @@
+//! The memory of second-order systems.
+
+use crate::{LaneStages, Quantity, StageStorage, StageTableau, Vector};
+
+/// Stages in lanes, and the velocity that they start from.
+#[derive(Debug)]
+pub struct SecondOrderStages<V: Vector, P: StageTableau> {
+    pub(crate) lanes: LaneStages<V, P>,
+    /// The velocity at the start of the step, of a plan whose momenta are eliminated; not where it is the momentum itself.
+    pub(crate) start: V,
+}
+
+impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SecondOrderStages<V, P> {
+    fn like(prototype: &V) -> Self {
+        Self {
+            lanes: LaneStages::like(prototype),
+            start: prototype.zeros_like(),
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.lanes.non_finite()
+    }
+
+    fn non_finite_force(&self) -> Option<usize> {
+        self.lanes.non_finite_force()
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        self.lanes.mismatch(dimension)
+    }
+}
