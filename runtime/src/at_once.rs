@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use crate::in_lanes::{ByLanes, Sums, extrapolate, extrapolates, fill, sum, total, values};
+use crate::in_lanes::{ByLanes, Sums, extrapolate, extrapolates, fill, sum, sums, total, values};
 use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::lane_movement::{LaneMovement, LanePart};
 use crate::lane_stages::{LaneStages, Laned};
@@ -59,7 +59,7 @@ where
         });
         let work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
         if !R::COMPENSATED {
-            sweeps.increments();
+            sweeps.0.increments();
         }
         let Outcome { q, q_low, p, p_low } = outcome;
         total::<R, P, V>(
@@ -85,9 +85,6 @@ where
 }
 
 /// Positions and momenta of the stages.
-///
-/// With plain sums evaluations are no increments while the stages are iterated, and the matrices have the factors that would make
-/// them such.
 struct Halves<'a, P: StageTableau, R, V: Vector, S>(ByLanes<'a, P, R, V, S>);
 
 impl<P, R, V, S> Halves<'_, P, R, V, S>
@@ -100,18 +97,11 @@ where
     /// Whether force and velocity of a stage have one time.
     const AT_ONE_TIME: bool = same(P::POSITIONS.times, P::MOMENTA.times);
 
-    /// Both evaluations become increments.
-    #[inline(always)]
-    fn increments(&mut self) {
-        self.0.scale_forces();
-        self.0.scale_velocities();
-    }
-
     /// New stages from the evaluations, by how much they moved.
     #[inline(always)]
     fn stages(&mut self) -> LaneMovement<P::Lanes> {
         if R::COMPENSATED {
-            self.increments();
+            self.0.increments();
         }
         let step = self.0.step;
         let LaneStages {
@@ -141,24 +131,13 @@ where
     /// New values of one half from the evaluations of the other.
     #[inline(always)]
     fn half(
-        (half, other): (&HalfTableau, &HalfTableau),
+        halves: (&HalfTableau, &HalfTableau),
         step: &Step<'_, V>,
         base: (&V, &V),
         out: &mut [Laned<V, P>],
         terms: &[Laned<V, P>],
     ) -> LanePart<P::Lanes> {
-        let (h, columns, weights) = (step.size, half.columns, other.weights);
-        let sums = Sums {
-            count: columns.len(),
-            column: |j: usize| columns[j],
-            factor: |j: usize| match (P::INCREMENTS, R::COMPENSATED) {
-                (true, true) => None,
-                (true, false) => Some(h * weights[j]),
-                (false, _) => Some(h),
-            },
-            with_low: R::COMPENSATED,
-            beyond: R::BEYOND,
-        };
+        let sums = sums::<R, P>(halves, step.size, R::COMPENSATED);
         values::<P, V>(&sums, out, base, terms, sum::<P>)
     }
 
@@ -243,8 +222,8 @@ where
         if kept.stages && extrapolates::<P>() {
             extrapolate::<P, V>(&P::MOMENTA, self.0.stages.velocity.as_mut());
             extrapolate::<P, V>(&P::POSITIONS, self.0.stages.force.as_mut());
-            self.0.momenta();
-            self.0.positions();
+            self.0.momenta(true);
+            self.0.positions(true);
             return;
         }
         fill::<P, V>(self.0.stages.q.as_mut(), self.0.step.q);

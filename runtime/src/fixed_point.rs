@@ -95,6 +95,9 @@ where
         sums: PhantomData,
     };
     let mut work = settle::<P::Class, V::Scalar>(&mut sweeps, kept, stopping)?;
+    if !R::COMPENSATED {
+        P::increments(step, stages);
+    }
     P::finish::<R, V, S, ()>(step, system, stages, kept, outcome, &mut ());
     work.evaluations += P::EVALUATIONS.finish;
     Ok(work)

@@ -52,6 +52,9 @@ where
             sums: PhantomData,
         };
         let work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
+        if !R::COMPENSATED {
+            sweeps.increments();
+        }
         let Outcome { q, q_low, p, p_low } = outcome;
         total::<R, P, V>(
             (q, q_low),
@@ -100,6 +103,9 @@ pub(crate) fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
 }
 
 /// The stages of a plan in lanes.
+///
+/// With plain sums evaluations are no increments while the stages are iterated, and the matrices have the factors that would make
+/// them such.
 pub(crate) struct ByLanes<'a, P: StageTableau, R, V: Vector, S> {
     pub(crate) step: &'a Step<'a, V>,
     pub(crate) system: &'a S,
@@ -146,7 +152,7 @@ where
             extrapolate::<P, V>(&P::MOMENTA, self.stages.velocity.as_mut());
             if !P::Class::SEPARABLE {
                 extrapolate::<P, V>(&P::POSITIONS, self.stages.force.as_mut());
-                self.momenta();
+                self.momenta(true);
             }
         } else {
             fill::<P, V>(self.stages.q.as_mut(), self.step.q);
@@ -154,7 +160,7 @@ where
             self.velocities();
             self.scale_velocities();
         }
-        self.positions();
+        self.positions(true);
     }
 
     #[inline(always)]
@@ -182,11 +188,15 @@ where
     #[inline(always)]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         self.forces();
-        self.scale_forces();
-        let p = self.momenta();
+        if R::COMPENSATED {
+            self.scale_forces();
+        }
+        let p = self.momenta(R::COMPENSATED);
         self.velocities();
-        self.scale_velocities();
-        let q = self.positions();
+        if R::COMPENSATED {
+            self.scale_velocities();
+        }
+        let q = self.positions(R::COMPENSATED);
         LaneMovement { q, p }
     }
 
@@ -291,22 +301,22 @@ where
         made
     }
 
-    /// New positions; returns how much they changed.
+    /// New positions, of velocities that are increments or not yet; returns how much they changed.
     #[inline(always)]
-    pub(crate) fn positions(&mut self) -> LanePart<P::Lanes> {
+    pub(crate) fn positions(&mut self, of_increments: bool) -> LanePart<P::Lanes> {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.q, step.q_low);
-        let sums = sums::<R, P>(&P::POSITIONS, step.size);
+        let sums = sums::<R, P>((&P::POSITIONS, &P::MOMENTA), step.size, of_increments);
         let terms = stages.velocity.as_ref();
         values::<P, V>(&sums, stages.q.as_mut(), base, terms, sum::<P>)
     }
 
-    /// New momenta; returns how much they changed.
+    /// New momenta, of forces that are increments or not yet; returns how much they changed.
     #[inline(always)]
-    pub(crate) fn momenta(&mut self) -> LanePart<P::Lanes> {
+    pub(crate) fn momenta(&mut self, of_increments: bool) -> LanePart<P::Lanes> {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.p, step.p_low);
-        let sums = sums::<R, P>(&P::MOMENTA, step.size);
+        let sums = sums::<R, P>((&P::MOMENTA, &P::POSITIONS), step.size, of_increments);
         let terms = stages.force.as_ref();
         values::<P, V>(&sums, stages.p.as_mut(), base, terms, sum::<P>)
     }
@@ -362,6 +372,13 @@ where
     #[inline(always)]
     pub(crate) fn scale_velocities(&mut self) {
         scale::<P, V>(&P::MOMENTA, self.step.size, self.stages.velocity.as_mut());
+    }
+
+    /// Both evaluations become increments.
+    #[inline(always)]
+    pub(crate) fn increments(&mut self) {
+        self.scale_forces();
+        self.scale_velocities();
     }
 }
 
@@ -460,18 +477,22 @@ pub(crate) struct Sums<C, F> {
     pub(crate) beyond: bool,
 }
 
-/// The sums of one half of the stages.
+/// The sums that one half of the stages is, of evaluations of the other half that are increments or not yet.
 #[inline(always)]
-fn sums<R: Summation, P: StageTableau>(
-    half: &HalfTableau,
+pub(crate) fn sums<R: Summation, P: StageTableau>(
+    (half, other): (&HalfTableau, &HalfTableau),
     h: f64,
+    of_increments: bool,
 ) -> Sums<impl Fn(usize) -> &'static [f64] + use<R, P>, impl Fn(usize) -> Option<f64> + use<R, P>> {
-    let columns = half.columns;
-    let factor = (!P::INCREMENTS).then_some(h);
+    let (columns, weights) = (half.columns, other.weights);
     Sums {
         count: columns.len(),
         column: move |j: usize| columns[j],
-        factor: move |_| factor,
+        factor: move |j: usize| match (P::INCREMENTS, of_increments) {
+            (true, true) => None,
+            (true, false) => Some(h * weights[j]),
+            (false, _) => Some(h),
+        },
         with_low: R::COMPENSATED,
         beyond: R::BEYOND,
     }

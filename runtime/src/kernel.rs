@@ -25,6 +25,20 @@ pub fn factors<T: Scalar, const N: usize>(coefficients: [Coefficient; N]) -> [T;
     array(T::zero(), |j| T::from_coefficient(coefficients[j]))
 }
 
+/// The factors of evaluations in sweeps: coefficients of increments as they are where sums are [compensated](Summation::COMPENSATED),
+/// for evaluations become [increments](increment) there; else times the weights that would make them such.
+#[inline(always)]
+pub fn relative<R: Summation, T: Scalar, const N: usize>(
+    coefficients: [Coefficient; N],
+    weights: [T; N],
+) -> [T; N] {
+    let factors = factors(coefficients);
+    match R::COMPENSATED {
+        true => factors,
+        false => array(T::zero(), |j| factors[j] * weights[j]),
+    }
+}
+
 /// `out = base + Σ_j factors_j terms_j`, for a base that is the sum of `base` and `low`.
 ///
 /// The terms are summed before they meet the base, which is usually larger.
@@ -61,6 +75,14 @@ pub fn scale<V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
     let factor = V::Scalar::weight(h, coefficient);
     for component in vector.as_mut_slice() {
         *component *= factor;
+    }
+}
+
+/// [`scale`] of an evaluation in a sweep, where sums are [compensated](Summation::COMPENSATED): see [`relative`].
+#[inline(always)]
+pub fn increment<R: Summation, V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
+    if R::COMPENSATED {
+        scale(vector, h, coefficient);
     }
 }
 

@@ -161,7 +161,8 @@ pub use integrator::Integrator;
 pub use interpolation::{Inside, Interpolation};
 pub use invariant::Invariant;
 pub use kernel::{
-    advance, combine, copy, copy_to, factors, scale, total, transform, weighted_total, weights,
+    advance, combine, copy, copy_to, factors, increment, relative, scale, total, transform,
+    weighted_total, weights,
 };
 pub use lane_stages::LaneStages;
 pub use lanes::{F64x2, F64x4, F64x8, HamiltonianInLanes, Lanes};

@@ -124,8 +124,8 @@ pub trait Plan {
 
 /// How the stages of a [`Method`] are found for systems of one [`Class`].
 ///
-/// A step is `begin`, then `sweep` until the stages no longer change (never in an [`Explicit`](crate::Explicit) plan), then
-/// `finish`.
+/// A step is `begin`, then `sweep` until the stages no longer change (never in an [`Explicit`](crate::Explicit) plan), with plain sums
+/// `increments`, then `finish`.
 ///
 /// Stage `i` evaluates the force at `t0 + c_i h` and the velocity at `t0 + c̃_i h`: see
 /// [`Hamiltonian`](Hamiltonian#time). Plans of the class [`Separable`] pass for the argument that the system does not
@@ -163,6 +163,12 @@ pub trait StagePlan {
         system: &S,
         stages: &mut Self::Stages<V>,
     ) -> Change;
+
+    /// Makes increments of the evaluations of the coupled stages, where they are to be such. With
+    /// [compensated](Summation::COMPENSATED) sums every sweep does; with plain ones they stay as they are meanwhile, and the factors of
+    /// the sums make up for it.
+    #[inline(always)]
+    fn increments<V: Vector>(_step: &Step<'_, V>, _stages: &mut Self::Stages<V>) {}
 
     /// Evaluates what comes after the coupled stages, and writes the result of the step.
     ///

@@ -288,6 +288,26 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
+            let force_weights = ::symplectic::weights::<
+                V::Scalar,
+                _,
+            >(
+                step.size,
+                [
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
+            );
+            let velocity_weights = ::symplectic::weights::<
+                V::Scalar,
+                _,
+            >(
+                step.size,
+                [
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
+            );
             system
                 .force(
                     step
@@ -302,11 +322,10 @@ const _: () = {
                     &p[0],
                     &mut force[0],
                 );
-            ::symplectic::scale(
-                &mut force[0],
-                step.size,
-                ::symplectic::Coefficient::exact(0.5),
-            );
+            ::symplectic::increment::<
+                R,
+                V,
+            >(&mut force[0], step.size, ::symplectic::Coefficient::exact(0.5));
             system
                 .force(
                     step
@@ -321,11 +340,10 @@ const _: () = {
                     &p[1],
                     &mut force[1],
                 );
-            ::symplectic::scale(
-                &mut force[1],
-                step.size,
-                ::symplectic::Coefficient::exact(0.5),
-            );
+            ::symplectic::increment::<
+                R,
+                V,
+            >(&mut force[1], step.size, ::symplectic::Coefficient::exact(0.5));
             ::symplectic::relax::<
                 R,
                 V,
@@ -334,14 +352,21 @@ const _: () = {
                 &mut p[0],
                 step.p,
                 step.p_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::new(
-                        (-0.07735026918962573),
-                        (-3.3450280739356345e-17),
-                        (-0.07735026),
-                    ),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::new(
+                            (-0.07735026918962573),
+                            (-3.3450280739356345e-17),
+                            (-0.07735026),
+                        ),
+                    ],
+                    [force_weights[0], force_weights[1]],
+                ),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -353,14 +378,21 @@ const _: () = {
                 &mut p[1],
                 step.p,
                 step.p_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::new(
-                        1.0773502691896257,
-                        3.3450280739356345e-17,
-                        1.0773503,
-                    ),
-                    ::symplectic::Coefficient::exact(0.5),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::new(
+                            1.0773502691896257,
+                            3.3450280739356345e-17,
+                            1.0773503,
+                        ),
+                        ::symplectic::Coefficient::exact(0.5),
+                    ],
+                    [force_weights[0], force_weights[1]],
+                ),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -378,11 +410,10 @@ const _: () = {
                     &p[0],
                     &mut velocity[0],
                 );
-            ::symplectic::scale(
-                &mut velocity[0],
-                step.size,
-                ::symplectic::Coefficient::exact(0.5),
-            );
+            ::symplectic::increment::<
+                R,
+                V,
+            >(&mut velocity[0], step.size, ::symplectic::Coefficient::exact(0.5));
             system
                 .velocity(
                     step
@@ -397,11 +428,10 @@ const _: () = {
                     &p[1],
                     &mut velocity[1],
                 );
-            ::symplectic::scale(
-                &mut velocity[1],
-                step.size,
-                ::symplectic::Coefficient::exact(0.5),
-            );
+            ::symplectic::increment::<
+                R,
+                V,
+            >(&mut velocity[1], step.size, ::symplectic::Coefficient::exact(0.5));
             ::symplectic::relax::<
                 R,
                 V,
@@ -410,14 +440,21 @@ const _: () = {
                 &mut q[0],
                 step.q,
                 step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::new(
-                        (-0.07735026918962573),
-                        (-3.3450280739356345e-17),
-                        (-0.07735026),
-                    ),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::new(
+                            (-0.07735026918962573),
+                            (-3.3450280739356345e-17),
+                            (-0.07735026),
+                        ),
+                    ],
+                    [velocity_weights[0], velocity_weights[1]],
+                ),
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
@@ -429,18 +466,52 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::new(
-                        1.0773502691896257,
-                        3.3450280739356345e-17,
-                        1.0773503,
-                    ),
-                    ::symplectic::Coefficient::exact(0.5),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::new(
+                            1.0773502691896257,
+                            3.3450280739356345e-17,
+                            1.0773503,
+                        ),
+                        ::symplectic::Coefficient::exact(0.5),
+                    ],
+                    [velocity_weights[0], velocity_weights[1]],
+                ),
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
             change
+        }
+        #[inline]
+        fn increments<V: ::symplectic::Vector>(
+            step: &::symplectic::Step<'_, V>,
+            stages: &mut Self::Stages<V>,
+        ) {
+            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            ::symplectic::scale(
+                &mut force[0],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
+            ::symplectic::scale(
+                &mut force[1],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
+            ::symplectic::scale(
+                &mut velocity[0],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
+            ::symplectic::scale(
+                &mut velocity[1],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
         }
         #[inline]
         fn finish<
@@ -664,6 +735,26 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
+            let force_weights = ::symplectic::weights::<
+                V::Scalar,
+                _,
+            >(
+                step.size,
+                [
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
+            );
+            let velocity_weights = ::symplectic::weights::<
+                V::Scalar,
+                _,
+            >(
+                step.size,
+                [
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
+            );
             system
                 .force(
                     step
@@ -678,11 +769,10 @@ const _: () = {
                     step.p,
                     &mut force[0],
                 );
-            ::symplectic::scale(
-                &mut force[0],
-                step.size,
-                ::symplectic::Coefficient::exact(0.5),
-            );
+            ::symplectic::increment::<
+                R,
+                V,
+            >(&mut force[0], step.size, ::symplectic::Coefficient::exact(0.5));
             system
                 .force(
                     step
@@ -697,11 +787,10 @@ const _: () = {
                     step.p,
                     &mut force[1],
                 );
-            ::symplectic::scale(
-                &mut force[1],
-                step.size,
-                ::symplectic::Coefficient::exact(0.5),
-            );
+            ::symplectic::increment::<
+                R,
+                V,
+            >(&mut force[1], step.size, ::symplectic::Coefficient::exact(0.5));
             ::symplectic::relax::<
                 R,
                 V,
@@ -710,14 +799,21 @@ const _: () = {
                 &mut p[0],
                 step.p,
                 step.p_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::new(
-                        (-0.07735026918962573),
-                        (-3.3450280739356345e-17),
-                        (-0.07735026),
-                    ),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::new(
+                            (-0.07735026918962573),
+                            (-3.3450280739356345e-17),
+                            (-0.07735026),
+                        ),
+                    ],
+                    [force_weights[0], force_weights[1]],
+                ),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -729,14 +825,21 @@ const _: () = {
                 &mut p[1],
                 step.p,
                 step.p_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::new(
-                        1.0773502691896257,
-                        3.3450280739356345e-17,
-                        1.0773503,
-                    ),
-                    ::symplectic::Coefficient::exact(0.5),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::new(
+                            1.0773502691896257,
+                            3.3450280739356345e-17,
+                            1.0773503,
+                        ),
+                        ::symplectic::Coefficient::exact(0.5),
+                    ],
+                    [force_weights[0], force_weights[1]],
+                ),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -754,11 +857,10 @@ const _: () = {
                     &p[0],
                     &mut velocity[0],
                 );
-            ::symplectic::scale(
-                &mut velocity[0],
-                step.size,
-                ::symplectic::Coefficient::exact(0.5),
-            );
+            ::symplectic::increment::<
+                R,
+                V,
+            >(&mut velocity[0], step.size, ::symplectic::Coefficient::exact(0.5));
             system
                 .velocity(
                     step
@@ -773,11 +875,10 @@ const _: () = {
                     &p[1],
                     &mut velocity[1],
                 );
-            ::symplectic::scale(
-                &mut velocity[1],
-                step.size,
-                ::symplectic::Coefficient::exact(0.5),
-            );
+            ::symplectic::increment::<
+                R,
+                V,
+            >(&mut velocity[1], step.size, ::symplectic::Coefficient::exact(0.5));
             ::symplectic::relax::<
                 R,
                 V,
@@ -786,14 +887,21 @@ const _: () = {
                 &mut q[0],
                 step.q,
                 step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::new(
-                        (-0.07735026918962573),
-                        (-3.3450280739356345e-17),
-                        (-0.07735026),
-                    ),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::new(
+                            (-0.07735026918962573),
+                            (-3.3450280739356345e-17),
+                            (-0.07735026),
+                        ),
+                    ],
+                    [velocity_weights[0], velocity_weights[1]],
+                ),
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
@@ -805,18 +913,52 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::new(
-                        1.0773502691896257,
-                        3.3450280739356345e-17,
-                        1.0773503,
-                    ),
-                    ::symplectic::Coefficient::exact(0.5),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::new(
+                            1.0773502691896257,
+                            3.3450280739356345e-17,
+                            1.0773503,
+                        ),
+                        ::symplectic::Coefficient::exact(0.5),
+                    ],
+                    [velocity_weights[0], velocity_weights[1]],
+                ),
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
             change
+        }
+        #[inline]
+        fn increments<V: ::symplectic::Vector>(
+            step: &::symplectic::Step<'_, V>,
+            stages: &mut Self::Stages<V>,
+        ) {
+            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            ::symplectic::scale(
+                &mut force[0],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
+            ::symplectic::scale(
+                &mut force[1],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
+            ::symplectic::scale(
+                &mut velocity[0],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
+            ::symplectic::scale(
+                &mut velocity[1],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
         }
         #[inline]
         fn finish<

@@ -366,6 +366,52 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
+            let force_weights = ::symplectic::weights::<
+                V::Scalar,
+                _,
+            >(
+                step.size,
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.6666666666666666,
+                        3.700743415417188e-17,
+                        0.6666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                ],
+            );
+            let velocity_weights = ::symplectic::weights::<
+                V::Scalar,
+                _,
+            >(
+                step.size,
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.6666666666666666,
+                        3.700743415417188e-17,
+                        0.6666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                ],
+            );
             system
                 .force(
                     step.at(::symplectic::Coefficient::exact(0.0)),
@@ -373,7 +419,10 @@ const _: () = {
                     &p[0],
                     &mut force[0],
                 );
-            ::symplectic::scale(
+            ::symplectic::increment::<
+                R,
+                V,
+            >(
                 &mut force[0],
                 step.size,
                 ::symplectic::Coefficient::new(
@@ -389,7 +438,10 @@ const _: () = {
                     &p[1],
                     &mut force[1],
                 );
-            ::symplectic::scale(
+            ::symplectic::increment::<
+                R,
+                V,
+            >(
                 &mut force[1],
                 step.size,
                 ::symplectic::Coefficient::new(
@@ -406,10 +458,17 @@ const _: () = {
                 &mut p[0],
                 step.p,
                 step.p_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.0),
-                    ::symplectic::Coefficient::exact((-0.25)),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact((-0.25)),
+                    ],
+                    [force_weights[0], force_weights[1]],
+                ),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -421,10 +480,17 @@ const _: () = {
                 &mut p[1],
                 step.p,
                 step.p_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.0),
-                    ::symplectic::Coefficient::exact(0.5),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact(0.5),
+                    ],
+                    [force_weights[0], force_weights[1]],
+                ),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -436,10 +502,17 @@ const _: () = {
                 &mut p[2],
                 step.p,
                 step.p_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.0),
-                    ::symplectic::Coefficient::exact(1.25),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact(1.25),
+                    ],
+                    [force_weights[0], force_weights[1]],
+                ),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -450,7 +523,10 @@ const _: () = {
                     &p[0],
                     &mut velocity[0],
                 );
-            ::symplectic::scale(
+            ::symplectic::increment::<
+                R,
+                V,
+            >(
                 &mut velocity[0],
                 step.size,
                 ::symplectic::Coefficient::new(
@@ -466,7 +542,10 @@ const _: () = {
                     &p[1],
                     &mut velocity[1],
                 );
-            ::symplectic::scale(
+            ::symplectic::increment::<
+                R,
+                V,
+            >(
                 &mut velocity[1],
                 step.size,
                 ::symplectic::Coefficient::new(
@@ -482,7 +561,10 @@ const _: () = {
                     &p[2],
                     &mut velocity[2],
                 );
-            ::symplectic::scale(
+            ::symplectic::increment::<
+                R,
+                V,
+            >(
                 &mut velocity[2],
                 step.size,
                 ::symplectic::Coefficient::new(
@@ -499,11 +581,18 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.25),
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact((-0.25)),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::exact(1.25),
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::exact((-0.25)),
+                    ],
+                    [velocity_weights[0], velocity_weights[1], velocity_weights[2]],
+                ),
                 [&velocity[0], &velocity[1], &velocity[2]],
                 &mut change.q,
             );
@@ -515,15 +604,74 @@ const _: () = {
                 &mut q[2],
                 step.q,
                 step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.0),
-                    ::symplectic::Coefficient::exact(1.0),
-                    ::symplectic::Coefficient::exact(1.0),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact(1.0),
+                    ],
+                    [velocity_weights[0], velocity_weights[1], velocity_weights[2]],
+                ),
                 [&velocity[0], &velocity[1], &velocity[2]],
                 &mut change.q,
             );
             change
+        }
+        #[inline]
+        fn increments<V: ::symplectic::Vector>(
+            step: &::symplectic::Step<'_, V>,
+            stages: &mut Self::Stages<V>,
+        ) {
+            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            ::symplectic::scale(
+                &mut force[0],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+            );
+            ::symplectic::scale(
+                &mut force[1],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.6666666666666666,
+                    3.700743415417188e-17,
+                    0.6666667,
+                ),
+            );
+            ::symplectic::scale(
+                &mut velocity[0],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+            );
+            ::symplectic::scale(
+                &mut velocity[1],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.6666666666666666,
+                    3.700743415417188e-17,
+                    0.6666667,
+                ),
+            );
+            ::symplectic::scale(
+                &mut velocity[2],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+            );
         }
         #[inline]
         fn finish<
@@ -782,6 +930,52 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
+            let force_weights = ::symplectic::weights::<
+                V::Scalar,
+                _,
+            >(
+                step.size,
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.6666666666666666,
+                        3.700743415417188e-17,
+                        0.6666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                ],
+            );
+            let velocity_weights = ::symplectic::weights::<
+                V::Scalar,
+                _,
+            >(
+                step.size,
+                [
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.6666666666666666,
+                        3.700743415417188e-17,
+                        0.6666667,
+                    ),
+                    ::symplectic::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                ],
+            );
             system
                 .force(
                     step.at(::symplectic::Coefficient::exact(0.5)),
@@ -789,7 +983,10 @@ const _: () = {
                     step.p,
                     &mut force[1],
                 );
-            ::symplectic::scale(
+            ::symplectic::increment::<
+                R,
+                V,
+            >(
                 &mut force[1],
                 step.size,
                 ::symplectic::Coefficient::new(
@@ -806,10 +1003,20 @@ const _: () = {
                 &mut p[0],
                 step.p,
                 step.p_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.0),
-                    ::symplectic::Coefficient::exact((-0.25)),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact((-0.25)),
+                    ],
+                    [
+                        <V::Scalar as ::symplectic::Scalar>::from_f64(1.0),
+                        force_weights[1],
+                    ],
+                ),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -821,10 +1028,20 @@ const _: () = {
                 &mut p[1],
                 step.p,
                 step.p_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.0),
-                    ::symplectic::Coefficient::exact(0.5),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact(0.5),
+                    ],
+                    [
+                        <V::Scalar as ::symplectic::Scalar>::from_f64(1.0),
+                        force_weights[1],
+                    ],
+                ),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -836,10 +1053,20 @@ const _: () = {
                 &mut p[2],
                 step.p,
                 step.p_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.0),
-                    ::symplectic::Coefficient::exact(1.25),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact(1.25),
+                    ],
+                    [
+                        <V::Scalar as ::symplectic::Scalar>::from_f64(1.0),
+                        force_weights[1],
+                    ],
+                ),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
@@ -850,7 +1077,10 @@ const _: () = {
                     &p[0],
                     &mut velocity[0],
                 );
-            ::symplectic::scale(
+            ::symplectic::increment::<
+                R,
+                V,
+            >(
                 &mut velocity[0],
                 step.size,
                 ::symplectic::Coefficient::new(
@@ -866,7 +1096,10 @@ const _: () = {
                     &p[1],
                     &mut velocity[1],
                 );
-            ::symplectic::scale(
+            ::symplectic::increment::<
+                R,
+                V,
+            >(
                 &mut velocity[1],
                 step.size,
                 ::symplectic::Coefficient::new(
@@ -882,7 +1115,10 @@ const _: () = {
                     &p[2],
                     &mut velocity[2],
                 );
-            ::symplectic::scale(
+            ::symplectic::increment::<
+                R,
+                V,
+            >(
                 &mut velocity[2],
                 step.size,
                 ::symplectic::Coefficient::new(
@@ -899,15 +1135,65 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.25),
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact((-0.25)),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::exact(1.25),
+                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::Coefficient::exact((-0.25)),
+                    ],
+                    [velocity_weights[0], velocity_weights[1], velocity_weights[2]],
+                ),
                 [&velocity[0], &velocity[1], &velocity[2]],
                 &mut change.q,
             );
             change
+        }
+        #[inline]
+        fn increments<V: ::symplectic::Vector>(
+            step: &::symplectic::Step<'_, V>,
+            stages: &mut Self::Stages<V>,
+        ) {
+            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            ::symplectic::scale(
+                &mut force[1],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.6666666666666666,
+                    3.700743415417188e-17,
+                    0.6666667,
+                ),
+            );
+            ::symplectic::scale(
+                &mut velocity[0],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+            );
+            ::symplectic::scale(
+                &mut velocity[1],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.6666666666666666,
+                    3.700743415417188e-17,
+                    0.6666667,
+                ),
+            );
+            ::symplectic::scale(
+                &mut velocity[2],
+                step.size,
+                ::symplectic::Coefficient::new(
+                    0.16666666666666666,
+                    9.25185853854297e-18,
+                    0.16666667,
+                ),
+            );
         }
         #[inline]
         fn finish<

@@ -160,6 +160,26 @@ const _: () = {
         ) -> ::symplectic::Change {
             let ::symplectic::Stages { q, p, velocity, force } = stages;
             let mut change = ::symplectic::Change::default();
+            let force_weights = ::symplectic::weights::<
+                V::Scalar,
+                _,
+            >(
+                step.size,
+                [
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
+            );
+            let velocity_weights = ::symplectic::weights::<
+                V::Scalar,
+                _,
+            >(
+                step.size,
+                [
+                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::Coefficient::exact(0.5),
+                ],
+            );
             system
                 .force(
                     step.at(::symplectic::Coefficient::exact(0.0)),
@@ -167,11 +187,10 @@ const _: () = {
                     &p[0],
                     &mut force[0],
                 );
-            ::symplectic::scale(
-                &mut force[0],
-                step.size,
-                ::symplectic::Coefficient::exact(0.5),
-            );
+            ::symplectic::increment::<
+                R,
+                V,
+            >(&mut force[0], step.size, ::symplectic::Coefficient::exact(0.5));
             ::symplectic::relax::<
                 R,
                 V,
@@ -180,7 +199,11 @@ const _: () = {
                 &mut p[0],
                 step.p,
                 step.p_low,
-                ::symplectic::factors([::symplectic::Coefficient::exact(1.0)]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >([::symplectic::Coefficient::exact(1.0)], [force_weights[0]]),
                 [&force[0]],
                 &mut change.p,
             );
@@ -191,11 +214,10 @@ const _: () = {
                     &p[0],
                     &mut velocity[0],
                 );
-            ::symplectic::scale(
-                &mut velocity[0],
-                step.size,
-                ::symplectic::Coefficient::exact(0.5),
-            );
+            ::symplectic::increment::<
+                R,
+                V,
+            >(&mut velocity[0], step.size, ::symplectic::Coefficient::exact(0.5));
             system
                 .velocity(
                     step.at(::symplectic::Coefficient::exact(0.5)),
@@ -203,11 +225,10 @@ const _: () = {
                     &p[0],
                     &mut velocity[1],
                 );
-            ::symplectic::scale(
-                &mut velocity[1],
-                step.size,
-                ::symplectic::Coefficient::exact(0.5),
-            );
+            ::symplectic::increment::<
+                R,
+                V,
+            >(&mut velocity[1], step.size, ::symplectic::Coefficient::exact(0.5));
             ::symplectic::relax::<
                 R,
                 V,
@@ -216,14 +237,43 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.0),
-                    ::symplectic::Coefficient::exact(1.0),
-                ]),
+                ::symplectic::relative::<
+                    R,
+                    _,
+                    _,
+                >(
+                    [
+                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::Coefficient::exact(1.0),
+                    ],
+                    [velocity_weights[0], velocity_weights[1]],
+                ),
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
             change
+        }
+        #[inline]
+        fn increments<V: ::symplectic::Vector>(
+            step: &::symplectic::Step<'_, V>,
+            stages: &mut Self::Stages<V>,
+        ) {
+            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            ::symplectic::scale(
+                &mut force[0],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
+            ::symplectic::scale(
+                &mut velocity[0],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
+            ::symplectic::scale(
+                &mut velocity[1],
+                step.size,
+                ::symplectic::Coefficient::exact(0.5),
+            );
         }
         #[inline]
         fn finish<

@@ -1,13 +1,13 @@
 //! What the evaluations of a step are multiplied by, and when.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::super::known::Known;
 use super::{index, literal, relative, slot, start, terms_of};
 use crate::algebra::Number;
 use crate::schedule::{Evaluation, Node, StepGraph};
-use relative::{Relative, Rounded};
+use relative::Relative;
 
 /// The form of the sums that stages are.
 #[derive(Debug)]
@@ -25,33 +25,83 @@ impl Form {
         Relative::new(graph, known).map_or(Form::Weighted, Form::Increments)
     }
 
-    /// The factors and terms of a stage value as two arguments: `weights, [terms]`.
-    pub(super) fn sum(&self, graph: &StepGraph<'_>, node: Node) -> TokenStream {
+    /// The factors and terms of a stage value as two arguments: `factors, [terms]`. Those terms that a sweep has `evaluated` may be
+    /// no increments yet.
+    pub(super) fn sum(
+        &self,
+        graph: &StepGraph<'_>,
+        node: Node,
+        evaluated: impl Fn(Node) -> bool,
+    ) -> TokenStream {
         let term = terms_of(node);
         let value = graph.value(node);
         let coefficients = value.map_or(&[][..], |value| &value.coefficients);
         let nonzero = (0..coefficients.len()).filter(|&j| !coefficients[j].is_zero());
         let nonzero: Vec<usize> = nonzero.collect();
         let slots = nonzero.iter().map(|&j| slot(term(j)));
-        let factors = match (self, node) {
-            (Form::Increments(relative), Node::Momentum(i)) => {
-                factors(nonzero.iter().map(|&j| relative.momenta[i][j]))
+        let factors = match self {
+            Form::Increments(relative) => {
+                let row = match node {
+                    Node::Momentum(i) => &relative.momenta[i],
+                    _ => &relative.positions[index(node)],
+                };
+                let row = nonzero.iter().map(|&j| literal::rounded(row[j]));
+                if nonzero.iter().any(|&j| evaluated(term(j))) {
+                    // What came before the sweeps is an increment already.
+                    let weights = nonzero.iter().map(|&j| match evaluated(term(j)) {
+                        true => weight_slot(term(j)),
+                        false => quote!(<V::Scalar as ::symplectic::Scalar>::from_f64(1.0)),
+                    });
+                    quote!(::symplectic::relative::<R, _, _>([#(#row),*], [#(#weights),*]))
+                } else {
+                    quote!(::symplectic::factors([#(#row),*]))
+                }
             }
-            (Form::Increments(relative), _) => {
-                factors(nonzero.iter().map(|&j| relative.positions[index(node)][j]))
-            }
-            (Form::Weighted, _) => weights(nonzero.iter().map(|&j| &coefficients[j])),
+            Form::Weighted => weights(nonzero.iter().map(|&j| &coefficients[j])),
         };
         quote!(#factors, [#(&#slots),*])
     }
 
     /// What makes an increment of an evaluation that has just been written into its place; nothing in the other form.
     pub(super) fn increment(&self, evaluation: &Evaluation<'_>, node: Node) -> TokenStream {
+        self.scaled(evaluation, node, &quote!(::symplectic::scale))
+    }
+
+    /// [`increment`](Self::increment) in a sweep, where it may be left for later.
+    pub(super) fn increment_in_sweep(
+        &self,
+        evaluation: &Evaluation<'_>,
+        node: Node,
+    ) -> TokenStream {
+        self.scaled(evaluation, node, &quote!(::symplectic::increment::<R, V>))
+    }
+
+    fn scaled(
+        &self,
+        evaluation: &Evaluation<'_>,
+        node: Node,
+        function: &TokenStream,
+    ) -> TokenStream {
         match self {
             Form::Weighted => TokenStream::new(),
             Form::Increments(_) => {
                 let (slot, weight) = (slot(node), literal::coefficient(&evaluation.weight));
-                quote!(::symplectic::scale(&mut #slot, step.size, #weight);)
+                quote!(#function(&mut #slot, step.size, #weight);)
+            }
+        }
+    }
+
+    /// The weights that make increments of all evaluations of a kind, under the name that [`sum`](Self::sum) has for them; nothing
+    /// in the other form.
+    pub(super) fn weights(&self, evaluations: &[Evaluation<'_>], kind: Node) -> TokenStream {
+        match self {
+            Form::Weighted => TokenStream::new(),
+            Form::Increments(_) => {
+                let name = weights_name(kind);
+                let weights = evaluations
+                    .iter()
+                    .map(|evaluation| literal::coefficient(&evaluation.weight));
+                quote!(let #name = ::symplectic::weights::<V::Scalar, _>(step.size, [#(#weights),*]);)
             }
         }
     }
@@ -100,10 +150,18 @@ impl Form {
     }
 }
 
-/// Factors of increments, as they are.
-fn factors(values: impl Iterator<Item = Rounded>) -> TokenStream {
-    let values = values.map(literal::rounded);
-    quote!(::symplectic::factors([#(#values),*]))
+/// The weights of the evaluations of a kind.
+fn weights_name(kind: Node) -> Ident {
+    literal::identifier(match kind {
+        Node::Force(_) | Node::Position(_) => "force_weights",
+        Node::Velocity(_) | Node::Momentum(_) => "velocity_weights",
+    })
+}
+
+/// The weight of an evaluation among those of its kind.
+fn weight_slot(node: Node) -> TokenStream {
+    let (name, index) = (weights_name(node), literal::count(index(node)));
+    quote!(#name[#index])
 }
 
 /// Factors of evaluations, times the step size.

@@ -34,6 +34,8 @@ struct Bodies {
     stages: TokenStream,
     begin: TokenStream,
     sweep: TokenStream,
+    /// What comes after the last sweep where sums are plain, if anything.
+    increments: Option<TokenStream>,
     finish: TokenStream,
     /// Evaluations in `begin`, for starting values, in a sweep and in `finish`.
     counts: [usize; 4],
@@ -113,9 +115,18 @@ fn of_stages(
         stages,
         begin,
         sweep,
+        increments,
         finish,
         ..
     } = bodies;
+    let increments = increments.map(|increments| {
+        quote! {
+            #[inline]
+            fn increments<V: ::symplectic::Vector>(step: &::symplectic::Step<'_, V>, stages: &mut Self::Stages<V>) {
+                #increments
+            }
+        }
+    });
     let class = class_name(graph.class);
     let coupling = identifier(bodies.coupling);
     let [at_begin, at_start, in_sweep, at_finish] = bodies.counts.map(Literal::usize_unsuffixed);
@@ -149,6 +160,8 @@ fn of_stages(
             fn sweep<R: ::symplectic::Summation, V: ::symplectic::Vector, #system>(#arguments) -> ::symplectic::Change {
                 #sweep
             }
+
+            #increments
 
             #[inline]
             fn finish<R: ::symplectic::Summation, V: ::symplectic::Vector, #system, W: ::symplectic::Witness>(

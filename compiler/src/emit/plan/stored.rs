@@ -37,7 +37,8 @@ impl<'g, 'a> Stored<'g, 'a> {
         let forces = literal::count(self.graph.forces.len());
         let velocities = literal::count(self.graph.velocities.len());
         let slots = quote!(let ::symplectic::Stages { q, p, velocity, force } = stages;);
-        let [begin, sweep, finish] = [self.begin(), self.sweep(), self.finish()];
+        let [begin, sweep] = [self.begin(), self.sweep()];
+        let [increments, finish] = [self.increments(), self.finish()];
         let evaluations = |nodes: &[Node]| {
             nodes
                 .iter()
@@ -54,6 +55,7 @@ impl<'g, 'a> Stored<'g, 'a> {
             stages: quote!(::symplectic::Stages<V, #forces, #velocities>),
             begin: quote!(#slots #begin),
             sweep: quote!(#slots #sweep),
+            increments: (!increments.is_empty()).then(|| quote!(#slots #increments)),
             finish: quote!(#slots #finish),
             counts: [
                 evaluations(&self.phases.begin),
@@ -179,23 +181,50 @@ impl<'g, 'a> Stored<'g, 'a> {
         };
         let mut nodes = self.phases.coupled.clone();
         nodes.sort_by_key(rank);
+        let weights = [
+            (&self.graph.forces, Node::Force(0)),
+            (&self.graph.velocities, Node::Velocity(0)),
+        ];
+        let weights = (weights.into_iter())
+            .filter(|&(_, kind)| !self.coupled_of_kind(kind).is_empty())
+            .map(|(evaluations, kind)| self.form.weights(evaluations, kind));
         let lines = nodes.iter().map(|&node| match self.graph.value(node) {
             Some(value) if !value.is_start() => {
                 let (stage, base) = (slot(node), base(node));
-                let sum = self.form.sum(self.graph, node);
+                let sum = (self.form).sum(self.graph, node, |term| self.is_swept(term));
                 let change = literal::identifier(match node {
                     Node::Position(_) => "q",
                     _ => "p",
                 });
                 quote!(::symplectic::relax::<R, V, _>(&mut #stage, #base, #sum, &mut change.#change);)
             }
-            _ => self.compute(node),
+            Some(_) => TokenStream::new(),
+            None => {
+                let evaluation = self.graph.evaluation(node);
+                let increment = self.form.increment_in_sweep(evaluation, node);
+                self.evaluation(node, &increment)
+            }
         });
         quote! {
             let mut change = ::symplectic::Change::default();
+            #(#weights)*
             #(#lines)*
             change
         }
+    }
+
+    /// What makes increments of the evaluations of sweeps.
+    fn increments(&self) -> TokenStream {
+        let nodes = self.phases.coupled.iter().copied();
+        let lines = nodes.filter(|&node| self.is_swept(node));
+        let lines = lines.map(|node| self.increment(node));
+        quote!(#(#lines)*)
+    }
+
+    /// Whether a node is an evaluation that sweeps make, and an increment in the end.
+    fn is_swept(&self, node: Node) -> bool {
+        let evaluation = self.graph.value(node).is_none();
+        evaluation && self.phases.coupled.contains(&node) && !self.is_kept(node)
     }
 
     fn finish(&self) -> TokenStream {
@@ -240,15 +269,15 @@ impl<'g, 'a> Stored<'g, 'a> {
             Some(value) if value.is_start() => TokenStream::new(),
             Some(_) => {
                 let (stage, base) = (slot(node), base(node));
-                let sum = self.form.sum(self.graph, node);
+                let sum = self.form.sum(self.graph, node, |_| false);
                 quote!(::symplectic::combine::<R, V, _>(&mut #stage, #base, #sum);)
             }
-            None => self.evaluation(node),
+            None => self.evaluation(node, &self.increment(node)),
         }
     }
 
-    /// The lines that make an evaluation and its increment.
-    fn evaluation(&self, node: Node) -> TokenStream {
+    /// The lines that make an evaluation and its `increment`.
+    fn evaluation(&self, node: Node, increment: &TokenStream) -> TokenStream {
         let evaluation = self.graph.evaluation(node);
         let argument = |index: Option<usize>, kind: fn(usize) -> Node| match index {
             Some(index) => self.argument(kind(index)),
@@ -262,7 +291,6 @@ impl<'g, 'a> Stored<'g, 'a> {
             let evaluate = self.evaluate_into(node, last, &q, &p);
             let array = evaluation_name(node);
             let [from, to] = [last, node].map(|node| literal::count(index(node)));
-            let increment = self.increment(node);
             return quote! {
                 if !kept.evaluation { #evaluate }
                 ::symplectic::copy_to(#array, #from, [#to]);
@@ -270,7 +298,7 @@ impl<'g, 'a> Stored<'g, 'a> {
             };
         }
         let evaluate = self.evaluate(node, &q, &p);
-        let increment = (!self.is_kept(node)).then(|| self.increment(node));
+        let increment = (!self.is_kept(node)).then_some(increment);
         quote!(#evaluate #increment)
     }
 
