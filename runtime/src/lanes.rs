@@ -6,12 +6,13 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 use num_traits::{One, Zero};
 
 use crate::array::array;
+use crate::scalar::elementary;
 use crate::{Components, Hamiltonian, Scalar, Vector};
 
 /// A few doubles side by side, in one register of the processor where it has so wide ones.
 ///
-/// Every lane is computed as a double of its own would be, to the last bit; elementary functions other than the square
-/// root are taken lane by lane. How wide the registers are is the target's: with `-C target-cpu=native` the compiler
+/// Every lane is computed as a double of its own would be, to the last bit, by all lanes at once; only `tan`, inverse and hyperbolic
+/// functions are taken lane by lane. How wide the registers are is the target's: with `-C target-cpu=native` the compiler
 /// uses all that the processor has.
 ///
 /// ```
@@ -19,7 +20,7 @@ use crate::{Components, Hamiltonian, Scalar, Vector};
 ///
 /// let x = F64x4::from_fn(|lane| lane as f64);
 /// assert_eq!((x * x + F64x4::from_f64(0.5)).to_array(), [0.5, 1.5, 4.5, 9.5]);
-/// assert_eq!(x.sin().to_array()[3], 3.0_f64.sin());
+/// assert_eq!(x.sin().to_array()[3], Scalar::sin(3.0_f64));
 /// ```
 pub trait Lanes: Scalar {
     /// One double for each lane.
@@ -187,7 +188,7 @@ macro_rules! lanes {
     ($name:ident, $inner:ty, $width:literal, $text:literal) => {
         #[doc = $text]
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct $name($inner);
+        pub struct $name(pub(crate) $inner);
 
         operator! { $name,
             Add add AddAssign add_assign, Sub sub SubAssign sub_assign,
@@ -269,20 +270,9 @@ macro_rules! lanes {
                 Self(self.0.abs())
             }
 
-            #[inline]
-            fn sin_cos(self) -> (Self, Self) {
-                let lanes = self.to_array();
-                let (mut sines, mut cosines) = (lanes, lanes);
-                for lane in 0..$width {
-                    (sines[lane], cosines[lane]) = Scalar::sin_cos(lanes[lane]);
-                }
-                (
-                    Self::from_fn(|lane| sines[lane]),
-                    Self::from_fn(|lane| cosines[lane]),
-                )
-            }
+            elementary! { exp -> Self, ln -> Self, sin -> Self, cos -> Self, sin_cos -> (Self, Self) }
 
-            lane_by_lane! { exp ln sin cos tan asin acos atan sinh cosh tanh }
+            lane_by_lane! { tan asin acos atan sinh cosh tanh }
         }
 
         impl Lanes for $name {

@@ -55,11 +55,11 @@
 //!
 //! # Features
 //!
-//! * `std` (default): elementary functions from the standard library; implies `alloc`.
+//! * `std` (default): `tan`, inverse and hyperbolic functions from the standard library; implies `alloc`.
 //! * `alloc`: dynamic vectors, [`nalgebra::DVector`], [`Newton`], and [`generating_function`].
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and [`Newton`] takes derivatives by dual numbers; implies `std`.
 //! * `report`: the module `report`, error against run time of methods on a problem, as a page, plots and data; implies `std`.
-//! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, elementary functions from `libm`.
+//! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, these functions from `libm`.
 
 #![no_std]
 
@@ -86,6 +86,7 @@ mod composition;
 mod coupled;
 mod dense;
 mod diagnosis;
+mod elementary;
 mod error;
 mod event;
 mod explicit;

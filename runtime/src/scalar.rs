@@ -13,6 +13,10 @@ use crate::Coefficient;
 /// supertraits, which are also what nalgebra asks for `q + p`, `q * s`, `-q` and `q.dot(&p)`. There is no order
 /// among scalars, for side by side numbers have none: code that is generic over them cannot branch on a value.
 ///
+/// Sine, cosine, exponential function and logarithm of doubles are made of the same operations on every platform and in
+/// [lanes](crate::Lanes), with an error below one unit in the last place; they are not to the last bit those of `f64`, which are
+/// the platform's. `Scalar::sin(x)` names them where `x` is known to be an f64.
+///
 /// ```
 /// use symplectic::Scalar;
 /// use symplectic::nalgebra::SVector;
@@ -174,8 +178,21 @@ macro_rules! forward {
     };
 }
 
+/// Functions of [`elementary`](crate::elementary).
+macro_rules! elementary {
+    ($($function:ident -> $result:ty),*) => {
+        $(
+            #[inline(always)]
+            fn $function(self) -> $result {
+                $crate::elementary::$function(self)
+            }
+        )*
+    };
+}
+pub(crate) use elementary;
+
 macro_rules! float {
-    ($float:ident, $from:expr, $into:expr, $coefficient:ident $(, $doubles:item)*) => {
+    ($float:ident, $from:expr, $into:expr, $coefficient:ident, { $($own:tt)* }) => {
         impl Scalar for $float {
             const EPSILON: f64 = $into($float::EPSILON);
 
@@ -203,14 +220,9 @@ macro_rules! float {
                 }
             }
 
-            #[inline]
-            fn sin_cos(self) -> (Self, Self) {
-                Float::sin_cos(self)
-            }
+            forward! { sqrt recip abs tan asin acos atan sinh cosh tanh }
 
-            $($doubles)*
-
-            forward! { sqrt recip abs exp ln sin cos tan asin acos atan sinh cosh tanh }
+            $($own)*
         }
     };
 }
@@ -227,18 +239,24 @@ const fn widen(value: f32) -> f64 {
     value as f64
 }
 
-float!(
-    f64,
-    same,
-    same,
-    double,
+float!(f64, same, same, double, {
     #[inline(always)]
     fn doubles(numbers: &[f64]) -> Option<&[f64]> {
         Some(numbers)
-    },
+    }
+
     #[inline(always)]
     fn doubles_mut(numbers: &mut [f64]) -> Option<&mut [f64]> {
         Some(numbers)
     }
-);
-float!(f32, narrow, widen, single);
+
+    elementary! { exp -> Self, ln -> Self, sin -> Self, cos -> Self, sin_cos -> (Self, Self) }
+});
+float!(f32, narrow, widen, single, {
+    forward! { exp ln sin cos }
+
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        Float::sin_cos(self)
+    }
+});

@@ -30,8 +30,7 @@ pub trait Lanes:
     fn halves(self) -> (Self::Half, Self::Half);
     /// √x.
     fn sqrt(self) -> Self;
-    /// Sine and cosine, lane by lane with the functions of the standard library: the results are those of scalar code,
-    /// to the last bit.
+    /// Sine and cosine: those of `wide`.
     fn sin_cos(self) -> (Self, Self);
     /// Sine, as [`sin_cos`](Self::sin_cos).
     fn sin(self) -> Self;
@@ -196,16 +195,12 @@ macro_rules! lanes {
 
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                let pairs = self.to_array().map(f64::sin_cos);
-                (
-                    Self::new(pairs.map(|(sine, _)| sine)),
-                    Self::new(pairs.map(|(_, cosine)| cosine)),
-                )
+                self.sin_cos()
             }
 
             #[inline(always)]
             fn sin(self) -> Self {
-                Self::new(self.to_array().map(f64::sin))
+                self.sin()
             }
 
             #[inline(always)]
