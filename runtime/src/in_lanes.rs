@@ -3,9 +3,11 @@
 use core::marker::PhantomData;
 use core::mem;
 
+use num_traits::Zero;
+
 use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::kernel::sum_of_products;
-use crate::lane_movement::{LaneMovement, LanePart};
+use crate::lane_movement::{LaneMovement, part_change};
 use crate::lane_stages::{LaneStages, Laned};
 use crate::summation::{Beyond, add, moved};
 use crate::vector::{LIGHT, is_in_place};
@@ -207,11 +209,19 @@ where
 
     #[inline(always)]
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
-        let (step, stages) = (self.step, &*self.stages);
+        let half = |movement, base, stages: &[_]| {
+            let scale = scale_of::<P, V>(base, stages);
+            part_change(movement, scale, are_numbers::<P, V>(stages))
+        };
         Change {
-            q: (movement.q).change(scale_of::<P, V>(step.q, stages.q.as_ref())),
-            p: (movement.p).change(scale_of::<P, V>(step.p, stages.p.as_ref())),
+            q: half(movement.q, self.step.q, self.stages.q.as_ref()),
+            p: half(movement.p, self.step.p, self.stages.p.as_ref()),
         }
+    }
+
+    #[inline(always)]
+    fn is_number(&self, _movement: &LaneMovement<P::Lanes>) -> bool {
+        are_numbers::<P, V>(self.stages.q.as_ref()) && are_numbers::<P, V>(self.stages.p.as_ref())
     }
 
     #[inline(always)]
@@ -244,6 +254,21 @@ pub(crate) fn scale_of<P: StageTableau, V: Vector<Scalar = f64>>(
         }
     }
     scale
+}
+
+/// Whether all components are finite.
+#[inline(always)]
+pub(crate) fn are_numbers<P: StageTableau, V: Vector<Scalar = f64>>(
+    groups: &[Laned<V, P>],
+) -> bool {
+    let zero = P::Lanes::from_f64(0.0);
+    let mut sum = zero;
+    for group in groups {
+        for component in group.as_slice() {
+            sum = component.fused(zero, sum);
+        }
+    }
+    !sum.any_nan()
 }
 
 /// Whether the largest lane is another size but for a factor of two.
@@ -303,7 +328,7 @@ where
 
     /// New positions, of velocities that are increments or not yet; returns how much they changed.
     #[inline(always)]
-    pub(crate) fn positions(&mut self, of_increments: bool) -> LanePart<P::Lanes> {
+    pub(crate) fn positions(&mut self, of_increments: bool) -> P::Lanes {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.q, step.q_low);
         let sums = sums::<R, P>((&P::POSITIONS, &P::MOMENTA), step.size, of_increments);
@@ -313,7 +338,7 @@ where
 
     /// New momenta, of forces that are increments or not yet; returns how much they changed.
     #[inline(always)]
-    pub(crate) fn momenta(&mut self, of_increments: bool) -> LanePart<P::Lanes> {
+    pub(crate) fn momenta(&mut self, of_increments: bool) -> P::Lanes {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.p, step.p_low);
         let sums = sums::<R, P>((&P::MOMENTA, &P::POSITIONS), step.size, of_increments);
@@ -507,7 +532,7 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     (base, low): (&V, &V),
     terms: &[Laned<V, P>],
     value: impl Fn((usize, usize), (P::Lanes, P::Lanes), P::Lanes) -> P::Lanes,
-) -> LanePart<P::Lanes> {
+) -> P::Lanes {
     let n = shortest(out)
         .min(shortest(terms))
         .min(base.dimension())
@@ -516,7 +541,7 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     if mem::needs_drop::<V>() {
         return long_values::<P, V>(sums, out, (base, low), terms, value);
     }
-    let mut part: Option<LanePart<P::Lanes>> = None;
+    let mut largest: Option<P::Lanes> = None;
     for k in 0..n {
         let start = P::Lanes::from_f64(base[k]);
         for (group, out) in out.iter_mut().enumerate() {
@@ -528,10 +553,10 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
             let new = moved(sums.beyond, *component, new);
             let change = (new - *component).abs();
             *component = new;
-            part = Some(LanePart::noted(part, change));
+            largest = Some(larger(largest, change));
         }
     }
-    part.unwrap_or_else(LanePart::none)
+    largest.unwrap_or_else(P::Lanes::zero)
 }
 
 /// [`values`] of vectors on the heap, which has looked where their components are: else it would be done again after every one that is
@@ -543,7 +568,7 @@ fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
     (base, low): (&[f64], &[f64]),
     terms: &[Laned<V, P>],
     value: impl Fn((usize, usize), (P::Lanes, P::Lanes), P::Lanes) -> P::Lanes,
-) -> LanePart<P::Lanes> {
+) -> P::Lanes {
     let n = base.len();
     let mut places = out.iter_mut();
     let mut out = P::groups(|_| match places.next() {
@@ -552,7 +577,7 @@ fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
     });
     let terms = P::groups(|group| &terms[group].as_slice()[..n]);
     let (out, terms) = (out.as_mut(), terms.as_ref());
-    let mut part: Option<LanePart<P::Lanes>> = None;
+    let mut largest: Option<P::Lanes> = None;
     for k in 0..n {
         let [start, low] = [base[k], low[k]].map(P::Lanes::from_f64);
         for (group, out) in out.iter_mut().enumerate() {
@@ -563,10 +588,16 @@ fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
             let new = moved(sums.beyond, out[k], new);
             let change = (new - out[k]).abs();
             out[k] = new;
-            part = Some(LanePart::noted(part, change));
+            largest = Some(larger(largest, change));
         }
     }
-    part.unwrap_or_else(LanePart::none)
+    largest.unwrap_or_else(P::Lanes::zero)
+}
+
+/// With one more change: not from zero, which the compiler has to compare.
+#[inline(always)]
+pub(crate) fn larger<L: Lanes>(largest: Option<L>, change: L) -> L {
+    largest.map_or(change, |largest| largest.larger(change))
 }
 
 /// `base + sum`, for a sum with what the base leaves out.

@@ -75,6 +75,13 @@ pub(crate) trait Sweeps {
     /// By how much that moved them altogether.
     fn change(&self, movement: &Self::Movement) -> Change;
 
+    /// Whether the last sweep led to numbers, where its movement may have lost what is none. Evaluations where there is none are none
+    /// either, or do not depend on it: so it is enough to look at the stages where an iteration could end.
+    #[inline(always)]
+    fn is_number(&self, _movement: &Self::Movement) -> bool {
+        true
+    }
+
     /// [`patiently`], in another place where that leaves these stages in registers.
     fn go_on<C: Class, T: Scalar>(
         &mut self,
@@ -97,15 +104,15 @@ pub(crate) trait Sweeps {
     }
 }
 
-/// How a sweep moved the stages.
+/// How a sweep moved the stages. What is not a number may be lost: see [`Sweeps::is_number`].
 pub(crate) trait Movement: Copy {
-    /// Whether it is a number, and by how much the positions moved, and the momenta where they count, not above these bounds.
+    /// Whether the positions moved, and the momenta where they count, by no more than these bounds.
     fn is_within(&self, bounds: [f64; 2], both: bool) -> bool;
 
     /// [`is_within`](Self::is_within), but either half will do where the momenta do not count: [`Class::settling`].
     fn settles_within(&self, bounds: [f64; 2], both: bool) -> bool;
 
-    /// Whether it is a number, and by how much the positions moved, and the momenta where they count, above these bounds.
+    /// Whether the positions moved, and the momenta where they count, by more than these bounds.
     fn exceeds(&self, bounds: [f64; 2], both: bool) -> bool;
 
     /// Whether the positions, and the momenta where they count, [would move](is_next_within) by no more than these bounds next.
@@ -114,7 +121,7 @@ pub(crate) trait Movement: Copy {
     /// By how much the positions moved; where the momenta count, the larger of both, each multiplied by its weight.
     fn size(&self, weights: [f64; 2], both: bool) -> f64;
 
-    /// Whether that is below this, but not zero. What is not a number may be lost: [`settles_within`](Self::settles_within) sees it.
+    /// Whether that is below this, but not zero.
     fn shrinks(&self, below: f64, weights: [f64; 2], both: bool) -> bool;
 }
 

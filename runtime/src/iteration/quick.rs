@@ -62,7 +62,7 @@ fn to_tolerance<W: Sweeps>(
     while iterations + 1 < late {
         let this = sweeps.sweep();
         iterations += 1;
-        if this.is_within([tolerance; 2], both) {
+        if this.is_within([tolerance; 2], both) && sweeps.is_number(&this) {
             return Ok(iterations);
         }
     }
@@ -91,7 +91,10 @@ fn to_rounding<T: Scalar, W: Sweeps>(
                 let next = |before| this.is_next_within(&before, one, both);
                 this.is_within(one, both) || begun.before.is_some_and(next)
             };
-            if is_last(size.scales) && sweeps.are_about(&this, size.scales, both) {
+            if is_last(size.scales)
+                && sweeps.are_about(&this, size.scales, both)
+                && sweeps.is_number(&this)
+            {
                 return Ok((begun.iterations, size.scales));
             }
             let scales = sweeps.change(&this).scales();
@@ -162,7 +165,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
         this = sweeps.sweep();
         begun.iterations += 1;
     }
-    if !this.settles_within(size.near, both) {
+    if !(this.settles_within(size.near, both) && sweeps.is_number(&this)) {
         begun.last = Some(this);
         return Err(begun);
     }

@@ -3,13 +3,15 @@
 use core::marker::PhantomData;
 use core::mem;
 
+use num_traits::Zero;
+
 use super::{Positions, Start, apart, eliminates, of_forces, of_increments, position, tableau};
 use crate::in_lanes::{
     Sums, combination, increment_factor, is_about, lane_of, lanes, scale_of, times,
 };
 use crate::iteration::{Begun, Sweeps};
 use crate::kernel::sum_of_products;
-use crate::lane_movement::{LaneMovement, LanePart};
+use crate::lane_movement::{LaneMovement, part_change};
 use crate::starting_values::starts_at_once;
 use crate::{
     Change, Class, Components, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, Kept,
@@ -58,16 +60,17 @@ where
         scale_of::<P, V>(self.positions.lanes.step.q, &[]).larger(self.largest)
     }
 
-    /// The forces at the positions that are these sums of them; returns how much they changed.
+    /// The forces at the positions that are these sums of them; returns how much they changed, NaN in lanes where that is no finite
+    /// number.
     #[inline(always)]
     fn walk(
         &mut self,
         sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
-    ) -> LanePart<P::Lanes> {
+    ) -> P::Lanes {
         let lanes = &mut self.positions.lanes;
         let (step, stages) = (lanes.step, &mut *lanes.stages);
         let [force, ..] = stages.force.as_mut() else {
-            return LanePart::none();
+            return P::Lanes::zero();
         };
         let force = force.as_mut_slice();
         let n = (force.len().min(step.q.dimension()))
@@ -81,13 +84,17 @@ where
             p: &step.p.as_slice()[..n],
             force: &mut force[..n],
             largest: P::Lanes::from_f64(0.0),
-            part: None,
+            changes: None,
             summation: PhantomData,
         };
         let time = times::<P, V>(&P::POSITIONS, step, 0);
         P::Lanes::local_force::<V, S>(lanes.system, time, &mut along);
         self.largest = along.largest;
-        along.part.unwrap_or_else(LanePart::none)
+        let (largest, sum) = along
+            .changes
+            .unwrap_or_else(|| (P::Lanes::zero(), P::Lanes::zero()));
+        // The larger ones may have lost what is not a number.
+        largest + sum * P::Lanes::zero()
     }
 
     /// [`walk`](Self::walk), but by how much the next positions can differ from those that the forces are at, but for rounding.
@@ -95,25 +102,17 @@ where
     fn moves(
         &mut self,
         sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
-    ) -> LanePart<P::Lanes> {
-        let LanePart {
-            difference: changes,
-            sum,
-        } = self.walk(sums);
+    ) -> P::Lanes {
+        let changes = self.walk(sums);
         let h = self.positions.lanes.step.size;
-        let difference = sum_of_products(None, sums.count, |j| {
+        sum_of_products(None, sums.count, |j| {
             let factor = P::Lanes::from_f64((sums.factor)(j).unwrap_or(h));
             let column: P::Lanes = lanes((sums.column)(j), 0);
             (
                 (column * factor).abs(),
                 P::Lanes::from_f64(lane_of(changes, j)),
             )
-        });
-        LanePart {
-            difference,
-            // What is infinite is no number in a product with zero.
-            sum: sum + difference,
-        }
+        })
     }
 }
 
@@ -127,7 +126,8 @@ struct Along<'a, P: StageTableau, R, C, F> {
     /// Those of the sweep before, and the new ones where they have been set; or the increments made of them.
     force: &'a mut [P::Lanes],
     largest: P::Lanes,
-    part: Option<LanePart<P::Lanes>>,
+    /// The largest change of a force, and the sum of all changes.
+    changes: Option<(P::Lanes, P::Lanes)>,
     summation: PhantomData<R>,
 }
 
@@ -174,7 +174,10 @@ where
         };
         let change = (new - *place).abs();
         *place = new;
-        self.part = Some(LanePart::noted(self.part, change));
+        self.changes = Some(match self.changes {
+            Some((largest, sum)) => (largest.larger(change), sum + change),
+            None => (change, change),
+        });
     }
 }
 
@@ -248,8 +251,13 @@ where
 
     #[inline(always)]
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
-        let q = movement.q.change(self.scale());
+        let q = part_change(movement.q, self.scale(), self.is_number(movement));
         Change { q, p: q }
+    }
+
+    #[inline(always)]
+    fn is_number(&self, movement: &LaneMovement<P::Lanes>) -> bool {
+        !movement.q.any_nan()
     }
 
     #[inline(always)]
