@@ -22,23 +22,24 @@ impl<V: Vector, P: StageTableau> LaneStages<V, P> {
     #[inline(always)]
     pub(crate) fn take(&mut self, with_values: bool) -> Self {
         let blank = || P::groups(|_| Laned::<V, P>::blank());
-        let (q, p) = match with_values {
-            true => (
-                mem::replace(&mut self.q, blank()),
-                mem::replace(&mut self.p, blank()),
-            ),
-            false => (blank(), blank()),
-        };
-        Self {
-            q,
-            p,
+        let mut taken = Self {
+            q: blank(),
+            p: blank(),
             velocity: mem::replace(&mut self.velocity, blank()),
             force: mem::replace(&mut self.force, blank()),
+        };
+        // Not one of two values that are moved to one place: the compiler would move from one of two places, and keep both in memory.
+        if with_values {
+            taken.q = mem::replace(&mut self.q, blank());
+            taken.p = mem::replace(&mut self.p, blank());
         }
+        taken
     }
 }
 
 impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for LaneStages<V, P> {
+    const BROADCASTS: bool = P::Lanes::WIDTH > 4;
+
     fn like(prototype: &V) -> Self {
         let zeros = || P::groups(|_| prototype.zeros_with::<P::Lanes>());
         Self {

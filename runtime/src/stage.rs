@@ -6,6 +6,9 @@ use crate::{Quantity, Scalar, Vector};
 
 /// Memory of one [`Plan`](crate::Plan), made once and used for every step.
 pub trait StageStorage<V: Vector>: Sized {
+    /// Whether single doubles are read from groups of lanes that processors read faster from memory than from a register.
+    const BROADCASTS: bool = false;
+
     /// Storage for vectors of the dimension of `prototype`; every component is zero.
     fn like(prototype: &V) -> Self;
 

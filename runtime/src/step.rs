@@ -96,7 +96,7 @@ impl<V> Outcome<'_, V> {
 }
 
 /// What the memory of the stages still holds from the step before.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kept {
     /// The evaluations at its end that are those at the start of this step, if there are any.
     pub evaluation: bool,
@@ -115,6 +115,14 @@ impl Kept {
             stages,
             scales: [0.0; 2],
         }
+    }
+}
+
+impl Default for Kept {
+    /// Nothing. Written out, for that of an array would be a call: see [`array`](mod@crate::array).
+    #[inline(always)]
+    fn default() -> Self {
+        Self::new(false, false)
     }
 }
 

@@ -5,7 +5,7 @@ use core::ops::AddAssign;
 use crate::Quantity;
 
 /// What a step took.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Work {
     /// Sweeps of the fixed-point iteration, or of another one.
     pub iterations: u32,
@@ -19,6 +19,20 @@ pub struct Work {
     /// where that is not known. Without a tolerance it is right but for a factor of two; of momenta where they show that an iteration
     /// goes on, which in plain sums those of a separable system do not.
     pub scales: [f64; 2],
+}
+
+impl Default for Work {
+    /// Nothing. Written out, for that of an array would be a call: see [`array`](mod@crate::array).
+    #[inline(always)]
+    fn default() -> Self {
+        Self {
+            iterations: 0,
+            evaluations: 0,
+            factorisations: 0,
+            rejected: 0,
+            scales: [0.0; 2],
+        }
+    }
 }
 
 impl AddAssign for Work {

@@ -1,6 +1,6 @@
 //! Many steps of one size, in place where that can be.
 
-use core::mem;
+use core::{hint, mem};
 
 use super::{Course, Integrator, MemoryOf, PlanOf};
 use crate::moves::Waiting;
@@ -193,8 +193,8 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     /// Takes steps until one fails; returns how many were taken, none where the first does not change the time. The last of
     /// them goes to the time `end`, if it is given.
     ///
-    /// What they change is moved out of the memory of the integrator, so that it is in registers from step to step. If the
-    /// system panics, the state is that before.
+    /// What they change is moved out of the memory of the integrator, so that it is in registers from step to step, or where it is read
+    /// faster. If the system panics, the state is that before.
     #[inline]
     fn advance_apart(
         &mut self,
@@ -205,6 +205,10 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     ) -> Result<u64, Error> {
         let before = self.course.anew();
         let mut course = mem::replace(&mut self.course, before);
+        if <MemoryOf<M, S, V, N> as StageStorage<V>>::BROADCASTS {
+            // Nothing is done with it, but the compiler does not know, and leaves it in memory.
+            hint::black_box(&mut course);
+        }
         let mut failed = None;
         let mut taken = 0;
         while taken < steps && failed.is_none() {

@@ -176,8 +176,9 @@ fn swap<V: Vector>(a: &mut V, b: &mut V) {
             *a = mem::replace(b, first);
         }
         true => {
-            for (a, b) in a.as_mut_slice().iter_mut().zip(b.as_mut_slice()) {
-                (*a, *b) = (*b, *a);
+            let (a, b) = (a.as_mut_slice(), b.as_mut_slice());
+            for k in 0..a.len().min(b.len()) {
+                (a[k], b[k]) = (b[k], a[k]);
             }
         }
         false => mem::swap(a, b),

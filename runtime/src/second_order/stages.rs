@@ -11,6 +11,8 @@ pub struct SecondOrderStages<V: Vector, P: StageTableau> {
 }
 
 impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SecondOrderStages<V, P> {
+    const BROADCASTS: bool = <LaneStages<V, P> as StageStorage<V>>::BROADCASTS;
+
     fn like(prototype: &V) -> Self {
         Self {
             lanes: LaneStages::like(prototype),

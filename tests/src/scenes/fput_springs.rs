@@ -52,7 +52,10 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for FputSprings {
 
     #[inline]
     fn force(&self, _time: T, q: &SVector<T, COORDINATES>, force: &mut SVector<T, COORDINATES>) {
-        let tensions = elongations(q).map(|d| d * d * d);
+        let mut tensions = elongations(q);
+        for d in &mut tensions {
+            *d = *d * *d * *d;
+        }
         let stiffness = T::from_f64(self.omega * self.omega);
         for i in 0..SPRINGS {
             let (left, right) = (tensions[i], tensions[i + 1]);
