@@ -11,6 +11,7 @@
 //! What is different: all three parts of π/2 are always taken, so that there is no branch on `y`.
 
 use super::{Doubles, TO_INTEGER, polynomial};
+use crate::Scalar;
 
 /// 2/π.
 const QUARTERS: f64 = core::f64::consts::FRAC_2_PI;
@@ -49,7 +50,7 @@ const NEAR: f64 = 8e5;
 /// Sine and cosine.
 #[inline(always)]
 pub(crate) fn sin_cos<D: Doubles>(x: D) -> (D, D) {
-    if !x.all_between(-NEAR, NEAR) {
+    if !x.abs().all_below(NEAR) {
         return (x.one_by_one(any_sine), x.one_by_one(any_cosine));
     }
     let angle = Angle::new(x);
@@ -59,7 +60,7 @@ pub(crate) fn sin_cos<D: Doubles>(x: D) -> (D, D) {
 /// Sine.
 #[inline(always)]
 pub(crate) fn sin<D: Doubles>(x: D) -> D {
-    if !x.all_between(-NEAR, NEAR) {
+    if !x.abs().all_below(NEAR) {
         return x.one_by_one(any_sine);
     }
     Angle::new(x).sine()
@@ -68,14 +69,14 @@ pub(crate) fn sin<D: Doubles>(x: D) -> D {
 /// Cosine.
 #[inline(always)]
 pub(crate) fn cos<D: Doubles>(x: D) -> D {
-    if !x.all_between(-NEAR, NEAR) {
+    if !x.abs().all_below(NEAR) {
         return x.one_by_one(any_cosine);
     }
     Angle::new(x).cosine()
 }
 
 fn any_sine(x: f64) -> f64 {
-    if x.all_between(-NEAR, NEAR) {
+    if Scalar::abs(x) < NEAR {
         Angle::new(x).sine()
     } else {
         libm::sin(x)
@@ -83,7 +84,7 @@ fn any_sine(x: f64) -> f64 {
 }
 
 fn any_cosine(x: f64) -> f64 {
-    if x.all_between(-NEAR, NEAR) {
+    if Scalar::abs(x) < NEAR {
         Angle::new(x).cosine()
     } else {
         libm::cos(x)
@@ -111,10 +112,11 @@ impl<D: Doubles> Angle<D> {
         let a = less(x, first);
         let b = less(a, second);
         let c = less(b, third);
-        let rounded = more(b - a, second) + more(c - b, third);
+        // In an order in which few sums wait for one another.
+        let of_second = more(more(b - a, second), last);
         Self {
             quarters,
-            rest: (c, more(rounded, last)),
+            rest: (c, of_second + more(c - b, third)),
         }
     }
 
@@ -152,7 +154,8 @@ impl<D: Doubles> Angle<D> {
         let square = y * y;
         let half = square * D::from_f64(0.5);
         let near = D::one() - half;
-        let sum = (square * square).fused(polynomial(square, COSINE), y * less);
-        near + (((D::one() - near) - half) + sum)
+        let rounded = (D::one() - near) - half;
+        let sum = (square * square).fused(polynomial(square, COSINE), rounded);
+        near + y.fused(less, sum)
     }
 }

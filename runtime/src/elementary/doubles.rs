@@ -1,5 +1,6 @@
 //! Doubles as elementary functions see them: numbers that are bits too.
 
+use core::hint;
 use core::ops::{BitAnd, BitOr, BitXor, Shl, Shr};
 
 use bytemuck::cast;
@@ -31,14 +32,21 @@ pub(crate) trait Doubles: Scalar {
     /// The sum of integers modulo 2⁶⁴.
     fn sum(a: Self::Bits, b: Self::Bits) -> Self::Bits;
 
-    /// Whether all are between two numbers; NaN is not.
-    fn all_between(self, low: f64, high: f64) -> bool;
+    /// Whether all are below `bound`; NaN is not.
+    fn all_below(self, bound: f64) -> bool;
 
     /// `odd` where the last bit is one, `even` elsewhere. What is not chosen may not be made at all.
     fn choose(bits: Self::Bits, odd: impl FnOnce() -> Self, even: impl FnOnce() -> Self) -> Self;
 
-    /// `function` of one after the other.
-    fn one_by_one(self, function: impl Fn(f64) -> f64) -> Self;
+    /// `function` of one after the other, in a function of its own.
+    #[inline(always)]
+    fn one_by_one(self, function: impl Fn(f64) -> f64) -> Self {
+        // Of a copy: of what the compiler knows the place it would be given the place, and all that is there kept in memory.
+        hint::black_box(self).apart(function)
+    }
+
+    /// [`one_by_one`](Self::one_by_one).
+    fn apart(self, function: impl Fn(f64) -> f64) -> Self;
 
     /// The same with the other sign where that bit of `other` is one.
     #[inline(always)]
@@ -72,8 +80,8 @@ impl Doubles for f64 {
     }
 
     #[inline(always)]
-    fn all_between(self, low: f64, high: f64) -> bool {
-        low < self && self < high
+    fn all_below(self, bound: f64) -> bool {
+        self < bound
     }
 
     #[inline(always)]
@@ -83,13 +91,13 @@ impl Doubles for f64 {
 
     #[cold]
     #[inline(never)]
-    fn one_by_one(self, function: impl Fn(f64) -> f64) -> Self {
+    fn apart(self, function: impl Fn(f64) -> f64) -> Self {
         function(self)
     }
 }
 
 macro_rules! doubles {
-    ($($name:ident $numbers:ident $bits:ident),*) => {
+    ($($name:ident $bits:ident),*) => {
         $(
             impl Doubles for $name {
                 type Bits = wide::$bits;
@@ -115,9 +123,8 @@ macro_rules! doubles {
                 }
 
                 #[inline(always)]
-                fn all_between(self, low: f64, high: f64) -> bool {
-                    let (low, high) = (wide::$numbers::splat(low), wide::$numbers::splat(high));
-                    (low.simd_lt(self.0) & self.0.simd_lt(high)).all()
+                fn all_below(self, bound: f64) -> bool {
+                    Lanes::all_below(self, bound)
                 }
 
                 #[inline(always)]
@@ -128,7 +135,7 @@ macro_rules! doubles {
 
                 #[cold]
                 #[inline(never)]
-                fn one_by_one(self, function: impl Fn(f64) -> f64) -> Self {
+                fn apart(self, function: impl Fn(f64) -> f64) -> Self {
                     let lanes = self.to_array();
                     Self::from_fn(|lane| function(lanes[lane]))
                 }
@@ -137,4 +144,4 @@ macro_rules! doubles {
     };
 }
 
-doubles! { F64x2 f64x2 u64x2, F64x4 f64x4 u64x4, F64x8 f64x8 u64x8 }
+doubles! { F64x2 u64x2, F64x4 u64x4, F64x8 u64x8 }

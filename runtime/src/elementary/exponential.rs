@@ -8,6 +8,7 @@
 //! > freely granted, provided that this notice is preserved.
 
 use super::{Doubles, TO_INTEGER, polynomial};
+use crate::Scalar;
 
 /// ln 2, 32 bits of it and the double nearest to the rest.
 pub(super) const LN_2: [f64; 2] = [
@@ -30,9 +31,9 @@ const NEAR: f64 = 708.0;
 /// eˣ.
 #[inline(always)]
 pub(crate) fn exp<D: Doubles>(x: D) -> D {
-    if !x.all_between(-NEAR, NEAR) {
+    if !x.abs().all_below(NEAR) {
         return x.one_by_one(|x| {
-            if x.all_between(-NEAR, NEAR) {
+            if Scalar::abs(x) < NEAR {
                 near(x)
             } else {
                 libm::exp(x)

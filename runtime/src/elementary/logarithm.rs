@@ -33,17 +33,16 @@ const TWO_TO_52: u64 = 0x4330_0000_0000_0000;
 /// ln x.
 #[inline(always)]
 pub(crate) fn ln<D: Doubles>(x: D) -> D {
-    let (low, high) = (f64::MIN_POSITIVE, f64::MAX);
-    if !x.all_between(low, high) {
-        return x.one_by_one(|x| {
-            if x.all_between(low, high) {
-                near(x)
-            } else {
-                libm::log(x)
-            }
-        });
+    if !is_near(x) {
+        return x.one_by_one(|x| if is_near(x) { near(x) } else { libm::log(x) });
     }
     near(x)
+}
+
+/// Whether all are normal numbers above zero.
+#[inline(always)]
+fn is_near<D: Doubles>(x: D) -> bool {
+    x.all_below(f64::MAX) && (-x).all_below(-f64::MIN_POSITIVE)
 }
 
 #[inline(always)]
