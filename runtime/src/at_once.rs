@@ -6,11 +6,11 @@ use crate::in_lanes::{ByLanes, Sums, extrapolate, extrapolates, fill, sum, sums,
 use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::lane_movement::LaneMovement;
 use crate::lane_stages::{LaneStages, Laned};
+use crate::stage_tableau::Columns;
 use crate::starting_values::{Starting, starts_at_once};
 use crate::{
-    Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, HamiltonianInLanes,
-    InLanes, Inside, Kept, Outcome, Quantity, Scalar, Solver, StageTableau, Step, Stopping,
-    Summation, Vector, Work,
+    Change, Class, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes, Inside,
+    Kept, Outcome, Quantity, Scalar, Solver, StageTableau, Step, Stopping, Summation, Vector, Work,
 };
 
 /// [`InLanes`] for Hamiltonians that are not separable, with positions and momenta iterated at once.
@@ -112,14 +112,14 @@ where
         } = &mut *self.0.stages;
         LaneMovement {
             p: Self::half(
-                (&P::MOMENTA, &P::POSITIONS),
+                (Columns::<P>::MOMENTA, P::POSITIONS.weights),
                 step,
                 (step.p, step.p_low),
                 p.as_mut(),
                 force.as_ref(),
             ),
             q: Self::half(
-                (&P::POSITIONS, &P::MOMENTA),
+                (Columns::<P>::POSITIONS, P::MOMENTA.weights),
                 step,
                 (step.q, step.q_low),
                 q.as_mut(),
@@ -128,16 +128,16 @@ where
         }
     }
 
-    /// New values of one half from the evaluations of the other.
+    /// New values of one half, by the columns of its matrix, from the evaluations of the other, which have these weights.
     #[inline(always)]
     fn half(
-        halves: (&HalfTableau, &HalfTableau),
+        (columns, weights): (&'static [&'static [f64]], &'static [f64]),
         step: &Step<'_, V>,
         base: (&V, &V),
         out: &mut [Laned<V, P>],
         terms: &[Laned<V, P>],
     ) -> P::Lanes {
-        let sums = sums::<R, P>(halves, step.size, R::COMPENSATED);
+        let sums = sums::<R, P>(columns, weights, step.size, R::COMPENSATED);
         values::<P, V>(&sums, out, base, terms, sum::<P>)
     }
 

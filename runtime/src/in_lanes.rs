@@ -9,6 +9,7 @@ use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::kernel::sum_of_products;
 use crate::lane_movement::{LaneMovement, part_change};
 use crate::lane_stages::{LaneStages, Laned};
+use crate::stage_tableau::Columns;
 use crate::summation::{Beyond, add, moved};
 use crate::vector::{LIGHT, is_in_place};
 use crate::{
@@ -331,7 +332,8 @@ where
     pub(crate) fn positions(&mut self, of_increments: bool) -> P::Lanes {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.q, step.q_low);
-        let sums = sums::<R, P>((&P::POSITIONS, &P::MOMENTA), step.size, of_increments);
+        let (columns, weights) = (Columns::<P>::POSITIONS, P::MOMENTA.weights);
+        let sums = sums::<R, P>(columns, weights, step.size, of_increments);
         let terms = stages.velocity.as_ref();
         values::<P, V>(&sums, stages.q.as_mut(), base, terms, sum::<P>)
     }
@@ -341,7 +343,8 @@ where
     pub(crate) fn momenta(&mut self, of_increments: bool) -> P::Lanes {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.p, step.p_low);
-        let sums = sums::<R, P>((&P::MOMENTA, &P::POSITIONS), step.size, of_increments);
+        let (columns, weights) = (Columns::<P>::MOMENTA, P::POSITIONS.weights);
+        let sums = sums::<R, P>(columns, weights, step.size, of_increments);
         let terms = stages.force.as_ref();
         values::<P, V>(&sums, stages.p.as_mut(), base, terms, sum::<P>)
     }
@@ -502,14 +505,15 @@ pub(crate) struct Sums<C, F> {
     pub(crate) beyond: bool,
 }
 
-/// The sums that one half of the stages is, of evaluations of the other half that are increments or not yet.
+/// The sums that one half of the stages is, by the columns of its matrix, of evaluations of the other half with these weights, that are
+/// increments or not yet.
 #[inline(always)]
 pub(crate) fn sums<R: Summation, P: StageTableau>(
-    (half, other): (&HalfTableau, &HalfTableau),
+    columns: &'static [&'static [f64]],
+    weights: &'static [f64],
     h: f64,
     of_increments: bool,
 ) -> Sums<impl Fn(usize) -> &'static [f64] + use<R, P>, impl Fn(usize) -> Option<f64> + use<R, P>> {
-    let (columns, weights) = (half.columns, other.weights);
     Sums {
         count: columns.len(),
         column: move |j: usize| columns[j],

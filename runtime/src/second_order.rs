@@ -16,6 +16,7 @@ use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::kernel::sum_of_products;
 use crate::lane_movement::{LaneMovement, part_change};
 use crate::lane_stages::{LaneStages, Laned};
+use crate::stage_tableau::Columns;
 use crate::starting_values::{MOST, StartingColumns, starting_columns, starts_at_once};
 use crate::summation::add;
 use crate::vector::is_in_place;
@@ -276,7 +277,7 @@ fn of_increments<C: AsRef<[f64]>>(
 fn of_forces<P: StageTableau>(
     h: f64,
 ) -> Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>> {
-    let columns = tableau::<P>().columns;
+    let columns = Columns::<P>::SECOND_ORDER;
     Sums {
         count: columns.len(),
         column: |j: usize| columns[j],
@@ -359,7 +360,7 @@ where
     #[inline(always)]
     fn positions(&mut self) -> P::Lanes {
         match R::COMPENSATED {
-            true => self.sums(&of_increments(tableau::<P>().columns)),
+            true => self.sums(&of_increments(Columns::<P>::SECOND_ORDER)),
             false => self.sums(&of_forces::<P>(self.lanes.step.size)),
         }
     }
@@ -499,7 +500,7 @@ where
             }
         }
         self.velocities();
-        self.sums(&of_increments(tableau::<P>().columns));
+        self.sums(&of_increments(Columns::<P>::SECOND_ORDER));
     }
 
     #[inline(always)]

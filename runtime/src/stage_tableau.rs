@@ -1,6 +1,7 @@
 //! The coefficients of coupled stages all together.
 
 use core::fmt::Debug;
+use core::marker::PhantomData;
 
 use crate::{Lanes, StagePlan, Vector};
 
@@ -98,6 +99,36 @@ pub struct SecondOrderTableau {
     pub columns: &'static [&'static [f64]],
     /// `1 − c_k`
     pub rest: &'static [f64],
+}
+
+/// The columns up to the last that is not zero: those after it add nothing.
+const fn significant(columns: &'static [&'static [f64]]) -> &'static [&'static [f64]] {
+    let mut count = columns.len();
+    while count > 1 && is_zero(columns[count - 1]) {
+        count -= 1;
+    }
+    columns.split_at(count).0
+}
+
+const fn is_zero(column: &[f64]) -> bool {
+    let mut i = 0;
+    while i < column.len() && column[i] == 0.0 {
+        i += 1;
+    }
+    i == column.len()
+}
+
+/// The [`significant`] columns of the matrices of a plan.
+pub(crate) struct Columns<P>(PhantomData<P>);
+
+impl<P: StageTableau> Columns<P> {
+    pub(crate) const POSITIONS: &'static [&'static [f64]] = significant(P::POSITIONS.columns);
+    pub(crate) const MOMENTA: &'static [&'static [f64]] = significant(P::MOMENTA.columns);
+    /// Those of second-order systems; none where there are no coefficients for them.
+    pub(crate) const SECOND_ORDER: &'static [&'static [f64]] = match P::SECOND_ORDER {
+        Some(tableau) => significant(tableau.columns),
+        None => &[],
+    };
 }
 
 /// A transformation `X⁻¹ B X` of a stage matrix to blocks on the diagonal.

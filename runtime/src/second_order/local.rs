@@ -12,6 +12,7 @@ use crate::in_lanes::{
 use crate::iteration::{Begun, Sweeps};
 use crate::kernel::sum_of_products;
 use crate::lane_movement::{LaneMovement, part_change};
+use crate::stage_tableau::Columns;
 use crate::starting_values::starts_at_once;
 use crate::{
     Change, Class, Components, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, Kept,
@@ -242,7 +243,7 @@ where
     #[inline(always)]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         let q = apart(|| match R::COMPENSATED {
-            true => self.moves(&of_increments(tableau::<P>().columns)),
+            true => self.moves(&of_increments(Columns::<P>::SECOND_ORDER)),
             false => self.moves(&of_forces::<P>(self.positions.lanes.step.size)),
         });
         // Both halves are this one.
