@@ -119,7 +119,7 @@ impl Kept {
 }
 
 impl Default for Kept {
-    /// Nothing. Written out, for that of an array would be a call: see [`array`](mod@crate::array).
+    /// Nothing. Written out, for that of an array would be a call: see `array.rs`.
     #[inline(always)]
     fn default() -> Self {
         Self::new(false, false)

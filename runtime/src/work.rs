@@ -22,7 +22,7 @@ pub struct Work {
 }
 
 impl Default for Work {
-    /// Nothing. Written out, for that of an array would be a call: see [`array`](mod@crate::array).
+    /// Nothing. Written out, for that of an array would be a call: see `array.rs`.
     #[inline(always)]
     fn default() -> Self {
         Self {
