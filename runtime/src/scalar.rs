@@ -6,6 +6,7 @@ use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssig
 use num_traits::{Float, One, Zero};
 
 use crate::Coefficient;
+use crate::array::array;
 
 /// A real number, or something that behaves like one: f32, f64, a dual number, a few numbers side by side.
 ///
@@ -165,6 +166,20 @@ pub trait Scalar:
     fn sin_cos(self) -> (Self, Self) {
         (self.sin(), self.cos())
     }
+
+    /// Sines and cosines of several angles, each with the bits of [`sin_cos`](Self::sin_cos): for doubles and lanes faster than one after
+    /// the other, if they do not need one another. What is not used is not computed.
+    ///
+    /// ```
+    /// use symplectic::Scalar;
+    ///
+    /// let [(sine, cosine), (other, _)] = Scalar::sin_cos_all([0.5, 2.0_f64]);
+    /// assert_eq!((sine, cosine, other), (Scalar::sin(0.5), Scalar::cos(0.5), Scalar::sin(2.0)));
+    /// ```
+    #[inline]
+    fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
+        array((Self::zero(), Self::zero()), |k| angles[k].sin_cos())
+    }
 }
 
 macro_rules! forward {
@@ -187,6 +202,11 @@ macro_rules! elementary {
                 $crate::elementary::$function(self)
             }
         )*
+
+        #[inline(always)]
+        fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
+            $crate::elementary::sin_cos_all(angles)
+        }
     };
 }
 pub(crate) use elementary;

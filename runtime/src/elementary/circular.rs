@@ -12,6 +12,7 @@
 
 use super::{Doubles, TO_INTEGER, polynomial};
 use crate::Scalar;
+use crate::array::array;
 
 /// 2/π.
 const QUARTERS: f64 = core::f64::consts::FRAC_2_PI;
@@ -55,6 +56,24 @@ pub(crate) fn sin_cos<D: Doubles>(x: D) -> (D, D) {
     }
     let angle = Angle::new(x);
     (angle.sine(), angle.cosine())
+}
+
+/// [`sin_cos`] of each, all at once where they are near: else each is looked at by itself, and what is made of one waits in memory for the
+/// next.
+#[inline(always)]
+pub(crate) fn sin_cos_all<D: Doubles, const N: usize>(angles: [D; N]) -> [(D, D); N] {
+    let mut sum = D::zero();
+    for x in &angles {
+        sum += x.abs();
+    }
+    let none = (D::zero(), D::zero());
+    if !sum.all_below(NEAR) {
+        return array(none, |k| sin_cos(angles[k]));
+    }
+    array(none, |k| {
+        let angle = Angle::new(angles[k]);
+        (angle.sine(), angle.cosine())
+    })
 }
 
 /// Sine.
@@ -144,18 +163,21 @@ impl<D: Doubles> Angle<D> {
     fn sine_of_rest(self) -> D {
         let (y, less) = self.rest;
         let square = y * y;
-        let slope = D::one() - square * D::from_f64(0.5);
-        y - (square * y).fused(polynomial(square, SINE), less * slope)
+        y - (square * y).fused(polynomial(square, SINE), less * near(square))
     }
 
     #[inline(always)]
     fn cosine_of_rest(self) -> D {
         let (y, less) = self.rest;
         let square = y * y;
-        let half = square * D::from_f64(0.5);
-        let near = D::one() - half;
-        let rounded = (D::one() - near) - half;
-        let sum = (square * square).fused(polynomial(square, COSINE), rounded);
-        near + y.fused(less, sum)
+        let near = near(square);
+        let rounded = (D::one() - near) - square * D::from_f64(0.5);
+        near + (square * square).fused(polynomial(square, COSINE), y.fused(less, rounded))
     }
+}
+
+/// `1 − y²/2`, where the half is exact.
+#[inline(always)]
+fn near<D: Doubles>(square: D) -> D {
+    square.fused(D::from_f64(-0.5), D::one())
 }

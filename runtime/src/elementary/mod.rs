@@ -10,7 +10,7 @@ mod doubles;
 mod exponential;
 mod logarithm;
 
-pub(crate) use circular::{cos, sin, sin_cos};
+pub(crate) use circular::{cos, sin, sin_cos, sin_cos_all};
 pub(crate) use doubles::Doubles;
 pub(crate) use exponential::exp;
 pub(crate) use logarithm::ln;

@@ -28,7 +28,7 @@ impl<T: Scalar> Hamiltonian<SVector<T, 2>> for DoublePendulum {
 
     const SHARED_SLOPES: bool = true;
 
-    #[inline]
+    #[inline(always)]
     fn velocity(
         &self,
         _time: T,
@@ -39,12 +39,13 @@ impl<T: Scalar> Hamiltonian<SVector<T, 2>> for DoublePendulum {
         *velocity = velocities((q[0] - q[1]).cos(), p);
     }
 
-    #[inline]
+    #[inline(always)]
     fn force(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>, force: &mut SVector<T, 2>) {
-        *force = forces((q[0] - q[1]).sin_cos(), q, p);
+        let (sines, cosine) = sines(q);
+        *force = forces(sines, cosine, p);
     }
 
-    #[inline]
+    #[inline(always)]
     fn slopes(
         &self,
         _time: T,
@@ -52,9 +53,9 @@ impl<T: Scalar> Hamiltonian<SVector<T, 2>> for DoublePendulum {
         p: &SVector<T, 2>,
         (velocity, force): (&mut SVector<T, 2>, &mut SVector<T, 2>),
     ) {
-        let (sine, cosine) = (q[0] - q[1]).sin_cos();
+        let (sines, cosine) = sines(q);
         *velocity = velocities(cosine, p);
-        *force = forces((sine, cosine), q, p);
+        *force = forces(sines, cosine, p);
     }
 
     fn energy(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
@@ -82,13 +83,16 @@ fn velocities<T: Scalar>(cosine: T, p: &SVector<T, 2>) -> SVector<T, 2> {
     ])
 }
 
-/// The forces by `sin δ` and `cos δ`.
+/// `sin δ`, `sin q_1`, `sin q_2`, and `cos δ`.
 #[inline(always)]
-fn forces<T: Scalar>(
-    (sine, cosine): (T, T),
-    q: &SVector<T, 2>,
-    p: &SVector<T, 2>,
-) -> SVector<T, 2> {
+fn sines<T: Scalar>(q: &SVector<T, 2>) -> ([T; 3], T) {
+    let [(sine, cosine), (first, _), (second, _)] = T::sin_cos_all([q[0] - q[1], q[0], q[1]]);
+    ([sine, first, second], cosine)
+}
+
+/// The forces by these sines and `cos δ`.
+#[inline(always)]
+fn forces<T: Scalar>([sine, first, second]: [T; 3], cosine: T, p: &SVector<T, 2>) -> SVector<T, 2> {
     let inverse = inverse(cosine);
     let product = p[0] * p[1];
     let twice_kinetic =
@@ -96,8 +100,8 @@ fn forces<T: Scalar>(
     // ∂H/∂δ
     let coupling = sine * inverse * (product - twice_kinetic * cosine);
     SVector::from([
-        -coupling - q[0].sin() * T::from_f64(2.0 * GRAVITY),
-        coupling - q[1].sin() * T::from_f64(GRAVITY),
+        -coupling - first * T::from_f64(2.0 * GRAVITY),
+        coupling - second * T::from_f64(GRAVITY),
     ])
 }
 
