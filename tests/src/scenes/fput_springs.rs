@@ -40,7 +40,7 @@ pub struct FputSprings {
 impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for FputSprings {
     const UNIT_MASSES: bool = true;
 
-    #[inline]
+    #[inline(always)]
     fn velocity(
         &self,
         _time: T,
@@ -50,7 +50,7 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for FputSprings {
         *velocity = *p;
     }
 
-    #[inline]
+    #[inline(always)]
     fn force(&self, _time: T, q: &SVector<T, COORDINATES>, force: &mut SVector<T, COORDINATES>) {
         let mut tensions = elongations(q);
         for d in &mut tensions {
@@ -84,7 +84,7 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for FputSprings {
 }
 
 /// Elongations of the soft springs, from wall to wall. The last one, `−(x_03 + x_13)`, has its sign from the way.
-#[inline]
+#[inline(always)]
 fn elongations<T: Scalar>(q: &SVector<T, COORDINATES>) -> [T; SPRINGS + 1] {
     [
         q[0] - q[3],

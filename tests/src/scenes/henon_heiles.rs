@@ -21,12 +21,12 @@ pub struct HenonHeiles;
 impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for HenonHeiles {
     const UNIT_MASSES: bool = true;
 
-    #[inline]
+    #[inline(always)]
     fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;
     }
 
-    #[inline]
+    #[inline(always)]
     fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         let product = q[0] * q[1];
         force[0] = -q[0] - product - product;

@@ -22,12 +22,12 @@ pub struct Kepler;
 impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
     const UNIT_MASSES: bool = true;
 
-    #[inline]
+    #[inline(always)]
     fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;
     }
 
-    #[inline]
+    #[inline(always)]
     fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         let square = q.dot(q);
         *force = -q * (square * square.sqrt()).recip();

@@ -20,7 +20,7 @@ pub struct Nonseparable;
 impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Nonseparable {
     type Class = General;
 
-    #[inline]
+    #[inline(always)]
     fn velocity(
         &self,
         _time: T,
@@ -31,7 +31,7 @@ impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Nonseparable {
         velocity[0] = p[0] * (q[0] * q[0] + T::one());
     }
 
-    #[inline]
+    #[inline(always)]
     fn force(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>, force: &mut SVector<T, 1>) {
         force[0] = -q[0] * (p[0] * p[0] + T::one());
     }

@@ -86,7 +86,7 @@ pub const BODIES_AT_START: [Body; BODIES] = [
 pub struct OuterSolarSystem;
 
 impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for OuterSolarSystem {
-    #[inline]
+    #[inline(always)]
     fn velocity(
         &self,
         _time: T,
@@ -102,7 +102,7 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for OuterSolarSyst
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn force(&self, _time: T, q: &SVector<T, COORDINATES>, force: &mut SVector<T, COORDINATES>) {
         force.fill(T::zero());
         let (q, force) = (q.as_slice(), force.as_mut_slice());
@@ -145,7 +145,7 @@ const fn strength(i: usize, j: usize) -> f64 {
 }
 
 /// q_j − q_i and the square of its length.
-#[inline]
+#[inline(always)]
 fn separation<T: Scalar>(q: &[T], i: usize, j: usize) -> ([T; 3], T) {
     let d = [
         q[3 * j] - q[3 * i],
