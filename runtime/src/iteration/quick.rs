@@ -31,6 +31,8 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     let late = stopping.max_iterations.min(PATIENCE);
     if !W::HASTY {
         let bound = stopping.max_iterations.min(STAGNATION);
+        // Where either half will do, the smallest change may be one of many that were not near; where both count, none of them is.
+        let near_by = if C::SEPARABLE { late } else { bound };
         let mut begun = Begun::NOTHING;
         if !C::SEPARABLE && late == PATIENCE && other_coin(sweeps.time()) {
             // From the other side. An ordinary sweep comes first: it leaves mostly the error that shrinks least, to be mirrored.
@@ -38,7 +40,7 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
             sweeps.sweep_beyond();
             begun.iterations = 2;
         }
-        return to_stagnation::<T, W>(sweeps, kept.scales, begun, [late, bound], both);
+        return to_stagnation::<T, W>(sweeps, kept.scales, begun, [near_by, bound], both);
     }
     let [q, p] = units::<T>(WITHIN_REACH, kept.scales);
     let tolerance = stopping.tolerance;
@@ -125,7 +127,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
     sweeps: &mut W,
     scales: [f64; 2],
     begun: Begun<W::Movement>,
-    [late, bound]: [u32; 2],
+    [near_by, bound]: [u32; 2],
     both: bool,
 ) -> Hastened<W::Movement> {
     let mut size = Size::of::<T>(scales);
@@ -145,7 +147,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
                 }
             }
         }
-        if begun.iterations + 1 >= late {
+        if begun.iterations + 1 >= near_by {
             begun.last = Some(this);
             return Err(begun);
         }

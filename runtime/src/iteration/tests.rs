@@ -473,8 +473,13 @@ fn others<C: Class, const HASTY: bool>(before: f64) -> usize {
         quick += usize::from(hastened);
         others += usize::from(after != alone);
     }
-    // Those of the smaller factors come down to 64 units in nine sweeps, and of those of little noise to one.
-    assert!(quick > if HASTY { 50 } else { 250 }, "{quick}");
+    // Those of the smaller factors come down to 64 units in nine sweeps, more of them in fifteen, and of those of little noise to one.
+    let least = match (HASTY, C::SEPARABLE) {
+        (true, _) => 50,
+        (false, true) => 250,
+        (false, false) => 300,
+    };
+    assert!(quick > least, "{quick}");
     others
 }
 
@@ -498,9 +503,10 @@ fn an_iteration_after_another_ends_at_the_same_sweep() {
         assert!(hasty.iter().all(|&others| others <= 10), "{hasty:?}");
     }
     // Which half moves more, and what is down to rounding, goes with how large they are said to be: of iterations with this much
-    // noise for one in twenty at most.
+    // noise for one in twenty at most, for one in fifteen where fifteen sweeps may be quick.
     for before in [0.6, 1.9] {
-        let others = all(before);
+        let [general, others @ ..] = all(before);
+        assert!(general <= 66, "{before}: {general}");
         assert!(others.iter().all(|&others| others <= 50), "{others:?}");
     }
 }
