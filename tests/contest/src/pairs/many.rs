@@ -6,7 +6,10 @@ use symplectic::{Integrator, Method, Plain};
 use super::{Pair, Problem, TO_ROUNDING, rule};
 use crate::baseline::chain::{self, Blocks};
 use crate::baseline::explicit::{self, Splitting};
-use symplectic_tests::methods::{BlanesMoanSrkn14a, ForestRuth, Gauss8, VelocityVerlet};
+use crate::baseline::gauss::Rule;
+use symplectic_tests::methods::{
+    BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4, Gauss6, Gauss8, Lobatto3, VelocityVerlet,
+};
 use symplectic_tests::scenes::fput_chain::{FputChain, PARTICLES, start, system};
 
 type Chain = Problem<FputChain, (), DVector<f64>>;
@@ -25,46 +28,12 @@ pub(super) fn chain(pairs: &mut Vec<Pair>) {
         tolerance: 1e-14,
         at_once: false,
     };
-    let Problem {
-        step_size,
-        tolerance,
-        ..
-    } = problem;
-    let begin = problem.blocks();
-    let by_hand = chain::SecondOrder::<8>::new(&rule!(Gauss8), PARTICLES, step_size);
-    let by_hand = move |steps| {
-        let (mut q, mut p) = begin.clone();
-        let mut by_hand = by_hand.clone();
-        by_hand.run(&mut q, &mut p, tolerance, steps);
-        q.values().chain(p.values()).collect()
-    };
-    pairs.push(problem.pair(
-        ("Gauss 8", Gauss8),
-        step_size,
-        move |mut integrator: Integrator<_, _, _, Plain>| {
-            integrator.set_tolerance(tolerance)?;
-            integrator.in_second_order_lanes()
-        },
-        by_hand.clone(),
-    ));
-    pairs.push(Pair {
-        sums: TO_ROUNDING,
-        ..problem.pair(
-            ("Gauss 8", Gauss8),
-            step_size,
-            Integrator::<_, _, _, Plain>::in_second_order_lanes,
-            by_hand.clone(),
-        )
-    });
-    pairs.push(problem.pair(
-        ("Gauss 8, stage by stage", Gauss8),
-        step_size,
-        move |mut integrator: Integrator<_, _, _, Plain>| {
-            integrator.set_tolerance(tolerance)?;
-            Ok(integrator)
-        },
-        by_hand,
-    ));
+    problem.implicit(pairs, ("Gauss 8", Gauss8), &rule!(Gauss8), 1.0);
+    problem.implicit(pairs, ("Gauss 6", Gauss6), &rule!(Gauss6), 0.6);
+    problem.implicit(pairs, ("Gauss 4", Gauss4), &rule!(Gauss4), 0.3);
+    problem.implicit(pairs, ("Gauss 2", Gauss2), &rule!(Gauss2), 0.1);
+    problem.implicit(pairs, ("Lobatto 3", Lobatto3), &rule!(Lobatto3), 0.1);
+    pairs.push(problem.stage_by_stage());
     pairs.push(problem.explicit::<explicit::Verlet, _>(("Verlet", VelocityVerlet), 0.05));
     let forest_ruth = ("Forest–Ruth", ForestRuth);
     pairs.push(problem.explicit::<explicit::ForestRuth, _>(forest_ruth, 0.1));
@@ -77,6 +46,67 @@ impl Chain {
         let vectors = [&self.start.q, &self.start.p];
         let [q, p] = vectors.map(|vector| Blocks::new(vector.as_slice()));
         (q, p)
+    }
+
+    /// Runs by hand.
+    fn by_hand<const STAGES: usize>(
+        &self,
+        rule: &Rule<STAGES>,
+        step_size: f64,
+    ) -> impl Fn(u64) -> Vec<f64> + Clone + use<STAGES> {
+        let (begin, tolerance) = (self.blocks(), self.tolerance);
+        let by_hand = chain::SecondOrder::<STAGES>::new(rule, PARTICLES, step_size);
+        move |steps| {
+            let (mut q, mut p) = begin.clone();
+            by_hand.clone().run(&mut q, &mut p, tolerance, steps);
+            q.values().chain(p.values()).collect()
+        }
+    }
+
+    /// A method with `scale` times the step of the problem: to the tolerance by hand, and down to rounding.
+    fn implicit<M: Method, const STAGES: usize>(
+        &self,
+        pairs: &mut Vec<Pair>,
+        method: (&'static str, M),
+        rule: &Rule<STAGES>,
+        scale: f64,
+    ) {
+        let (step_size, tolerance) = (scale * self.step_size, self.tolerance);
+        let by_hand = self.by_hand(rule, step_size);
+        let to_tolerance = self.pair(
+            method,
+            step_size,
+            move |mut integrator: Integrator<_, _, _, Plain>| {
+                integrator.set_tolerance(tolerance)?;
+                integrator.in_second_order_lanes()
+            },
+            by_hand.clone(),
+        );
+        let to_rounding = self.pair(
+            method,
+            step_size,
+            Integrator::<_, _, _, Plain>::in_second_order_lanes,
+            by_hand,
+        );
+        pairs.push(to_tolerance);
+        pairs.push(Pair {
+            sums: TO_ROUNDING,
+            ..to_rounding
+        });
+    }
+
+    /// What a system costs that is known in doubles only.
+    fn stage_by_stage(&self) -> Pair {
+        let (step_size, tolerance) = (self.step_size, self.tolerance);
+        self.pair(
+            ("Gauss 8, stage by stage", Gauss8),
+            step_size,
+            move |mut integrator: Integrator<_, _, _, Plain>| {
+                integrator.set_tolerance(tolerance)?;
+                Ok(integrator)
+            },
+            self.by_hand(&rule!(Gauss8), step_size),
+        )
     }
 
     fn explicit<K: Splitting + 'static, M: Method>(
