@@ -3,11 +3,9 @@
 use core::marker::PhantomData;
 use core::mem;
 
-use num_traits::Zero;
-
 use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::kernel::sum_of_products;
-use crate::lane_movement::{LaneMovement, part_change};
+use crate::lane_movement::{LaneMovement, LanePart};
 use crate::lane_stages::{LaneStages, Laned};
 use crate::stage_tableau::Columns;
 use crate::summation::{Beyond, add, moved};
@@ -210,19 +208,11 @@ where
 
     #[inline(always)]
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
-        let half = |movement, base, stages: &[_]| {
-            let scale = scale_of::<P, V>(base, stages);
-            part_change(movement, scale, are_numbers::<P, V>(stages))
-        };
+        let (step, stages) = (self.step, &*self.stages);
         Change {
-            q: half(movement.q, self.step.q, self.stages.q.as_ref()),
-            p: half(movement.p, self.step.p, self.stages.p.as_ref()),
+            q: (movement.q).change(scale_of::<P, V>(step.q, stages.q.as_ref())),
+            p: (movement.p).change(scale_of::<P, V>(step.p, stages.p.as_ref())),
         }
-    }
-
-    #[inline(always)]
-    fn is_number(&self, _movement: &LaneMovement<P::Lanes>) -> bool {
-        are_numbers::<P, V>(self.stages.q.as_ref()) && are_numbers::<P, V>(self.stages.p.as_ref())
     }
 
     #[inline(always)]
@@ -255,21 +245,6 @@ pub(crate) fn scale_of<P: StageTableau, V: Vector<Scalar = f64>>(
         }
     }
     scale
-}
-
-/// Whether all components are finite.
-#[inline(always)]
-pub(crate) fn are_numbers<P: StageTableau, V: Vector<Scalar = f64>>(
-    groups: &[Laned<V, P>],
-) -> bool {
-    let zero = P::Lanes::from_f64(0.0);
-    let mut sum = zero;
-    for group in groups {
-        for component in group.as_slice() {
-            sum = component.fused(zero, sum);
-        }
-    }
-    !sum.any_nan()
 }
 
 /// Whether the largest lane is another size but for a factor of two.
@@ -329,7 +304,7 @@ where
 
     /// New positions, of velocities that are increments or not yet; returns how much they changed.
     #[inline(always)]
-    pub(crate) fn positions(&mut self, of_increments: bool) -> P::Lanes {
+    pub(crate) fn positions(&mut self, of_increments: bool) -> LanePart<P::Lanes> {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.q, step.q_low);
         let (columns, weights) = (Columns::<P>::POSITIONS, P::MOMENTA.weights);
@@ -340,7 +315,7 @@ where
 
     /// New momenta, of forces that are increments or not yet; returns how much they changed.
     #[inline(always)]
-    pub(crate) fn momenta(&mut self, of_increments: bool) -> P::Lanes {
+    pub(crate) fn momenta(&mut self, of_increments: bool) -> LanePart<P::Lanes> {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.p, step.p_low);
         let (columns, weights) = (Columns::<P>::MOMENTA, P::POSITIONS.weights);
@@ -536,7 +511,7 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     (base, low): (&V, &V),
     terms: &[Laned<V, P>],
     value: impl Fn((usize, usize), (P::Lanes, P::Lanes), P::Lanes) -> P::Lanes,
-) -> P::Lanes {
+) -> LanePart<P::Lanes> {
     let n = shortest(out)
         .min(shortest(terms))
         .min(base.dimension())
@@ -545,7 +520,7 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     if mem::needs_drop::<V>() {
         return long_values::<P, V>(sums, out, (base, low), terms, value);
     }
-    let mut largest: Option<P::Lanes> = None;
+    let mut part = None;
     for k in 0..n {
         let start = P::Lanes::from_f64(base[k]);
         for (group, out) in out.iter_mut().enumerate() {
@@ -557,10 +532,10 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
             let new = moved(sums.beyond, *component, new);
             let change = (new - *component).abs();
             *component = new;
-            largest = Some(larger(largest, change));
+            part = Some(LanePart::noted(part, change));
         }
     }
-    largest.unwrap_or_else(P::Lanes::zero)
+    LanePart::or_none(part)
 }
 
 /// [`values`] of vectors on the heap, which has looked where their components are: else it would be done again after every one that is
@@ -572,7 +547,7 @@ fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
     (base, low): (&[f64], &[f64]),
     terms: &[Laned<V, P>],
     value: impl Fn((usize, usize), (P::Lanes, P::Lanes), P::Lanes) -> P::Lanes,
-) -> P::Lanes {
+) -> LanePart<P::Lanes> {
     let n = base.len();
     let mut places = out.iter_mut();
     let mut out = P::groups(|_| match places.next() {
@@ -581,7 +556,7 @@ fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
     });
     let terms = P::groups(|group| &terms[group].as_slice()[..n]);
     let (out, terms) = (out.as_mut(), terms.as_ref());
-    let mut largest: Option<P::Lanes> = None;
+    let mut part = None;
     for k in 0..n {
         let [start, low] = [base[k], low[k]].map(P::Lanes::from_f64);
         for (group, out) in out.iter_mut().enumerate() {
@@ -592,16 +567,10 @@ fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
             let new = moved(sums.beyond, out[k], new);
             let change = (new - out[k]).abs();
             out[k] = new;
-            largest = Some(larger(largest, change));
+            part = Some(LanePart::noted(part, change));
         }
     }
-    largest.unwrap_or_else(P::Lanes::zero)
-}
-
-/// With one more change: not from zero, which the compiler has to compare.
-#[inline(always)]
-pub(crate) fn larger<L: Lanes>(largest: Option<L>, change: L) -> L {
-    largest.map_or(change, |largest| largest.larger(change))
+    LanePart::or_none(part)
 }
 
 /// `base + sum`, for a sum with what the base leaves out.

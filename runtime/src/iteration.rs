@@ -75,13 +75,6 @@ pub(crate) trait Sweeps {
     /// By how much that moved them altogether.
     fn change(&self, movement: &Self::Movement) -> Change;
 
-    /// Whether the last sweep led to numbers, where its movement may have lost what is none. Evaluations where there is none are none
-    /// either, or do not depend on it: so it is enough to look at the stages where an iteration could end.
-    #[inline(always)]
-    fn is_number(&self, _movement: &Self::Movement) -> bool {
-        true
-    }
-
     /// [`patiently`], in another place where that leaves these stages in registers.
     fn go_on<C: Class, T: Scalar>(
         &mut self,
@@ -104,7 +97,7 @@ pub(crate) trait Sweeps {
     }
 }
 
-/// How a sweep moved the stages. What is not a number may be lost: see [`Sweeps::is_number`].
+/// How a sweep moved the stages. Comparisons may lose what is not a number: see [`is_number`](Self::is_number).
 pub(crate) trait Movement: Copy {
     /// Whether the positions moved, and the momenta where they count, by no more than these bounds.
     fn is_within(&self, bounds: [f64; 2], both: bool) -> bool;
@@ -123,6 +116,9 @@ pub(crate) trait Movement: Copy {
 
     /// Whether that is below this, but not zero.
     fn shrinks(&self, below: f64, weights: [f64; 2], both: bool) -> bool;
+
+    /// Whether it is a number, of all components: to be looked at where an iteration could end.
+    fn is_number(&self) -> bool;
 }
 
 impl Movement for Change {
@@ -160,6 +156,12 @@ impl Movement for Change {
     fn shrinks(&self, below: f64, weights: [f64; 2], both: bool) -> bool {
         let size = self.size(weights, both);
         size < below && size > 0.0
+    }
+
+    #[inline(always)]
+    fn is_number(&self) -> bool {
+        // What is none is neither within a bound nor above it.
+        true
     }
 }
 

@@ -55,11 +55,11 @@
 //!
 //! # Features
 //!
-//! * `std` (default): `tan`, inverse and hyperbolic functions from the standard library; implies `alloc`.
+//! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library; implies `alloc`.
 //! * `alloc`: dynamic vectors, [`nalgebra::DVector`], [`Newton`], and [`generating_function`].
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and [`Newton`] takes derivatives by dual numbers; implies `std`.
 //! * `report`: the module `report`, error against run time of methods on a problem, as a page, plots and data; implies `std`.
-//! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, these functions from `libm`.
+//! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, the functions named under `std` from `libm`.
 
 #![no_std]
 

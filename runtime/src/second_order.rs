@@ -9,12 +9,12 @@ use core::mem;
 use self::local::{Locally, is_local};
 pub use self::stages::SecondOrderStages;
 use crate::in_lanes::{
-    ByLanes, Sums, are_numbers, entry, extend, extrapolate, in_groups, is_about, lane_of, lanes,
-    scale, scale_of, shortest, total, values,
+    ByLanes, Sums, entry, extend, extrapolate, in_groups, is_about, lane_of, lanes, scale,
+    scale_of, shortest, total, values,
 };
 use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::kernel::sum_of_products;
-use crate::lane_movement::{LaneMovement, part_change};
+use crate::lane_movement::{LaneMovement, LanePart};
 use crate::lane_stages::{LaneStages, Laned};
 use crate::stage_tableau::Columns;
 use crate::starting_values::{MOST, StartingColumns, starting_columns, starts_at_once};
@@ -358,7 +358,7 @@ where
 {
     /// New positions; returns how much they changed.
     #[inline(always)]
-    fn positions(&mut self) -> P::Lanes {
+    fn positions(&mut self) -> LanePart<P::Lanes> {
         match R::COMPENSATED {
             true => self.sums(&of_increments(Columns::<P>::SECOND_ORDER)),
             false => self.sums(&of_forces::<P>(self.lanes.step.size)),
@@ -371,7 +371,7 @@ where
     fn sums(
         &mut self,
         sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
-    ) -> P::Lanes {
+    ) -> LanePart<P::Lanes> {
         let scaled = (sums.factor)(0).is_some();
         let (step, stages) = (self.lanes.step, &mut *self.lanes.stages);
         let start = self.start.as_slice();
@@ -552,14 +552,8 @@ where
     #[inline(always)]
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
         let stages = self.lanes.stages.q.as_ref();
-        let scale = scale_of::<P, V>(self.lanes.step.q, stages);
-        let q = part_change(movement.q, scale, are_numbers::<P, V>(stages));
+        let q = (movement.q).change(scale_of::<P, V>(self.lanes.step.q, stages));
         Change { q, p: q }
-    }
-
-    #[inline(always)]
-    fn is_number(&self, _movement: &LaneMovement<P::Lanes>) -> bool {
-        are_numbers::<P, V>(self.lanes.stages.q.as_ref())
     }
 
     #[inline(always)]

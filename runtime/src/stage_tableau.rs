@@ -101,7 +101,8 @@ pub struct SecondOrderTableau {
     pub rest: &'static [f64],
 }
 
-/// The columns up to the last that is not zero: those after it add nothing.
+/// The columns up to the last that is not zero: those after it add nothing. That the evaluation of such a column is not finite shows
+/// in no stage, but in the result of the step.
 const fn significant(columns: &'static [&'static [f64]]) -> &'static [&'static [f64]] {
     let mut count = columns.len();
     while count > 1 && is_zero(columns[count - 1]) {

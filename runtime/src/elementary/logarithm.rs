@@ -39,7 +39,7 @@ pub(crate) fn ln<D: Doubles>(x: D) -> D {
     near(x)
 }
 
-/// Whether all are normal numbers above zero.
+/// Whether all are above the smallest and below the largest normal number.
 #[inline(always)]
 fn is_near<D: Doubles>(x: D) -> bool {
     x.all_below(f64::MAX) && (-x).all_below(-f64::MIN_POSITIVE)

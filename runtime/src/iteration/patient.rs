@@ -126,10 +126,10 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         if once_more {
             return Ok((iteration, last.scales()));
         }
-        if tolerates && this.is_within([tolerance; 2], both) && sweeps.is_number(&this) {
+        if tolerates && this.is_within([tolerance; 2], both) && this.is_number() {
             return Ok((iteration, sweeps.change(&this).scales()));
         }
-        if overlooks && early && this.exceeds(far, both) && sweeps.is_number(&this) {
+        if overlooks && early && this.exceeds(far, both) && this.is_number() {
             if iteration == 1 {
                 first = Some(this);
             }

@@ -64,7 +64,7 @@ fn to_tolerance<W: Sweeps>(
     while iterations + 1 < late {
         let this = sweeps.sweep();
         iterations += 1;
-        if this.is_within([tolerance; 2], both) && sweeps.is_number(&this) {
+        if this.is_within([tolerance; 2], both) && this.is_number() {
             return Ok(iterations);
         }
     }
@@ -95,7 +95,7 @@ fn to_rounding<T: Scalar, W: Sweeps>(
             };
             if is_last(size.scales)
                 && sweeps.are_about(&this, size.scales, both)
-                && sweeps.is_number(&this)
+                && this.is_number()
             {
                 return Ok((begun.iterations, size.scales));
             }
@@ -167,7 +167,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
         this = sweeps.sweep();
         begun.iterations += 1;
     }
-    if !(this.settles_within(size.near, both) && sweeps.is_number(&this)) {
+    if !(this.settles_within(size.near, both) && this.is_number()) {
         begun.last = Some(this);
         return Err(begun);
     }

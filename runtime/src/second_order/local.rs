@@ -11,7 +11,7 @@ use crate::in_lanes::{
 };
 use crate::iteration::{Begun, Sweeps};
 use crate::kernel::sum_of_products;
-use crate::lane_movement::{LaneMovement, part_change};
+use crate::lane_movement::{LaneMovement, LanePart};
 use crate::stage_tableau::Columns;
 use crate::starting_values::starts_at_once;
 use crate::{
@@ -61,17 +61,16 @@ where
         scale_of::<P, V>(self.positions.lanes.step.q, &[]).larger(self.largest)
     }
 
-    /// The forces at the positions that are these sums of them; returns how much they changed, NaN in lanes where that is no finite
-    /// number.
+    /// The forces at the positions that are these sums of them; returns how much they changed.
     #[inline(always)]
     fn walk(
         &mut self,
         sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
-    ) -> P::Lanes {
+    ) -> LanePart<P::Lanes> {
         let lanes = &mut self.positions.lanes;
         let (step, stages) = (lanes.step, &mut *lanes.stages);
         let [force, ..] = stages.force.as_mut() else {
-            return P::Lanes::zero();
+            return LanePart::or_none(None);
         };
         let force = force.as_mut_slice();
         let n = (force.len().min(step.q.dimension()))
@@ -91,11 +90,7 @@ where
         let time = times::<P, V>(&P::POSITIONS, step, 0);
         P::Lanes::local_force::<V, S>(lanes.system, time, &mut along);
         self.largest = along.largest;
-        let (largest, sum) = along
-            .changes
-            .unwrap_or_else(|| (P::Lanes::zero(), P::Lanes::zero()));
-        // The larger ones may have lost what is not a number.
-        largest + sum * P::Lanes::zero()
+        LanePart::or_none(along.changes)
     }
 
     /// [`walk`](Self::walk), but by how much the next positions can differ from those that the forces are at, but for rounding.
@@ -103,17 +98,20 @@ where
     fn moves(
         &mut self,
         sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
-    ) -> P::Lanes {
-        let changes = self.walk(sums);
+    ) -> LanePart<P::Lanes> {
+        let LanePart { largest, sum } = self.walk(sums);
         let h = self.positions.lanes.step.size;
-        sum_of_products(None, sums.count, |j| {
+        let largest = sum_of_products(None, sums.count, |j| {
             let factor = P::Lanes::from_f64((sums.factor)(j).unwrap_or(h));
             let column: P::Lanes = lanes((sums.column)(j), 0);
             (
                 (column * factor).abs(),
-                P::Lanes::from_f64(lane_of(changes, j)),
+                P::Lanes::from_f64(lane_of(largest, j)),
             )
-        })
+        });
+        // Of infinite changes products may be no numbers, and are lost.
+        let sum = sum * P::Lanes::zero();
+        LanePart { largest, sum }
     }
 }
 
@@ -127,8 +125,8 @@ struct Along<'a, P: StageTableau, R, C, F> {
     /// Those of the sweep before, and the new ones where they have been set; or the increments made of them.
     force: &'a mut [P::Lanes],
     largest: P::Lanes,
-    /// The largest change of a force, and the sum of all changes.
-    changes: Option<(P::Lanes, P::Lanes)>,
+    /// How much the forces have changed.
+    changes: Option<LanePart<P::Lanes>>,
     summation: PhantomData<R>,
 }
 
@@ -175,10 +173,7 @@ where
         };
         let change = (new - *place).abs();
         *place = new;
-        self.changes = Some(match self.changes {
-            Some((largest, sum)) => (largest.larger(change), sum + change),
-            None => (change, change),
-        });
+        self.changes = Some(LanePart::noted(self.changes, change));
     }
 }
 
@@ -252,13 +247,8 @@ where
 
     #[inline(always)]
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
-        let q = part_change(movement.q, self.scale(), self.is_number(movement));
+        let q = movement.q.change(self.scale());
         Change { q, p: q }
-    }
-
-    #[inline(always)]
-    fn is_number(&self, movement: &LaneMovement<P::Lanes>) -> bool {
-        !movement.q.any_nan()
     }
 
     #[inline(always)]
