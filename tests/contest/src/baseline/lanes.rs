@@ -30,7 +30,7 @@ pub trait Lanes:
     fn halves(self) -> (Self::Half, Self::Half);
     /// √x.
     fn sqrt(self) -> Self;
-    /// Sine and cosine: those of `wide`.
+    /// Sine and cosine: those of `wide`, of one double those of the standard library. The library has its own.
     fn sin_cos(self) -> (Self, Self);
     /// Sine, as [`sin_cos`](Self::sin_cos).
     fn sin(self) -> Self;

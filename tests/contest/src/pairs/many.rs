@@ -48,6 +48,11 @@ impl Chain {
         (q, p)
     }
 
+    /// How many steps of this size go to the same time.
+    fn steps_of(&self, step_size: f64) -> u64 {
+        (self.steps as f64 * self.step_size / step_size).round() as u64
+    }
+
     /// Runs by hand.
     fn by_hand<const STAGES: usize>(
         &self,
@@ -88,9 +93,14 @@ impl Chain {
             Integrator::<_, _, _, Plain>::in_second_order_lanes,
             by_hand,
         );
-        pairs.push(to_tolerance);
+        let steps = self.steps_of(step_size);
+        pairs.push(Pair {
+            steps,
+            ..to_tolerance
+        });
         pairs.push(Pair {
             sums: TO_ROUNDING,
+            steps,
             ..to_rounding
         });
     }
@@ -121,8 +131,7 @@ impl Chain {
             q.values().chain(p.values()).collect()
         };
         Pair {
-            // To the same time.
-            steps: (self.steps as f64 * self.step_size / step_size).round() as u64,
+            steps: self.steps_of(step_size),
             ..self.pair(
                 method,
                 step_size,
