@@ -4,9 +4,13 @@ use core::mem;
 
 use num_traits::Zero;
 
+use crate::in_lanes::lane_of;
 use crate::layout::{Part, parts};
 use crate::rows::{Eight, Row, Single, splats};
-use crate::{Components, Layout, Scalar, SeparableHamiltonian, Vector, copy};
+use crate::{
+    Components, F64x8, Lanes, Layout, MOST_STAGES, Scalar, SeparableHamiltonian, StageRows, Vector,
+    copy,
+};
 
 /// What the particles of a [`Chain`] feel.
 ///
@@ -396,6 +400,19 @@ impl<T: Scalar, const K: usize> Pass<T> for KicksAndDrift<'_, T, K> {
     }
 }
 
+/// A row with nothing in its last lane.
+#[inline(always)]
+fn without_last(row: F64x8) -> F64x8 {
+    let lanes = row.to_array();
+    F64x8::from_fn(|lane| {
+        if lane + 1 < F64x8::WIDTH {
+            lanes[lane]
+        } else {
+            0.0
+        }
+    })
+}
+
 impl<V: Vector, B: Bonds> SeparableHamiltonian<V> for Chain<B> {
     const UNIT_MASSES: bool = true;
 
@@ -444,6 +461,60 @@ impl<V: Vector, B: Bonds> SeparableHamiltonian<V> for Chain<B> {
             None => V::Scalar::zero(),
         };
         components.set_force(last, self.between(time, left, here, right));
+    }
+
+    const ROW_FORCES: bool = true;
+
+    #[inline(always)]
+    fn row_forces(&self, rows: &mut impl StageRows) {
+        let stages = rows.stages();
+        let Some(last) = rows.count().checked_sub(1) else {
+            return;
+        };
+        let first = rows.positions(0);
+        // Only a ring looks at its other end.
+        let at_last = match self.ends {
+            Ends::Ring => rows.positions(last),
+            Ends::Walls | Ends::Free => first,
+        };
+        let zeros = [F64x8::zero(); MOST_STAGES];
+        let (mut here, mut before) = (first, zeros);
+        for stage in 0..stages {
+            // That left of the first particle, in all lanes.
+            let [first, last] = [
+                lane_of(first[stage], 0),
+                lane_of(at_last[stage], F64x8::WIDTH - 1),
+            ];
+            let ends = [first, last].map(F64x8::from_f64);
+            before[stage] = self.first_tension(rows.time(stage), ends[0], ends[1]);
+        }
+        for row in 0..last {
+            let (next, mut forces) = (rows.positions(row + 1), zeros);
+            for stage in 0..stages {
+                let (time, here) = (rows.time(stage), here[stage]);
+                let tension = self
+                    .bonds
+                    .tension(time, Eight::right(here, next[stage]) - here);
+                forces[stage] =
+                    self.between(time, Eight::left(before[stage], tension), here, tension);
+                before[stage] = tension;
+            }
+            rows.set_forces(row, forces);
+            here = next;
+        }
+        let mut forces = zeros;
+        for stage in 0..stages {
+            let (time, here) = (rows.time(stage), here[stage]);
+            // With no bond to the right of it the last particle is where the next one would be.
+            let beyond = self.beyond(first[stage]);
+            let next = Eight::right(here, beyond.unwrap_or(here));
+            let mut tension = self.bonds.tension(time, next - here);
+            if beyond.is_none() {
+                tension = without_last(tension);
+            }
+            forces[stage] = self.between(time, Eight::left(before[stage], tension), here, tension);
+        }
+        rows.set_forces(last, forces);
     }
 
     #[inline]

@@ -1,5 +1,7 @@
 //! A system, component by component.
 
+use crate::F64x8;
+
 /// The components of a system whose force is [local](crate::SeparableHamiltonian::LOCAL_FORCE): positions are made where they are asked
 /// for, and need not be in memory. The force on every component has to be set, once.
 pub trait Components<T> {
@@ -11,4 +13,26 @@ pub trait Components<T> {
 
     /// Sets the force on a component.
     fn set_force(&mut self, component: usize, force: T);
+}
+
+/// The most stages of [`StageRows`]: eight fill the lanes without them.
+pub const MOST_STAGES: usize = 7;
+
+/// [`Components`] side by side, eight in a row, of all stages of a step at once. Every component is in a row. The positions of a stage
+/// are at the place of its number in what is given, from 0; what is behind the last stage is not looked at.
+pub trait StageRows {
+    /// How many rows there are, one at least.
+    fn count(&self) -> usize;
+
+    /// How many stages there are, [`MOST_STAGES`] at most.
+    fn stages(&self) -> usize;
+
+    /// The time of a stage.
+    fn time(&self, stage: usize) -> F64x8;
+
+    /// The positions in a row, from 0, the forces on which have not been [set](Self::set_forces).
+    fn positions(&mut self, row: usize) -> [F64x8; MOST_STAGES];
+
+    /// Sets the forces on a row.
+    fn set_forces(&mut self, row: usize, forces: [F64x8; MOST_STAGES]);
 }

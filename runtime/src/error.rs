@@ -181,8 +181,8 @@ pub enum Error {
 
     /// A system makes its force component by component, and what comes out is not its force.
     #[error(
-        "component {component} of the force is {local} in size by `local_force` and {expected} by `force`: they have to be the same to \
-         the last bit; leave `local_force` and `LOCAL_FORCE = true` out, or make it from the same operations"
+        "component {component} of the force is {local} in size by `local_force` or `row_forces` and {expected} by `force`: they have to be the \
+         same to the last bit; leave them and `LOCAL_FORCE = true`, `ROW_FORCES = true` out, or make them from the same operations"
     )]
     NotTheSameLocalForce {
         /// The component, from 0.

@@ -1,6 +1,6 @@
 //! The systems that are integrated.
 
-use crate::{Class, Components, Layout, Separable, Vector};
+use crate::{Class, Components, Layout, Separable, StageRows, Vector};
 
 /// A Hamiltonian system, given by the right-hand sides of Hamilton's equations
 ///
@@ -118,6 +118,13 @@ pub trait Hamiltonian<V: Vector> {
     /// The force, component by component: see [`SeparableHamiltonian::local_force`].
     #[inline(always)]
     fn local_force(&self, _time: V::Scalar, _components: &mut impl Components<V::Scalar>) {}
+
+    /// Whether the force is made in rows: see [`SeparableHamiltonian::ROW_FORCES`].
+    const ROW_FORCES: bool = false;
+
+    /// The force in rows: see [`SeparableHamiltonian::row_forces`].
+    #[inline(always)]
+    fn row_forces(&self, _rows: &mut impl StageRows) {}
 
     /// Kicks and a drift in one pass: see [`SeparableHamiltonian::kick_and_drift`].
     #[inline(always)]
@@ -255,6 +262,18 @@ pub trait SeparableHamiltonian<V: Vector> {
     #[inline(always)]
     fn local_force(&self, _time: V::Scalar, _components: &mut impl Components<V::Scalar>) {}
 
+    /// Whether [`row_forces`](Self::row_forces) is written out.
+    const ROW_FORCES: bool = false;
+
+    /// [`local_force`](Self::local_force) of doubles, with the same bits, of all stages and of eight neighbouring components at once: to be
+    /// written out, and [said](Self::ROW_FORCES), where neighbours feel each other in the same way everywhere, as in a
+    /// [`Chain`](crate::Chain). [`SecondOrderInLanes`](crate::SecondOrderInLanes) asks for it in place of `local_force` where a method has
+    /// less than eight stages and the components fill rows: then no lane is without work, and results are made row by row too.
+    /// Making that solver fails with [`Error::NotTheSameLocalForce`](crate::Error::NotTheSameLocalForce) where other bits come out of it
+    /// than by `force`.
+    #[inline(always)]
+    fn row_forces(&self, _rows: &mut impl StageRows) {}
+
     /// For a system of [unit masses](Self::UNIT_MASSES) that can do it in one pass over its components, as a [`Chain`](crate::Chain)
     /// can: kicks of the momenta by one force, one after the other, and a drift of the positions,
     ///
@@ -316,6 +335,13 @@ impl<V: Vector, S: SeparableHamiltonian<V>> Hamiltonian<V> for S {
     #[inline(always)]
     fn local_force(&self, time: V::Scalar, components: &mut impl Components<V::Scalar>) {
         SeparableHamiltonian::local_force(self, time, components);
+    }
+
+    const ROW_FORCES: bool = S::ROW_FORCES;
+
+    #[inline(always)]
+    fn row_forces(&self, rows: &mut impl StageRows) {
+        SeparableHamiltonian::row_forces(self, rows);
     }
 
     #[inline(always)]

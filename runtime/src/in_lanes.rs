@@ -75,16 +75,18 @@ where
     }
 
     fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
-        extend::<P, V>(&P::MOMENTA, at, stages.velocity.as_ref(), q);
-        extend::<P, V>(&P::POSITIONS, at, stages.force.as_ref(), p);
+        let velocity = |stage, k| entry::<P, V>(stages.velocity.as_ref(), stage, k);
+        let force = |stage, k| entry::<P, V>(stages.force.as_ref(), stage, k);
+        extend::<P, V>(&P::MOMENTA, at, velocity, q);
+        extend::<P, V>(&P::POSITIONS, at, force, p);
     }
 }
 
-/// Adds to `out` the part that vanishes at both ends of the step, of the evaluations of one half.
+/// Adds to `out` the part that vanishes at both ends of the step, of the evaluations of one half, by stage and component.
 pub(crate) fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
     half: &HalfTableau,
     at: Inside<'_, V>,
-    terms: &[Laned<V, P>],
+    evaluation: impl Fn(usize, usize) -> f64,
     out: &mut V,
 ) {
     let Some(polynomial) = half.polynomial else {
@@ -98,7 +100,7 @@ pub(crate) fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
             at.size * factor
         };
         for (k, out) in out.as_mut_slice().iter_mut().enumerate() {
-            *out += factor * entry::<P, V>(terms, stage, k);
+            *out += factor * evaluation(stage, k);
         }
     }
 }

@@ -1,12 +1,14 @@
 //! Second-order systems: coupled stages without the momenta.
 
 mod local;
+mod rows;
 mod stages;
 
 use core::marker::PhantomData;
 use core::mem;
 
 use self::local::{Locally, is_local};
+use self::rows::are_in_rows;
 pub use self::stages::SecondOrderStages;
 use crate::in_lanes::{
     ByLanes, Sums, entry, extend, extrapolate, in_groups, is_about, lane_of, lanes, scale,
@@ -36,6 +38,8 @@ use crate::{
 /// [local](crate::SeparableHamiltonian::LOCAL_FORCE), a [`Chain`](crate::Chain), is gone through once in a sweep, as long as a step goes
 /// on from the one before and settles in its first sweeps: the positions of the stages are made, and used, component by component. What
 /// is then compared with a tolerance is by how much the next positions can differ, at most but for rounding, from those of the sweep.
+/// Of less than eight stages, and components that fill rows of eight, it is gone through in [rows](crate::SeparableHamiltonian::ROW_FORCES):
+/// the lanes run along the components. Both have the same bits.
 #[derive(Clone, Copy, Debug)]
 pub struct SecondOrderInLanes(());
 
@@ -135,7 +139,15 @@ where
             false => settle::<P::Class, f64>(&mut sweeps, kept, stopping)?,
         };
         work.evaluations += sweeps.evaluations().finish;
-        if R::COMPENSATED {
+        if are_in_rows::<P, V, S>(step.q.dimension()) {
+            if R::COMPENSATED {
+                velocity::<P, V, S>(system, step, step.p_low, outcome.q, lanes);
+                rows::compensated_result::<P, R, V>(step, lanes, outcome);
+            } else {
+                rows::plain_result::<P, V>(step, lanes, outcome);
+                rows::scale::<P, V>(lanes, step.size);
+            }
+        } else if R::COMPENSATED {
             compensated_result::<P, R, V, S>(step, system, start, lanes, outcome);
         } else {
             sweeps.plain_result(outcome);
@@ -154,18 +166,25 @@ where
         if !eliminates::<P>() {
             return <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
         }
-        extend::<P, V>(&P::POSITIONS, at, stages.force.as_ref(), p);
+        let in_rows = are_in_rows::<P, V, S>(p.dimension());
+        let force = |stage: usize, k: usize| match in_rows {
+            true => rows::force(stages, stage, k),
+            false => entry::<P, V>(stages.force.as_ref(), stage, k),
+        };
+        extend::<P, V>(&P::POSITIONS, at, force, p);
         let Some(polynomial) = P::MOMENTA.polynomial else {
             return;
         };
-        let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force);
+        let slope = |stage: usize, k: usize| match <S as Hamiltonian<V>>::UNIT_MASSES {
+            true => force(stage, k),
+            false => entry::<P, V>(stages.velocity.as_ref(), stage, k),
+        };
         let start = start_of::<V, S>(at.momentum, &memory.start).as_slice();
         // The velocities at the stages: M⁻¹(p0 + Σ_j μ̃_ij w_j).
         for stage in 0..P::MOMENTA.count {
             let factor = at.size * P::MOMENTA.weights[stage] * at.factor(polynomial, stage);
             for (k, out) in q.as_mut_slice().iter_mut().enumerate() {
-                let part =
-                    |j: usize| P::MOMENTA.columns[j][stage] * entry::<P, V>(slopes.as_ref(), j, k);
+                let part = |j: usize| P::MOMENTA.columns[j][stage] * slope(j, k);
                 let sum: f64 = (0..P::POSITIONS.count).map(part).sum();
                 *out += factor * (start[k] + sum);
             }

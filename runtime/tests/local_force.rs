@@ -4,13 +4,15 @@ use std::cell::Cell;
 
 use symplectic::nalgebra::DVector;
 use symplectic::{
-    Bonds, Chain, Compensated, Components, Error, Hamiltonian, HamiltonianInLanes, Integrator,
-    Method, Plain, Scalar, SeparableHamiltonian, State, Statistics, Summation, Vector, copy,
-    tableau,
+    Bonds, Chain, Compensated, Components, Error, F64x8, Hamiltonian, HamiltonianInLanes,
+    Integrator, MOST_STAGES, Method, Plain, Scalar, SeparableHamiltonian, StageRows, State,
+    Statistics, Summation, Vector, copy, tableau,
 };
 
 tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
 tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
+tableau! { Gauss5 { basis: polynomial(5), nodes: gauss(5) } }
+tableau! { Gauss7 { basis: polynomial(7), nodes: gauss(7) } }
 tableau! { Gauss8 { basis: polynomial(8), nodes: gauss(8) } }
 tableau! { Gauss10 { basis: polynomial(10), nodes: gauss(10) } }
 tableau! { Lobatto3 { basis: polynomial(3), nodes: lobatto(3) } }
@@ -45,6 +47,87 @@ impl<V: Vector, S: SeparableHamiltonian<V>> SeparableHamiltonian<V> for Global<S
 
     fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
         self.0.force(time, q, force);
+    }
+}
+
+/// What makes its force component by component, and not in rows.
+struct ByComponents<S>(S);
+
+impl<V: Vector, S: SeparableHamiltonian<V>> SeparableHamiltonian<V> for ByComponents<S> {
+    const UNIT_MASSES: bool = true;
+    const LOCAL_FORCE: bool = true;
+
+    fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V) {
+        self.0.velocity(time, p, velocity);
+    }
+
+    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
+        self.0.force(time, q, force);
+    }
+
+    fn local_force(&self, time: V::Scalar, components: &mut impl Components<V::Scalar>) {
+        self.0.local_force(time, components);
+    }
+}
+
+/// Makes its force in rows, `made` times, and perhaps another one.
+struct InRows<'a, S> {
+    system: S,
+    made: &'a Cell<u64>,
+    factor: f64,
+}
+
+/// Rows whose forces are something else.
+struct Multiplied<'a, R> {
+    rows: &'a mut R,
+    factor: f64,
+}
+
+impl<R: StageRows> StageRows for Multiplied<'_, R> {
+    fn count(&self) -> usize {
+        self.rows.count()
+    }
+
+    fn stages(&self) -> usize {
+        self.rows.stages()
+    }
+
+    fn time(&self, stage: usize) -> F64x8 {
+        self.rows.time(stage)
+    }
+
+    fn positions(&mut self, row: usize) -> [F64x8; MOST_STAGES] {
+        self.rows.positions(row)
+    }
+
+    fn set_forces(&mut self, row: usize, forces: [F64x8; MOST_STAGES]) {
+        let factor = F64x8::from_f64(self.factor);
+        self.rows
+            .set_forces(row, forces.map(|force| force * factor));
+    }
+}
+
+impl<V: Vector, S: SeparableHamiltonian<V>> SeparableHamiltonian<V> for InRows<'_, S> {
+    const UNIT_MASSES: bool = true;
+    const LOCAL_FORCE: bool = true;
+    const ROW_FORCES: bool = true;
+
+    fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V) {
+        self.system.velocity(time, p, velocity);
+    }
+
+    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
+        self.system.force(time, q, force);
+    }
+
+    fn local_force(&self, time: V::Scalar, components: &mut impl Components<V::Scalar>) {
+        self.system.local_force(time, components);
+    }
+
+    fn row_forces(&self, rows: &mut impl StageRows) {
+        self.made.set(self.made.get() + 1);
+        let factor = self.factor;
+        self.system.row_forces(&mut Multiplied { rows, factor });
     }
 }
 
@@ -155,13 +238,89 @@ fn stages_along_the_components_are_those_of_the_force() -> Result<(), Error> {
     Ok(())
 }
 
+/// Compares the steps of a method in rows and component by component, to the last bit.
+macro_rules! compare_rows {
+    ($($method:ident),+; $step_size:expr, $set:expr) => {$(
+        for n in [8, 40] {
+            for chain in chains(Breaking { at: 1e3 }) {
+                let rows = run($method, chain, n, $step_size, $set)?;
+                let components = run($method, ByComponents(chain), n, $step_size, $set)?;
+                assert_eq!(rows, components, "{} {n} {chain:?}", stringify!($method));
+            }
+        }
+    )+};
+}
+
+#[test]
+fn rows_have_the_bits_of_single_components() -> Result<(), Error> {
+    // The last ones do not settle in their first sweeps.
+    for step_size in [-STEP_SIZE, 3.0 * STEP_SIZE] {
+        compare_rows!(Gauss2, Gauss3, Gauss5, Gauss7, Lobatto3; step_size, |made: &mut Integrator<_, _, _, Plain>| made.set_tolerance(1e-14));
+        compare_rows!(Gauss2, Gauss3, Gauss5, Gauss7, Lobatto3; step_size, |_: &mut Integrator<_, _, _, Plain>| Ok(()));
+        compare_rows!(Gauss2, Gauss3, Gauss5, Gauss7, Lobatto3; step_size, |_: &mut Integrator<_, _, _, Compensated>| Ok(()));
+    }
+    Ok(())
+}
+
+#[test]
+fn rows_are_made_where_components_fill_them() -> Result<(), Error> {
+    fn rows<M: Method>(method: M, n: usize) -> Result<u64, Error> {
+        let made = &Cell::new(0);
+        let system = InRows {
+            system: Chain::ring(Breaking { at: 1e3 }),
+            made,
+            factor: 1.0,
+        };
+        run(
+            method,
+            system,
+            n,
+            STEP_SIZE,
+            |_: &mut Integrator<_, _, _, Plain>| Ok(()),
+        )?;
+        Ok(made.get())
+    }
+    for (made, expected) in [
+        (rows(Gauss2, 16)?, true),
+        (rows(Lobatto3, 8)?, true),
+        (rows(Gauss7, 40)?, true),
+        (rows(Gauss2, 17)?, false),
+        // Eight stages fill the lanes; that they are looked at when the solver is made counts one.
+        (rows(Gauss8, 16)?, false),
+    ] {
+        assert_eq!(made > 50, expected, "{made}");
+    }
+    Ok(())
+}
+
+#[test]
+fn another_force_in_rows_is_refused() {
+    let made = &Cell::new(0);
+    let system = InRows {
+        system: Chain::ring(Breaking { at: 1e3 }),
+        made,
+        factor: 1.0 + f64::EPSILON,
+    };
+    let made = run(
+        Gauss2,
+        system,
+        16,
+        STEP_SIZE,
+        |_: &mut Integrator<_, _, _, Plain>| Ok(()),
+    );
+    assert!(
+        matches!(made, Err(Error::NotTheSameLocalForce { .. })),
+        "{made:?}"
+    );
+}
+
 #[test]
 fn steps_may_change_and_have_states_inside() -> Result<(), Error> {
-    fn check<S, R: Summation>(system: S) -> Result<Vec<f64>, Error>
+    fn check<M: Method, S, R: Summation>(method: M, system: S, n: usize) -> Result<Vec<f64>, Error>
     where
         S: HamiltonianInLanes<DVector<f64>>,
     {
-        let integrator = Integrator::<_, _, _, R>::with_summation(Gauss8, system, start(20), 0.2)?;
+        let integrator = Integrator::<_, _, _, R>::with_summation(method, system, start(n), 0.2)?;
         let mut integrator = integrator.in_second_order_lanes()?;
         let mut seen = Vec::new();
         for step_size in [0.2, 0.15, -0.1] {
@@ -177,12 +336,23 @@ fn steps_may_change_and_have_states_inside() -> Result<(), Error> {
     }
     for chain in chains(Breaking { at: 1e3 }) {
         let pairs = [
-            [check::<_, Plain>(chain)?, check::<_, Plain>(Global(chain))?],
             [
-                check::<_, Compensated>(chain)?,
-                check::<_, Compensated>(Global(chain))?,
+                check::<_, _, Plain>(Gauss8, chain, 20)?,
+                check::<_, _, Plain>(Gauss8, Global(chain), 20)?,
+            ],
+            [
+                check::<_, _, Compensated>(Gauss8, chain, 20)?,
+                check::<_, _, Compensated>(Gauss8, Global(chain), 20)?,
             ],
         ];
+        assert_eq!(
+            check::<_, _, Plain>(Gauss3, chain, 24)?,
+            check::<_, _, Plain>(Gauss3, ByComponents(chain), 24)?
+        );
+        assert_eq!(
+            check::<_, _, Compensated>(Gauss5, chain, 24)?,
+            check::<_, _, Compensated>(Gauss5, ByComponents(chain), 24)?
+        );
         for [local, global] in pairs {
             let differences = local.iter().zip(&global).map(|(x, y)| (x - y).abs());
             assert!(differences.fold(0.0, f64::max) <= 1e-13);
@@ -252,13 +422,17 @@ fn iterations_of_many_sweeps_go_on_by_the_force() -> Result<(), Error> {
 }
 
 /// The error, and the state after it.
-fn failure<S>(system: S, iterations: u32) -> (Error, State<DVector<f64>>)
+fn failure<M: Method, S>(
+    method: M,
+    (system, n): (S, usize),
+    iterations: u32,
+) -> (Error, State<DVector<f64>>)
 where
     S: HamiltonianInLanes<DVector<f64>>,
 {
-    let mut start = start(20);
+    let mut start = start(n);
     start.p *= 3.0;
-    let integrator = Integrator::new(Gauss8, system, start, STEP_SIZE).expect("a start");
+    let integrator = Integrator::new(method, system, start, STEP_SIZE).expect("a start");
     let mut integrator = integrator.in_second_order_lanes().expect("second order");
     integrator.step().expect("a step");
     integrator.set_max_iterations(iterations);
@@ -275,8 +449,8 @@ where
 #[test]
 fn steps_fail_as_they_do_by_the_force() {
     for chain in chains(Breaking { at: 1.75 }) {
-        let (local, state) = failure(chain, 200);
-        let (global, expected) = failure(Global(chain), 200);
+        let (local, state) = failure(Gauss8, (chain, 20), 200);
+        let (global, expected) = failure(Gauss8, (Global(chain), 20), 200);
         assert!(matches!(local, Error::NonFinite { .. }), "{local}");
         assert_eq!(local, global);
         // A unit of rounding of the largest component in every step.
@@ -285,8 +459,19 @@ fn steps_fail_as_they_do_by_the_force() {
         assert!(distance(&state, &expected) <= bound);
     }
     for iterations in [1, 2, 3] {
-        let (local, _) = failure(Chain::ring(Breaking { at: 1e3 }), iterations);
+        let chain = Chain::ring(Breaking { at: 1e3 });
+        let (local, _) = failure(Gauss8, (chain, 20), iterations);
         assert!(matches!(local, Error::NoConvergence { .. }), "{local}");
+        let in_rows = failure(Gauss3, (chain, 24), iterations);
+        assert_eq!(
+            in_rows,
+            failure(Gauss3, (ByComponents(chain), 24), iterations)
+        );
+    }
+    for chain in chains(Breaking { at: 1.75 }) {
+        let in_rows = failure(Gauss3, (chain, 24), 200);
+        assert!(matches!(in_rows.0, Error::NonFinite { .. }), "{in_rows:?}");
+        assert_eq!(in_rows, failure(Gauss3, (ByComponents(chain), 24), 200));
     }
 }
 

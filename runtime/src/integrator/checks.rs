@@ -1,10 +1,11 @@
 //! What is looked at before an integrator is made or changed.
 
+use crate::array::array;
 use crate::kernel::kick_and_drift;
 use crate::stage::is_finite;
 use crate::{
     Class, Components, Error, F64x2, F64x4, F64x8, Hamiltonian, HamiltonianInLanes, Lanes, Layout,
-    Quantity, Scalar, State, Vector, copy,
+    MOST_STAGES, Quantity, Scalar, StageRows, State, Vector, copy,
 };
 
 pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {
@@ -102,7 +103,86 @@ where
     check_local_force(system, *time, q, p)?;
     check_local_force(system, *time, &splat::<V, F64x2>(q), &splat(p))?;
     check_local_force(system, *time, &splat::<V, F64x4>(q), &splat(p))?;
-    check_local_force(system, *time, &splat::<V, F64x8>(q), &splat(p))
+    check_local_force(system, *time, &splat::<V, F64x8>(q), &splat(p))?;
+    check_row_forces(system, state)
+}
+
+/// Checks that the force in rows is the force, of two stages.
+fn check_row_forces<V, S>(system: &S, state: &State<V>) -> Result<(), Error>
+where
+    V: Vector<Scalar = f64>,
+    S: Hamiltonian<V>,
+{
+    let State { time, q, p } = state;
+    if !S::ROW_FORCES || q.dimension() == 0 || !q.dimension().is_multiple_of(F64x8::WIDTH) {
+        return Ok(());
+    }
+    let mut nearer = q.clone();
+    for component in nearer.as_mut_slice() {
+        *component *= 0.5;
+    }
+    let positions = [q, &nearer];
+    let mut forces = [q.zeros_like(), q.zeros_like()];
+    for force in &mut forces {
+        force.as_mut_slice().fill(f64::NAN);
+    }
+    let [first, second] = &mut forces;
+    system.row_forces(&mut RowsInMemory {
+        time: *time,
+        stages: [(q, first), (&nearer, second)].map(|(q, force)| InMemory {
+            q: q.as_slice(),
+            force: force.as_mut_slice(),
+        }),
+    });
+    for (q, local) in positions.into_iter().zip(&forces) {
+        let mut force = q.zeros_like();
+        system.force(*time, q, p, &mut force);
+        if let Some((component, local, expected)) = first_difference(local, &force) {
+            return Err(Error::NotTheSameLocalForce {
+                component,
+                local,
+                expected,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Two stages that are in memory, in rows.
+struct RowsInMemory<'a> {
+    time: f64,
+    stages: [InMemory<'a, f64>; 2],
+}
+
+impl StageRows for RowsInMemory<'_> {
+    fn count(&self) -> usize {
+        self.stages[0].dimension() / F64x8::WIDTH
+    }
+
+    fn stages(&self) -> usize {
+        self.stages.len()
+    }
+
+    fn time(&self, _stage: usize) -> F64x8 {
+        F64x8::from_f64(self.time)
+    }
+
+    fn positions(&mut self, row: usize) -> [F64x8; MOST_STAGES] {
+        array(F64x8::from_f64(f64::NAN), |stage| {
+            F64x8::from_fn(|lane| match self.stages.get_mut(stage) {
+                Some(stage) => stage.position(row * F64x8::WIDTH + lane),
+                None => f64::NAN,
+            })
+        })
+    }
+
+    fn set_forces(&mut self, row: usize, forces: [F64x8; MOST_STAGES]) {
+        for (stage, force) in self.stages.iter_mut().zip(forces) {
+            for (lane, force) in force.to_array().into_iter().enumerate() {
+                stage.set_force(row * F64x8::WIDTH + lane, force);
+            }
+        }
+    }
 }
 
 /// A vector in all lanes.

@@ -5,6 +5,7 @@ use core::mem;
 
 use num_traits::Zero;
 
+use super::rows::{AlongRows, Matrix, are_in_rows, enter, leave};
 use super::{Positions, Start, apart, eliminates, of_forces, of_increments, position, tableau};
 use crate::in_lanes::{
     Sums, combination, increment_factor, is_about, lane_of, lanes, scale_of, times,
@@ -55,6 +56,12 @@ where
         }
     }
 
+    /// Whether the forces are in rows.
+    #[inline(always)]
+    fn are_in_rows(&self) -> bool {
+        are_in_rows::<P, V, S>(self.positions.lanes.step.q.dimension())
+    }
+
     /// The largest component of the positions of the stages and of what they start from.
     #[inline(always)]
     fn scale(&self) -> P::Lanes {
@@ -67,8 +74,17 @@ where
         &mut self,
         sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
     ) -> LanePart<P::Lanes> {
+        let in_rows = self.are_in_rows();
         let lanes = &mut self.positions.lanes;
         let (step, stages) = (lanes.step, &mut *lanes.stages);
+        if in_rows {
+            let matrix = Matrix::new::<P>(sums);
+            let mut along = AlongRows::<P, R>::new(&matrix, step, stages);
+            Hamiltonian::<V>::row_forces(lanes.system, &mut along);
+            let (largest, changes) = along.moved();
+            self.largest = largest;
+            return changes;
+        }
         let [force, ..] = stages.force.as_mut() else {
             return LanePart::or_none(None);
         };
@@ -226,12 +242,21 @@ where
         stopping: Stopping,
         begun: Begun<Self::Movement>,
     ) -> Result<Work, Failure> {
-        if begun.is_nothing() {
-            return self.positions.go_on::<C, T>(kept, stopping, begun);
+        let in_rows = self.are_in_rows();
+        if in_rows {
+            leave::<P, V>(self.positions.lanes.stages);
         }
-        self.positions.positions();
+        let begun_here = !begun.is_nothing();
+        if begun_here {
+            self.positions.positions();
+        }
         let mut work = self.positions.go_on::<C, T>(kept, stopping, begun)?;
-        work.evaluations += self.positions.evaluations().sweep;
+        if begun_here {
+            work.evaluations += self.positions.evaluations().sweep;
+        }
+        if in_rows {
+            enter::<P, V>(self.positions.lanes.stages);
+        }
         Ok(work)
     }
 

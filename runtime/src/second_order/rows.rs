@@ -1,0 +1,359 @@
+//! Second-order systems whose force is made in rows: eight neighbouring components side by side, of all stages at once.
+//!
+//! The forces are in the place of the velocities, which unit masses leave free, row by row and in a row stage by stage, from step to
+//! step. In their own place, component by component with the stages in lanes, they are only where an iteration does not settle in its
+//! first sweeps.
+
+use core::marker::PhantomData;
+
+use num_traits::Zero;
+
+use super::local::is_local;
+use super::{position, tableau};
+use crate::array::array;
+use crate::in_lanes::{Sums, entry, lane_of, shortest, times};
+use crate::kernel::sum_of_products;
+use crate::lane_movement::LanePart;
+use crate::lane_stages::LaneStages;
+use crate::summation::add;
+use crate::{
+    F64x8, Hamiltonian, HamiltonianInLanes, Lanes, MOST_STAGES, Outcome, Plain, Scalar, StageRows,
+    StageTableau, Step, Summation, Vector,
+};
+
+/// Components in a row.
+const WIDTH: usize = F64x8::WIDTH;
+
+/// Whether the forces of stages are in rows.
+#[inline(always)]
+pub(super) fn are_in_rows<P, V, S>(dimension: usize) -> bool
+where
+    P: StageTableau,
+    V: Vector,
+    S: HamiltonianInLanes<V>,
+{
+    is_local::<P, V, S>()
+        && <S as Hamiltonian<V>>::ROW_FORCES
+        && P::INCREMENTS
+        && P::POSITIONS.count <= MOST_STAGES
+        && dimension >= WIDTH
+        && dimension.is_multiple_of(WIDTH)
+}
+
+/// The forces in rows.
+#[inline(always)]
+fn forces<P: StageTableau, V: Vector>(stages: &LaneStages<V, P>) -> &[P::Lanes] {
+    (stages.velocity.as_ref().first()).map_or(&[], Vector::as_slice)
+}
+
+/// [`forces`], to be written.
+#[inline(always)]
+fn forces_mut<P: StageTableau, V: Vector>(stages: &mut LaneStages<V, P>) -> &mut [P::Lanes] {
+    (stages.velocity.as_mut().first_mut()).map_or(&mut [], Vector::as_mut_slice)
+}
+
+/// How many elements in memory a row of one stage is.
+const fn parts<L: Lanes>() -> usize {
+    WIDTH / L::WIDTH
+}
+
+/// The forces of one stage in a row, from those of the row.
+#[inline(always)]
+fn load<L: Lanes>(row: &[L], stage: usize) -> F64x8 {
+    let parts = &row[stage * parts::<L>()..(stage + 1) * parts::<L>()];
+    F64x8::from_fn(|lane| lane_of(parts[lane / L::WIDTH], lane))
+}
+
+/// Writes the forces of one stage in a row.
+#[inline(always)]
+fn store<L: Lanes>(row: &mut [L], stage: usize, numbers: F64x8) {
+    let numbers = numbers.to_array();
+    let places = &mut row[stage * parts::<L>()..(stage + 1) * parts::<L>()];
+    for (part, place) in places.iter_mut().enumerate() {
+        *place = L::from_fn(|lane| numbers[part * L::WIDTH + lane]);
+    }
+}
+
+/// How many elements in memory a row of all stages is.
+const fn row_length<P: StageTableau>() -> usize {
+    P::POSITIONS.count * parts::<P::Lanes>()
+}
+
+/// The force on a component at a stage.
+#[inline(always)]
+pub(super) fn force<P: StageTableau, V: Vector>(
+    stages: &LaneStages<V, P>,
+    stage: usize,
+    component: usize,
+) -> f64 {
+    let (row, lane) = (component / WIDTH, component % WIDTH);
+    let part = row * row_length::<P>() + stage * parts::<P::Lanes>() + lane / P::Lanes::WIDTH;
+    lane_of(forces(stages)[part], lane)
+}
+
+/// From the rows to their own place. The rows are zero then: where an iteration fails, they are not taken for velocities.
+pub(super) fn leave<P: StageTableau, V: Vector>(stages: &mut LaneStages<V, P>) {
+    let n = shortest(stages.force.as_ref()).min(shortest(stages.velocity.as_ref()));
+    for k in 0..n / WIDTH * WIDTH {
+        let numbers = P::Lanes::from_fn(|lane| force(stages, lane.min(P::POSITIONS.count - 1), k));
+        for group in stages.force.as_mut() {
+            group.as_mut_slice()[k] = numbers;
+        }
+    }
+    forces_mut(stages).fill(P::Lanes::from_f64(0.0));
+}
+
+/// Back to the rows.
+pub(super) fn enter<P: StageTableau, V: Vector>(stages: &mut LaneStages<V, P>) {
+    let LaneStages {
+        velocity, force, ..
+    } = stages;
+    let (Some(rows), force) = (velocity.as_mut().first_mut(), force.as_ref()) else {
+        return;
+    };
+    let rows = rows.as_mut_slice().chunks_exact_mut(row_length::<P>());
+    for (row, places) in rows.take(shortest(force) / WIDTH).enumerate() {
+        for stage in 0..P::POSITIONS.count {
+            let component = |lane: usize| entry::<P, V>(force, stage, row * WIDTH + lane);
+            store(places, stage, F64x8::from_fn(component));
+        }
+    }
+}
+
+/// What the forces are multiplied by in the positions.
+pub(super) struct Matrix {
+    /// For each stage.
+    entries: [[f64; MOST_STAGES]; MOST_STAGES],
+    /// For how many forces.
+    columns: usize,
+    /// Whether the step size is in the entries.
+    scaled: bool,
+}
+
+impl Matrix {
+    /// That of these sums.
+    #[inline(always)]
+    pub(super) fn new<P: StageTableau>(
+        sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
+    ) -> Self {
+        let entry = |stage: usize, column: usize| {
+            if stage >= P::POSITIONS.count || column >= sums.count {
+                return 0.0;
+            }
+            let entry = (sums.column)(column)[stage];
+            (sums.factor)(column).map_or(entry, |factor| entry * factor)
+        };
+        Self {
+            entries: array([0.0; MOST_STAGES], |stage| {
+                array(0.0, |column| entry(stage, column))
+            }),
+            columns: sums.count,
+            scaled: (sums.factor)(0).is_some(),
+        }
+    }
+}
+
+/// The stages of a step along its rows.
+pub(super) struct AlongRows<'a, P: StageTableau, R> {
+    matrix: &'a Matrix,
+    times: P::Lanes,
+    size: f64,
+    q: &'a [[f64; WIDTH]],
+    q_low: &'a [[f64; WIDTH]],
+    p: &'a [[f64; WIDTH]],
+    forces: &'a mut [P::Lanes],
+    /// The largest position.
+    largest: F64x8,
+    /// The largest change of a force at each stage.
+    changes: [F64x8; MOST_STAGES],
+    /// The sum of all changes.
+    sum: F64x8,
+    summation: PhantomData<R>,
+}
+
+/// The rows of a vector.
+#[inline(always)]
+fn rows<V: Vector<Scalar = f64>>(vector: &V) -> &[[f64; WIDTH]] {
+    vector.as_slice().as_chunks().0
+}
+
+/// [`rows`], to be written.
+#[inline(always)]
+fn rows_mut<V: Vector<Scalar = f64>>(vector: &mut V) -> &mut [[f64; WIDTH]] {
+    vector.as_mut_slice().as_chunks_mut().0
+}
+
+impl<'a, P: StageTableau, R: Summation> AlongRows<'a, P, R> {
+    /// The stages whose positions have this matrix.
+    #[inline(always)]
+    pub(super) fn new<V: Vector<Scalar = f64>>(
+        matrix: &'a Matrix,
+        step: &'a Step<'_, V>,
+        stages: &'a mut LaneStages<V, P>,
+    ) -> Self {
+        let (q, q_low, p) = (rows(step.q), rows(step.q_low), rows(step.p));
+        let forces = forces_mut(stages);
+        let n = (q.len().min(q_low.len()).min(p.len())).min(forces.len() / row_length::<P>());
+        Self {
+            matrix,
+            times: times::<P, V>(&P::POSITIONS, step, 0),
+            size: step.size,
+            q: &q[..n],
+            q_low: &q_low[..n],
+            p: &p[..n],
+            forces: &mut forces[..n * row_length::<P>()],
+            largest: F64x8::zero(),
+            changes: [F64x8::zero(); MOST_STAGES],
+            sum: F64x8::zero(),
+            summation: PhantomData,
+        }
+    }
+
+    /// The largest position, and how much the forces of each stage have changed.
+    #[inline(always)]
+    pub(super) fn moved(self) -> (P::Lanes, LanePart<P::Lanes>) {
+        let largest = P::Lanes::from_fn(|lane| match self.changes.get(lane) {
+            Some(change) => change.largest(),
+            None => 0.0,
+        });
+        let sum = self.sum.to_array().into_iter().fold(0.0, |sum, x| sum + x);
+        let sum = P::Lanes::from_f64(sum);
+        let positions = P::Lanes::from_f64(self.largest.largest());
+        (positions, LanePart { largest, sum })
+    }
+}
+
+impl<P: StageTableau, R: Summation> StageRows for AlongRows<'_, P, R> {
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.q.len()
+    }
+
+    #[inline(always)]
+    fn stages(&self) -> usize {
+        P::POSITIONS.count
+    }
+
+    #[inline(always)]
+    fn time(&self, stage: usize) -> F64x8 {
+        F64x8::from_f64(lane_of(self.times, stage))
+    }
+
+    // Loops over indices, and rows without a way out: else all of it is in memory, and takes four times as long. A system that asks for
+    // another row is refused before.
+    #[allow(clippy::needless_range_loop, reason = "all in registers")]
+    #[inline(always)]
+    fn positions(&mut self, row: usize) -> [F64x8; MOST_STAGES] {
+        let [q, q_low, p] = [self.q, self.q_low, self.p].map(|rows| F64x8::from_array(rows[row]));
+        let forces = &self.forces[row * row_length::<P>()..(row + 1) * row_length::<P>()];
+        let mut positions = [F64x8::zero(); MOST_STAGES];
+        for stage in 0..P::POSITIONS.count {
+            let sum = sum_of_products(None, self.matrix.columns, |j| {
+                let entry = F64x8::from_f64(self.matrix.entries[stage][j]);
+                (entry, load(forces, j))
+            });
+            let node = F64x8::from_f64(tableau::<P>().nodes[stage]);
+            let size = (self.size, node);
+            let position = position::<R, F64x8>((q, q_low), size, p, sum, self.matrix.scaled);
+            self.largest = self.largest.larger(position.abs());
+            positions[stage] = position;
+        }
+        positions
+    }
+
+    #[allow(clippy::needless_range_loop, reason = "all in registers")]
+    #[inline(always)]
+    fn set_forces(&mut self, row: usize, forces: [F64x8; MOST_STAGES]) {
+        let places = &mut self.forces[row * row_length::<P>()..(row + 1) * row_length::<P>()];
+        for stage in 0..P::POSITIONS.count {
+            let new = match R::COMPENSATED {
+                true => forces[stage] * F64x8::from_f64(P::POSITIONS.weights[stage] * self.size),
+                false => forces[stage],
+            };
+            let change = (new - load(places, stage)).abs();
+            store(places, stage, new);
+            self.changes[stage] = self.changes[stage].larger(change);
+            self.sum += change;
+        }
+    }
+}
+
+/// The forces become increments.
+#[inline(always)]
+pub(super) fn scale<P: StageTableau, V: Vector>(stages: &mut LaneStages<V, P>, h: f64) {
+    for row in forces_mut(stages).chunks_exact_mut(row_length::<P>()) {
+        for stage in 0..P::POSITIONS.count {
+            let factor = F64x8::from_f64(P::POSITIONS.weights[stage] * h);
+            store(row, stage, load(row, stage) * factor);
+        }
+    }
+}
+
+/// The result of a step with plain sums, of forces.
+#[inline(always)]
+pub(super) fn plain_result<P: StageTableau, V: Vector<Scalar = f64>>(
+    step: &Step<'_, V>,
+    stages: &LaneStages<V, P>,
+    Outcome { q, p, .. }: Outcome<'_, V>,
+) {
+    let (q, p) = (rows_mut(q), rows_mut(p));
+    let (q_base, p_base) = (rows(step.q), rows(step.p));
+    let n = (q.len().min(p.len())).min(q_base.len().min(p_base.len()));
+    let (q, p, q_base, p_base) = (&mut q[..n], &mut p[..n], &q_base[..n], &p_base[..n]);
+    let weight = |stage: usize| P::POSITIONS.weights[stage] * step.size;
+    let rest = |stage: usize| tableau::<P>().rest[stage] * weight(stage);
+    let forces = forces(stages).chunks_exact(row_length::<P>());
+    for (row, forces) in forces.take(n).enumerate() {
+        let [q_base, p_base] = [q_base[row], p_base[row]].map(F64x8::from_array);
+        p[row] = total::<P>(p_base, forces, weight).to_array();
+        let mean = total::<P>(p_base, forces, rest);
+        q[row] = F64x8::from_f64(step.size).fused(mean, q_base).to_array();
+    }
+}
+
+/// `base + Σ_j factor_j force_j`
+#[inline(always)]
+fn total<P: StageTableau>(
+    base: F64x8,
+    forces: &[P::Lanes],
+    factor: impl Fn(usize) -> f64,
+) -> F64x8 {
+    let term = |stage| F64x8::from_f64(factor(stage)) * load(forces, stage);
+    add::<Plain, F64x8>(base, F64x8::zero(), P::POSITIONS.count, term).0
+}
+
+/// The result of a step with compensated sums, of increments. In the place of the positions is the velocity of what the momentum
+/// leaves out.
+#[inline(always)]
+pub(super) fn compensated_result<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
+    step: &Step<'_, V>,
+    stages: &LaneStages<V, P>,
+    Outcome { q, q_low, p, p_low }: Outcome<'_, V>,
+) {
+    let bases = [step.q, step.q_low, step.p, step.p_low].map(rows);
+    let [q, q_low, p, p_low] = [q, q_low, p, p_low].map(rows_mut);
+    let n = [q.len(), q_low.len(), p.len(), p_low.len()]
+        .into_iter()
+        .min();
+    let n = bases
+        .iter()
+        .fold(n.unwrap_or(0), |n, base| n.min(base.len()));
+    let bases = bases.map(|base| &base[..n]);
+    let [q, q_low, p, p_low] = [q, q_low, p, p_low].map(|rows| &mut rows[..n]);
+    let (h, count) = (F64x8::from_f64(step.size), P::POSITIONS.count);
+    let forces = forces(stages).chunks_exact(row_length::<P>());
+    for (row, increments) in forces.take(n).enumerate() {
+        let [q_base, q_rest, p_base, p_rest] = bases.map(|rows| F64x8::from_array(rows[row]));
+        let increment = |stage| load(increments, stage);
+        let (high, low) = add::<R, F64x8>(p_base, p_rest, count, increment);
+        (p[row], p_low[row]) = (high.to_array(), low.to_array());
+        let sum = sum_of_products(None, count, |stage| {
+            let rest = F64x8::from_f64(tableau::<P>().rest[stage]);
+            (rest, increment(stage))
+        });
+        let parts = [sum, p_base];
+        let rest = q_rest + h * F64x8::from_array(q[row]);
+        let (high, low) = add::<R, F64x8>(q_base, rest, 2, |part| h * parts[part]);
+        (q[row], q_low[row]) = (high.to_array(), low.to_array());
+    }
+}
