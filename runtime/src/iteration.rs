@@ -65,6 +65,12 @@ pub(crate) trait Sweeps {
     /// One sweep over all of them.
     fn sweep(&mut self) -> Self::Movement;
 
+    /// One after which it is not asked how large they are, only how it moved them.
+    #[inline(always)]
+    fn sweep_unmeasured(&mut self) -> Self::Movement {
+        self.sweep()
+    }
+
     /// One that moves them twice as far. Only asked for of systems that are not separable, of sums that wait for stagnation, and where
     /// changes that are far from rounding are not looked at: others need not have it.
     #[inline(always)]

@@ -11,15 +11,15 @@ use self::local::{Locally, is_local};
 use self::rows::are_in_rows;
 pub use self::stages::SecondOrderStages;
 use crate::in_lanes::{
-    ByLanes, Sums, entry, extend, extrapolate, in_groups, is_about, lane_of, lanes, scale,
-    scale_of, shortest, total, values,
+    ByLanes, Sums, entry, extend, extrapolate, in_groups, is_about, lane_of, lanes, scale_of,
+    shortest, total, values,
 };
 use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::kernel::sum_of_products;
 use crate::lane_movement::{LaneMovement, LanePart};
 use crate::lane_stages::{LaneStages, Laned};
 use crate::stage_tableau::Columns;
-use crate::starting_values::{MOST, StartingColumns, starting_columns, starts_at_once};
+use crate::starting_values::{MOST, StartingColumns, starting_columns, starts_at_once, weighted};
 use crate::summation::add;
 use crate::vector::is_in_place;
 use crate::{
@@ -115,12 +115,17 @@ where
         R: Summation,
         S: Hamiltonian<V, Class = P::Class>,
     {
-        let SecondOrderStages { lanes, start } = memory;
+        let SecondOrderStages {
+            lanes,
+            start,
+            of_increments,
+        } = memory;
         if !eliminates::<P>() {
             return <InLanes as Solver<V, S>>::take::<P, R>(
                 step, system, lanes, kept, stopping, outcome,
             );
         }
+        *of_increments = R::COMPENSATED;
         if !<S as Hamiltonian<V>>::UNIT_MASSES {
             velocity::<P, V, S>(system, step, step.p, start, lanes);
         }
@@ -145,13 +150,11 @@ where
                 rows::compensated_result::<P, R, V>(step, lanes, outcome);
             } else {
                 rows::plain_result::<P, V>(step, lanes, outcome);
-                rows::scale::<P, V>(lanes, step.size);
             }
         } else if R::COMPENSATED {
             compensated_result::<P, R, V, S>(step, system, start, lanes, outcome);
         } else {
             sweeps.plain_result(outcome);
-            sweeps.increments();
         }
         Ok(work)
     }
@@ -166,10 +169,15 @@ where
         if !eliminates::<P>() {
             return <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
         }
+        // What makes an increment of what is stored.
+        let factor = |stage: usize| match memory.of_increments {
+            true => 1.0,
+            false => P::POSITIONS.weights[stage] * at.size,
+        };
         let in_rows = are_in_rows::<P, V, S>(p.dimension());
         let force = |stage: usize, k: usize| match in_rows {
-            true => rows::force(stages, stage, k),
-            false => entry::<P, V>(stages.force.as_ref(), stage, k),
+            true => rows::force(stages, stage, k) * factor(stage),
+            false => entry::<P, V>(stages.force.as_ref(), stage, k) * factor(stage),
         };
         extend::<P, V>(&P::POSITIONS, at, force, p);
         let Some(polynomial) = P::MOMENTA.polynomial else {
@@ -177,7 +185,7 @@ where
         };
         let slope = |stage: usize, k: usize| match <S as Hamiltonian<V>>::UNIT_MASSES {
             true => force(stage, k),
-            false => entry::<P, V>(stages.velocity.as_ref(), stage, k),
+            false => entry::<P, V>(stages.velocity.as_ref(), stage, k) * factor(stage),
         };
         let start = start_of::<V, S>(at.momentum, &memory.start).as_slice();
         // The velocities at the stages: M⁻¹(p0 + Σ_j μ̃_ij w_j).
@@ -257,7 +265,7 @@ fn velocity<P, V, S>(
 
 /// The positions of the stages alone. In the place of the velocities are those of the increments of the momentum.
 ///
-/// With plain sums the forces are no increments while the stages are iterated, and the matrix has the factors that would make them
+/// With plain sums the forces are no increments while the stages are iterated, and the matrix has the weights that would make them
 /// such: a sweep is a product shorter.
 struct Positions<'a, P: StageTableau, R, V: Vector, S> {
     lanes: ByLanes<'a, P, R, V, S>,
@@ -277,56 +285,70 @@ const fn start_of<'a, V: Vector, S: Hamiltonian<V>>(momentum: &'a V, velocity: &
     if S::UNIT_MASSES { momentum } else { velocity }
 }
 
-/// Sums of the velocities of increments.
-#[inline(always)]
-fn of_increments<C: AsRef<[f64]>>(
+/// What is added to positions: the sum of velocities by the columns of a matrix, and what is before it.
+struct Terms<C: 'static> {
     columns: &'static [C],
-) -> Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>> {
-    Sums {
-        count: columns.len(),
-        column: |j: usize| columns[j].as_ref(),
-        factor: |_| None,
-        with_low: false,
-        beyond: false,
+    factor: f64,
+}
+
+impl<C: AsRef<[f64]>> Terms<C> {
+    /// Of the velocities of increments, in steps of this size.
+    #[inline(always)]
+    const fn of_increments(columns: &'static [C], h: f64) -> Self {
+        Self { columns, factor: h }
+    }
+
+    /// Of those of forces, whose weights are in the columns.
+    #[inline(always)]
+    const fn of_forces(columns: &'static [C], h: f64) -> Self {
+        let factor = h * h;
+        Self { columns, factor }
+    }
+
+    /// The sums, perhaps with a factor in the columns.
+    #[inline(always)]
+    fn sums(
+        &self,
+        factor: Option<f64>,
+    ) -> Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>> {
+        let columns = self.columns;
+        Sums {
+            count: columns.len(),
+            column: |j: usize| columns[j].as_ref(),
+            factor: move |_| factor,
+            with_low: false,
+            beyond: false,
+        }
     }
 }
 
-/// Those of the velocities of forces, in steps of this size.
-#[inline(always)]
-fn of_forces<P: StageTableau>(
-    h: f64,
-) -> Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>> {
-    let columns = Columns::<P>::SECOND_ORDER;
-    Sums {
-        count: columns.len(),
-        column: |j: usize| columns[j],
-        factor: move |j: usize| Some(h * (h * P::POSITIONS.weights[j])),
-        with_low: false,
-        beyond: false,
+impl Terms<&'static [f64]> {
+    /// Of the velocities of increments, or of forces.
+    #[inline(always)]
+    const fn new<P: StageTableau>(of_increments: bool, h: f64) -> Self {
+        match of_increments {
+            true => Self::of_increments(Columns::<P>::SECOND_ORDER, h),
+            false => Self::of_forces(Columns::<P>::OF_FORCES, h),
+        }
     }
 }
 
-/// The position of stages with this base and velocity at the start, for steps of such a size, and the part of it that is before each;
-/// whether the step size is in the sum already.
+/// The position of stages with this base, and what the base leaves out, and velocity at the start, for steps of such a size and the
+/// part of it that is before each, with this factor before the sum.
 #[inline(always)]
 fn position<R: Summation, L: Lanes>(
     (base, low): (L, L),
     (size, node): (f64, L),
     velocity: L,
-    sum: L,
-    scaled: bool,
+    (factor, sum): (f64, L),
 ) -> L {
-    let h = L::from_f64(size);
+    let (h, factor) = (L::from_f64(size), L::from_f64(factor));
     // All but the sum is the same in every sweep.
     if R::COMPENSATED {
         // A product of step size and node would be off by the same part in every step, and the energy would drift.
-        return base + h.fused(sum, h.fused(node * velocity, low));
+        return base + factor.fused(sum, h.fused(node * velocity, low));
     }
-    let start = (h * node).fused(velocity, base);
-    match scaled {
-        true => start + sum,
-        false => h.fused(sum, start),
-    }
+    factor.fused(sum, (h * node).fused(velocity, base))
 }
 
 /// Does `work` in a function of its own.
@@ -349,6 +371,7 @@ const fn tableau<P: StageTableau>() -> SecondOrderTableau {
         None => SecondOrderTableau {
             nodes: &[],
             columns: &[],
+            of_forces: &[],
             rest: &[],
         },
     }
@@ -358,13 +381,19 @@ const fn tableau<P: StageTableau>() -> SecondOrderTableau {
 struct Start<P>(PhantomData<P>);
 
 impl<P: StageTableau> Start<P> {
-    const COLUMNS: &'static StartingColumns =
+    const OF_INCREMENTS: &'static StartingColumns =
         &starting_columns(tableau::<P>().columns, &P::POSITIONS);
+    const OF_FORCES: &'static StartingColumns =
+        &weighted(Self::OF_INCREMENTS, P::POSITIONS.weights);
 
-    /// One for each increment of the step before.
+    /// Of what the step before has left, in steps of this size.
     #[inline(always)]
-    fn columns() -> &'static [[f64; MOST]] {
-        &Self::COLUMNS[..P::POSITIONS.extrapolation.len()]
+    fn terms(of_increments: bool, h: f64) -> Terms<[f64; MOST]> {
+        let count = P::POSITIONS.extrapolation.len();
+        match of_increments {
+            true => Terms::of_increments(&Self::OF_INCREMENTS[..count], h),
+            false => Terms::of_forces(&Self::OF_FORCES[..count], h),
+        }
     }
 }
 
@@ -378,30 +407,39 @@ where
     /// New positions; returns how much they changed.
     #[inline(always)]
     fn positions(&mut self) -> LanePart<P::Lanes> {
-        match R::COMPENSATED {
-            true => self.sums(&of_increments(Columns::<P>::SECOND_ORDER)),
-            false => self.sums(&of_forces::<P>(self.lanes.step.size)),
-        }
+        let terms = Terms::new::<P>(R::COMPENSATED, self.lanes.step.size);
+        // In columns the factor is the same in every sweep.
+        self.with(&terms, (!R::COMPENSATED).then_some(terms.factor))
     }
 
-    /// The positions that are these sums of the velocities of increments, or, with factors, of those of forces; returns how
-    /// much they changed.
+    /// The positions with these terms, whose factor may be in the columns; returns how much they changed.
     #[inline(always)]
-    fn sums(
+    fn with(
         &mut self,
-        sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
+        terms: &Terms<impl AsRef<[f64]>>,
+        in_columns: Option<f64>,
     ) -> LanePart<P::Lanes> {
-        let scaled = (sums.factor)(0).is_some();
+        let before = if in_columns.is_some() {
+            1.0
+        } else {
+            terms.factor
+        };
         let (step, stages) = (self.lanes.step, &mut *self.lanes.stages);
         let start = self.start.as_slice();
         let value = |(group, k): (usize, usize), base: (P::Lanes, P::Lanes), sum| {
             let velocity = P::Lanes::from_f64(start[k]);
             let node = lanes(tableau::<P>().nodes, group);
-            position::<R, P::Lanes>(base, (step.size, node), velocity, sum, scaled)
+            position::<R, P::Lanes>(base, (step.size, node), velocity, (before, sum))
         };
         let base = (step.q, step.q_low);
         let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force);
-        values::<P, V>(sums, stages.q.as_mut(), base, slopes.as_ref(), value)
+        values::<P, V>(
+            &terms.sums(in_columns),
+            stages.q.as_mut(),
+            base,
+            slopes.as_ref(),
+            value,
+        )
     }
 
     /// The velocities of the increments of the momentum, unless they are these.
@@ -457,16 +495,6 @@ where
             q[k] = step.size.fused(mean, q_base[k]);
         }
     }
-
-    /// The forces become the increments that they are elsewhere.
-    #[inline(always)]
-    fn increments(&mut self) {
-        self.lanes.scale_forces();
-        if !<S as Hamiltonian<V>>::UNIT_MASSES {
-            let (h, velocity) = (self.lanes.step.size, &mut self.lanes.stages.velocity);
-            scale::<P, V>(&P::POSITIONS, h, velocity.as_mut());
-        }
-    }
 }
 
 impl<P, R, V, S> Sweeps for Positions<'_, P, R, V, S>
@@ -506,10 +534,14 @@ where
     #[inline(always)]
     fn begin(&mut self, kept: Kept) {
         if kept.stages && starts_at_once(&P::POSITIONS) {
-            self.sums(&of_increments(Start::<P>::columns()));
+            let h = self.lanes.step.size;
+            self.with(&Start::<P>::terms(R::COMPENSATED, h), None);
             return;
         }
         if kept.stages && !P::POSITIONS.extrapolation.is_empty() {
+            if !R::COMPENSATED {
+                self.lanes.scale_forces();
+            }
             extrapolate::<P, V>(&P::POSITIONS, self.lanes.stages.force.as_mut());
         } else {
             for group in self.lanes.stages.force.as_mut() {
@@ -519,7 +551,7 @@ where
             }
         }
         self.velocities();
-        self.sums(&of_increments(Columns::<P>::SECOND_ORDER));
+        self.with(&Terms::new::<P>(true, self.lanes.step.size), None);
     }
 
     #[inline(always)]

@@ -97,6 +97,8 @@ pub struct SecondOrderTableau {
     pub nodes: &'static [f64],
     /// `ν` by its columns.
     pub columns: &'static [&'static [f64]],
+    /// `ν_ik b̃_k` by its columns: what the forces themselves are multiplied by, with `h²` before the sum.
+    pub of_forces: &'static [&'static [f64]],
     /// `1 − c_k`
     pub rest: &'static [f64],
 }
@@ -128,6 +130,11 @@ impl<P: StageTableau> Columns<P> {
     /// Those of second-order systems; none where there are no coefficients for them.
     pub(crate) const SECOND_ORDER: &'static [&'static [f64]] = match P::SECOND_ORDER {
         Some(tableau) => significant(tableau.columns),
+        None => &[],
+    };
+    /// [`SECOND_ORDER`](Self::SECOND_ORDER), of forces.
+    pub(crate) const OF_FORCES: &'static [&'static [f64]] = match P::SECOND_ORDER {
+        Some(tableau) => significant(tableau.of_forces),
         None => &[],
     };
 }

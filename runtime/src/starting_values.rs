@@ -40,6 +40,21 @@ pub(crate) const fn starting_columns(matrix: &[&[f64]], half: &HalfTableau) -> S
     product
 }
 
+/// Columns times weights.
+pub(crate) const fn weighted(columns: &StartingColumns, weights: &[f64]) -> StartingColumns {
+    let mut product = *columns;
+    let mut k = 0;
+    while k < MOST && k < weights.len() {
+        let mut i = 0;
+        while i < MOST {
+            product[k][i] *= weights[k];
+            i += 1;
+        }
+        k += 1;
+    }
+    product
+}
+
 /// The [`starting_columns`] of positions and of momenta.
 pub(crate) struct Starting<P>(PhantomData<P>);
 

@@ -62,7 +62,7 @@ fn to_tolerance<W: Sweeps>(
 ) -> Result<u32, Begun<W::Movement>> {
     let mut iterations = 0;
     while iterations + 1 < late {
-        let this = sweeps.sweep();
+        let this = sweeps.sweep_unmeasured();
         iterations += 1;
         if this.is_within([tolerance; 2], both) && this.is_number() {
             return Ok(iterations);

@@ -5,15 +5,12 @@ use core::mem;
 
 use num_traits::Zero;
 
-use super::rows::{AlongRows, Matrix, are_in_rows, enter, leave};
-use super::{Positions, Start, apart, eliminates, of_forces, of_increments, position, tableau};
-use crate::in_lanes::{
-    Sums, combination, increment_factor, is_about, lane_of, lanes, scale_of, times,
-};
+use super::rows::{AlongRows, are_in_rows, enter, leave};
+use super::{Positions, Start, Terms, apart, eliminates, position, tableau};
+use crate::in_lanes::{combination, increment_factor, is_about, lane_of, lanes, scale_of, times};
 use crate::iteration::{Begun, Sweeps};
 use crate::kernel::sum_of_products;
 use crate::lane_movement::{LaneMovement, LanePart};
-use crate::stage_tableau::Columns;
 use crate::starting_values::starts_at_once;
 use crate::{
     Change, Class, Components, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, Kept,
@@ -38,7 +35,7 @@ pub(super) fn is_local<P: StageTableau, V: Vector, S: HamiltonianInLanes<V>>() -
 /// Where an iteration does not settle in its first sweeps it goes on by [`Positions`], with positions in memory.
 pub(super) struct Locally<'p, 'a, P: StageTableau, R, V: Vector, S> {
     positions: &'p mut Positions<'a, P, R, V, S>,
-    /// The largest component of the positions of the stages.
+    /// The largest component of the positions of the stages, or zero where the last sweep was not measured.
     largest: P::Lanes,
 }
 
@@ -68,18 +65,17 @@ where
         scale_of::<P, V>(self.positions.lanes.step.q, &[]).larger(self.largest)
     }
 
-    /// The forces at the positions that are these sums of them; returns how much they changed.
+    /// The forces at the positions with these terms; returns how much they changed.
     #[inline(always)]
-    fn walk(
+    fn walk<const MEASURED: bool>(
         &mut self,
-        sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
+        terms: &Terms<impl AsRef<[f64]>>,
     ) -> LanePart<P::Lanes> {
         let in_rows = self.are_in_rows();
         let lanes = &mut self.positions.lanes;
         let (step, stages) = (lanes.step, &mut *lanes.stages);
         if in_rows {
-            let matrix = Matrix::new::<P>(sums);
-            let mut along = AlongRows::<P, R>::new(&matrix, step, stages);
+            let mut along = AlongRows::<P, R, _, MEASURED>::new(terms, step, stages);
             Hamiltonian::<V>::row_forces(lanes.system, &mut along);
             let (largest, changes) = along.moved();
             self.largest = largest;
@@ -92,8 +88,8 @@ where
         let n = (force.len().min(step.q.dimension()))
             .min(step.q_low.dimension())
             .min(step.p.dimension());
-        let mut along = Along::<P, R, _, _> {
-            sums,
+        let mut along = Along::<P, R, _, MEASURED> {
+            terms,
             size: step.size,
             q: &step.q.as_slice()[..n],
             q_low: &step.q_low.as_slice()[..n],
@@ -111,15 +107,14 @@ where
 
     /// [`walk`](Self::walk), but by how much the next positions can differ from those that the forces are at, but for rounding.
     #[inline(always)]
-    fn moves(
+    fn moves<const MEASURED: bool>(
         &mut self,
-        sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
+        terms: &Terms<impl AsRef<[f64]>>,
     ) -> LanePart<P::Lanes> {
-        let LanePart { largest, sum } = self.walk(sums);
-        let h = self.positions.lanes.step.size;
-        let largest = sum_of_products(None, sums.count, |j| {
-            let factor = P::Lanes::from_f64((sums.factor)(j).unwrap_or(h));
-            let column: P::Lanes = lanes((sums.column)(j), 0);
+        let LanePart { largest, sum } = self.walk::<MEASURED>(terms);
+        let factor = P::Lanes::from_f64(terms.factor);
+        let largest = sum_of_products(None, terms.columns.len(), |j| {
+            let column: P::Lanes = lanes(terms.columns[j].as_ref(), 0);
             (
                 (column * factor).abs(),
                 P::Lanes::from_f64(lane_of(largest, j)),
@@ -129,11 +124,20 @@ where
         let sum = sum * P::Lanes::zero();
         LanePart { largest, sum }
     }
+
+    /// A sweep, measured or not.
+    #[inline(always)]
+    fn swept<const MEASURED: bool>(&mut self) -> LaneMovement<P::Lanes> {
+        let h = self.positions.lanes.step.size;
+        let q = apart(|| self.moves::<MEASURED>(&Terms::new::<P>(R::COMPENSATED, h)));
+        // Both halves are this one.
+        LaneMovement { q, p: q }
+    }
 }
 
-/// The stages of a step along its components.
-struct Along<'a, P: StageTableau, R, C, F> {
-    sums: &'a Sums<C, F>,
+/// The stages of a step along its components, the largest of which is wanted or not.
+struct Along<'a, P: StageTableau, R, C: 'static, const MEASURED: bool> {
+    terms: &'a Terms<C>,
     size: f64,
     q: &'a [f64],
     q_low: &'a [f64],
@@ -146,12 +150,11 @@ struct Along<'a, P: StageTableau, R, C, F> {
     summation: PhantomData<R>,
 }
 
-impl<P, R, C, F> Components<P::Lanes> for Along<'_, P, R, C, F>
+impl<P, R, C, const MEASURED: bool> Components<P::Lanes> for Along<'_, P, R, C, MEASURED>
 where
     P: StageTableau,
     R: Summation,
-    C: Fn(usize) -> &'static [f64],
-    F: Fn(usize) -> Option<f64>,
+    C: AsRef<[f64]>,
 {
     #[inline(always)]
     fn dimension(&self) -> usize {
@@ -168,13 +171,15 @@ where
         ) else {
             return P::Lanes::from_f64(f64::NAN);
         };
-        let sum = combination(self.sums, 0, None, |j| lane_of(*force, j));
+        let sum = combination(&self.terms.sums(None), 0, None, |j| lane_of(*force, j));
         let base = (P::Lanes::from_f64(q), P::Lanes::from_f64(q_low));
         let node = lanes(tableau::<P>().nodes, 0);
-        let scaled = (self.sums.factor)(0).is_some();
         let velocity = P::Lanes::from_f64(p);
-        let position = position::<R, P::Lanes>(base, (self.size, node), velocity, sum, scaled);
-        self.largest = self.largest.larger(position.abs());
+        let terms = (self.terms.factor, sum);
+        let position = position::<R, P::Lanes>(base, (self.size, node), velocity, terms);
+        if MEASURED {
+            self.largest = self.largest.larger(position.abs());
+        }
         position
     }
 
@@ -221,7 +226,11 @@ where
 
     #[inline(always)]
     fn begin(&mut self, _kept: Kept) {
-        apart(|| self.walk(&of_increments(Start::<P>::columns())));
+        // Sweeps follow, each with what it has moved.
+        apart(|| {
+            let h = self.positions.lanes.step.size;
+            self.walk::<false>(&Start::<P>::terms(R::COMPENSATED, h));
+        });
     }
 
     #[inline(always)]
@@ -262,12 +271,12 @@ where
 
     #[inline(always)]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
-        let q = apart(|| match R::COMPENSATED {
-            true => self.moves(&of_increments(Columns::<P>::SECOND_ORDER)),
-            false => self.moves(&of_forces::<P>(self.positions.lanes.step.size)),
-        });
-        // Both halves are this one.
-        LaneMovement { q, p: q }
+        self.swept::<true>()
+    }
+
+    #[inline(always)]
+    fn sweep_unmeasured(&mut self) -> LaneMovement<P::Lanes> {
+        self.swept::<false>()
     }
 
     #[inline(always)]

@@ -9,9 +9,8 @@ use core::marker::PhantomData;
 use num_traits::Zero;
 
 use super::local::is_local;
-use super::{position, tableau};
-use crate::array::array;
-use crate::in_lanes::{Sums, entry, lane_of, shortest, times};
+use super::{Terms, position, tableau};
+use crate::in_lanes::{entry, lane_of, shortest, times};
 use crate::kernel::sum_of_products;
 use crate::lane_movement::LanePart;
 use crate::lane_stages::LaneStages;
@@ -120,49 +119,16 @@ pub(super) fn enter<P: StageTableau, V: Vector>(stages: &mut LaneStages<V, P>) {
     }
 }
 
-/// What the forces are multiplied by in the positions.
-pub(super) struct Matrix {
-    /// For each stage.
-    entries: [[f64; MOST_STAGES]; MOST_STAGES],
-    /// For how many forces.
-    columns: usize,
-    /// Whether the step size is in the entries.
-    scaled: bool,
-}
-
-impl Matrix {
-    /// That of these sums.
-    #[inline(always)]
-    pub(super) fn new<P: StageTableau>(
-        sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
-    ) -> Self {
-        let entry = |stage: usize, column: usize| {
-            if stage >= P::POSITIONS.count || column >= sums.count {
-                return 0.0;
-            }
-            let entry = (sums.column)(column)[stage];
-            (sums.factor)(column).map_or(entry, |factor| entry * factor)
-        };
-        Self {
-            entries: array([0.0; MOST_STAGES], |stage| {
-                array(0.0, |column| entry(stage, column))
-            }),
-            columns: sums.count,
-            scaled: (sums.factor)(0).is_some(),
-        }
-    }
-}
-
-/// The stages of a step along its rows.
-pub(super) struct AlongRows<'a, P: StageTableau, R> {
-    matrix: &'a Matrix,
+/// The stages of a step along its rows, whose largest position is wanted or not.
+pub(super) struct AlongRows<'a, P: StageTableau, R, C: 'static, const MEASURED: bool> {
+    terms: &'a Terms<C>,
     times: P::Lanes,
     size: f64,
     q: &'a [[f64; WIDTH]],
     q_low: &'a [[f64; WIDTH]],
     p: &'a [[f64; WIDTH]],
     forces: &'a mut [P::Lanes],
-    /// The largest position.
+    /// The largest position, or zero.
     largest: F64x8,
     /// The largest change of a force at each stage.
     changes: [F64x8; MOST_STAGES],
@@ -183,11 +149,16 @@ fn rows_mut<V: Vector<Scalar = f64>>(vector: &mut V) -> &mut [[f64; WIDTH]] {
     vector.as_mut_slice().as_chunks_mut().0
 }
 
-impl<'a, P: StageTableau, R: Summation> AlongRows<'a, P, R> {
-    /// The stages whose positions have this matrix.
+impl<'a, P, R, C, const MEASURED: bool> AlongRows<'a, P, R, C, MEASURED>
+where
+    P: StageTableau,
+    R: Summation,
+    C: AsRef<[f64]>,
+{
+    /// The stages whose positions have these terms.
     #[inline(always)]
     pub(super) fn new<V: Vector<Scalar = f64>>(
-        matrix: &'a Matrix,
+        terms: &'a Terms<C>,
         step: &'a Step<'_, V>,
         stages: &'a mut LaneStages<V, P>,
     ) -> Self {
@@ -195,7 +166,7 @@ impl<'a, P: StageTableau, R: Summation> AlongRows<'a, P, R> {
         let forces = forces_mut(stages);
         let n = (q.len().min(q_low.len()).min(p.len())).min(forces.len() / row_length::<P>());
         Self {
-            matrix,
+            terms,
             times: times::<P, V>(&P::POSITIONS, step, 0),
             size: step.size,
             q: &q[..n],
@@ -223,7 +194,12 @@ impl<'a, P: StageTableau, R: Summation> AlongRows<'a, P, R> {
     }
 }
 
-impl<P: StageTableau, R: Summation> StageRows for AlongRows<'_, P, R> {
+impl<P, R, C, const MEASURED: bool> StageRows for AlongRows<'_, P, R, C, MEASURED>
+where
+    P: StageTableau,
+    R: Summation,
+    C: AsRef<[f64]>,
+{
     #[inline(always)]
     fn count(&self) -> usize {
         self.q.len()
@@ -248,14 +224,17 @@ impl<P: StageTableau, R: Summation> StageRows for AlongRows<'_, P, R> {
         let forces = &self.forces[row * row_length::<P>()..(row + 1) * row_length::<P>()];
         let mut positions = [F64x8::zero(); MOST_STAGES];
         for stage in 0..P::POSITIONS.count {
-            let sum = sum_of_products(None, self.matrix.columns, |j| {
-                let entry = F64x8::from_f64(self.matrix.entries[stage][j]);
-                (entry, load(forces, j))
+            let sum = sum_of_products(None, self.terms.columns.len(), |j| {
+                let entry = self.terms.columns[j].as_ref()[stage];
+                (F64x8::from_f64(entry), load(forces, j))
             });
+            let terms = (self.terms.factor, sum);
             let node = F64x8::from_f64(tableau::<P>().nodes[stage]);
             let size = (self.size, node);
-            let position = position::<R, F64x8>((q, q_low), size, p, sum, self.matrix.scaled);
-            self.largest = self.largest.larger(position.abs());
+            let position = position::<R, F64x8>((q, q_low), size, p, terms);
+            if MEASURED {
+                self.largest = self.largest.larger(position.abs());
+            }
             positions[stage] = position;
         }
         positions
@@ -274,17 +253,6 @@ impl<P: StageTableau, R: Summation> StageRows for AlongRows<'_, P, R> {
             store(places, stage, new);
             self.changes[stage] = self.changes[stage].larger(change);
             self.sum += change;
-        }
-    }
-}
-
-/// The forces become increments.
-#[inline(always)]
-pub(super) fn scale<P: StageTableau, V: Vector>(stages: &mut LaneStages<V, P>, h: f64) {
-    for row in forces_mut(stages).chunks_exact_mut(row_length::<P>()) {
-        for stage in 0..P::POSITIONS.count {
-            let factor = F64x8::from_f64(P::POSITIONS.weights[stage] * h);
-            store(row, stage, load(row, stage) * factor);
         }
     }
 }

@@ -8,6 +8,8 @@ pub struct SecondOrderStages<V: Vector, P: StageTableau> {
     pub(crate) lanes: LaneStages<V, P>,
     /// The velocity at the start of the step, of a plan whose momenta are eliminated; not where it is the momentum itself.
     pub(crate) start: V,
+    /// Whether the forces, and their velocities, are increments between steps: of compensated sums.
+    pub(crate) of_increments: bool,
 }
 
 impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SecondOrderStages<V, P> {
@@ -17,6 +19,7 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SecondOrderSt
         Self {
             lanes: LaneStages::like(prototype),
             start: prototype.zeros_like(),
+            of_increments: false,
         }
     }
 
