@@ -8,8 +8,8 @@ use crate::in_lanes::lane_of;
 use crate::layout::{Part, parts};
 use crate::rows::{Eight, Row, Single, splats};
 use crate::{
-    Components, F64x8, Lanes, Layout, MOST_STAGES, Scalar, SeparableHamiltonian, StageRows, Vector,
-    copy,
+    Components, F64x8, Lanes, Layout, MOST_ROW_STAGES, Scalar, SeparableHamiltonian, StageRows,
+    Vector, copy,
 };
 
 /// What the particles of a [`Chain`] feel.
@@ -477,7 +477,7 @@ impl<V: Vector, B: Bonds> SeparableHamiltonian<V> for Chain<B> {
             Ends::Ring => rows.positions(last),
             Ends::Walls | Ends::Free => first,
         };
-        let zeros = [F64x8::zero(); MOST_STAGES];
+        let zeros = [F64x8::zero(); MOST_ROW_STAGES];
         let (mut here, mut before) = (first, zeros);
         for stage in 0..stages {
             // That left of the first particle, in all lanes.

@@ -15,24 +15,27 @@ pub trait Components<T> {
     fn set_force(&mut self, component: usize, force: T);
 }
 
-/// The most stages of [`StageRows`]: eight fill the lanes without them.
-pub const MOST_STAGES: usize = 7;
+/// The most stages of [`StageRows`]: with eight the lanes are full of stages anyway.
+pub const MOST_ROW_STAGES: usize = 7;
 
-/// [`Components`] side by side, eight in a row, of all stages of a step at once. Every component is in a row. The positions of a stage
-/// are at the place of its number in what is given, from 0; what is behind the last stage is not looked at.
+/// [`Components`] side by side, eight in a row, of all stages of a step at once: the first row is of the components 0 to 7. Every
+/// component is in a row, and the force on every row has to be set, once. The positions of a stage are at the place of its number in what
+/// is given, from 0; what is behind the last stage is not looked at.
+///
+/// Where a row is asked for, or set, that there is not, no stages settle: steps go on by the force.
 pub trait StageRows {
     /// How many rows there are, one at least.
     fn count(&self) -> usize;
 
-    /// How many stages there are, [`MOST_STAGES`] at most.
+    /// How many stages there are, [`MOST_ROW_STAGES`] at most.
     fn stages(&self) -> usize;
 
     /// The time of a stage.
     fn time(&self, stage: usize) -> F64x8;
 
     /// The positions in a row, from 0, the forces on which have not been [set](Self::set_forces).
-    fn positions(&mut self, row: usize) -> [F64x8; MOST_STAGES];
+    fn positions(&mut self, row: usize) -> [F64x8; MOST_ROW_STAGES];
 
     /// Sets the forces on a row.
-    fn set_forces(&mut self, row: usize, forces: [F64x8; MOST_STAGES]);
+    fn set_forces(&mut self, row: usize, forces: [F64x8; MOST_ROW_STAGES]);
 }

@@ -219,7 +219,7 @@ pub trait SeparableHamiltonian<V: Vector> {
     /// [`SecondOrderInLanes`](crate::SecondOrderInLanes) then makes sums over stages, evaluates, and notes what changed in one pass. The
     /// positions of the stages need not go to memory, but where a step does not go on from one before it, or its iteration does not
     /// settle in the first sweeps. Making that solver fails with [`Error::NotTheSameLocalForce`](crate::Error::NotTheSameLocalForce) where
-    /// other bits come out of it for the present state, in doubles or in lanes.
+    /// other bits come out of it in doubles or in lanes, for the present state or for one near it whose components all differ.
     ///
     /// ```
     /// use symplectic::nalgebra::DVector;
@@ -266,11 +266,71 @@ pub trait SeparableHamiltonian<V: Vector> {
     const ROW_FORCES: bool = false;
 
     /// [`local_force`](Self::local_force) of doubles, with the same bits, of all stages and of eight neighbouring components at once: to be
-    /// written out, and [said](Self::ROW_FORCES), where neighbours feel each other in the same way everywhere, as in a
-    /// [`Chain`](crate::Chain). [`SecondOrderInLanes`](crate::SecondOrderInLanes) asks for it in place of `local_force` where a method has
-    /// less than eight stages and the components fill rows: then no lane is without work, and results are made row by row too.
+    /// written out beside it, and [said](Self::ROW_FORCES), where the components feel each other in the same way everywhere, as in a
+    /// [`Chain`](crate::Chain). A system that wraps another one has to pass it on to keep it.
+    ///
+    /// [`SecondOrderInLanes`](crate::SecondOrderInLanes) asks for it in place of `local_force` where a method has fewer than eight stages
+    /// and the number of components is a multiple of eight: then no lane is without work, and results are made row by row too.
     /// Making that solver fails with [`Error::NotTheSameLocalForce`](crate::Error::NotTheSameLocalForce) where other bits come out of it
-    /// than by `force`.
+    /// than by `force`, for as many stages as there can be, each with a time and with positions of its own near those of the present
+    /// state, or where it asks for a row that there is not.
+    ///
+    /// ```
+    /// use symplectic::nalgebra::DVector;
+    /// use symplectic::{Components, F64x8, MOST_ROW_STAGES, Scalar, SeparableHamiltonian, StageRows, copy};
+    ///
+    /// /// H = Σ p_k²/2 + q_k⁴/4
+    /// struct Quartic;
+    ///
+    /// fn force<T: Scalar>(q: T) -> T {
+    ///     -(q * q * q)
+    /// }
+    ///
+    /// impl<T: Scalar> SeparableHamiltonian<DVector<T>> for Quartic {
+    ///     const UNIT_MASSES: bool = true;
+    ///     const LOCAL_FORCE: bool = true;
+    ///     const ROW_FORCES: bool = true;
+    ///
+    ///     fn velocity(&self, _time: T, p: &DVector<T>, velocity: &mut DVector<T>) {
+    ///         copy(velocity, p);
+    ///     }
+    ///
+    ///     fn force(&self, _time: T, q: &DVector<T>, out: &mut DVector<T>) {
+    ///         for (out, &q) in out.iter_mut().zip(q) {
+    ///             *out = force(q);
+    ///         }
+    ///     }
+    ///
+    ///     fn local_force(&self, _time: T, components: &mut impl Components<T>) {
+    ///         for k in 0..components.dimension() {
+    ///             let q = components.position(k);
+    ///             components.set_force(k, force(q));
+    ///         }
+    ///     }
+    ///
+    ///     fn row_forces(&self, rows: &mut impl StageRows) {
+    ///         for row in 0..rows.count() {
+    ///             let positions = rows.positions(row);
+    ///             let mut forces = [F64x8::from_f64(0.0); MOST_ROW_STAGES];
+    ///             for stage in 0..rows.stages() {
+    ///                 forces[stage] = force(positions[stage]);
+    ///             }
+    ///             rows.set_forces(row, forces);
+    ///         }
+    ///     }
+    /// }
+    ///
+    /// # fn main() -> Result<(), symplectic::Error> {
+    /// use symplectic::{Integrator, State};
+    ///
+    /// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
+    ///
+    /// let start = State::new(0.0, DVector::from_element(16, 1.0), DVector::zeros(16));
+    /// let mut integrator = Integrator::new(Gauss3, Quartic, start, 0.1)?.in_second_order_lanes()?;
+    /// integrator.take_steps(100)?;
+    /// # Ok(())
+    /// # }
+    /// ```
     #[inline(always)]
     fn row_forces(&self, _rows: &mut impl StageRows) {}
 

@@ -208,11 +208,11 @@ impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
     /// # Errors
     ///
     /// [`Error::NotSecondOrder`], where the velocity is not linear in the momentum, or depends on time;
-    /// [`Error::NotTheSameLocalForce`], where the force component by component is another one.
+    /// [`Error::NotTheSameLocalForce`], where the force component by component, or in rows, is another one.
     pub fn in_second_order_lanes(
         self,
     ) -> Result<Integrator<M, S, V, R, SecondOrderInLanes>, Error> {
-        check_local_forces(&self.system, &self.course.state)?;
+        check_local_forces(&self.system, &self.course.state, self.step_size)?;
         let State { time, q, p } = &self.course.state;
         let solver = SecondOrderInLanes::new(&self.system, *time, q, p)?;
         Ok(self.with_solver(solver))

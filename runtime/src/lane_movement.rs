@@ -71,10 +71,11 @@ impl<L: Lanes> Movement for LaneMovement<L> {
     #[inline(always)]
     fn is_next_within(&self, before: &Self, [q, p]: [f64; 2], both: bool) -> bool {
         let of = |before: LanePart<L>, this: LanePart<L>, bound: f64| {
+            let sum = before.sum;
             let (before, this) = (before.largest, this.largest);
             // What holds in every lane holds for the largest of all, for which the processor would have to wait.
             let in_lanes = !(this * this - before * L::from_f64(bound)).any_above(0.0);
-            in_lanes || is_next_within(before.largest(), this.largest(), bound)
+            (in_lanes || is_next_within(before.largest(), this.largest(), bound)) && !sum.any_nan()
         };
         of(before.q, self.q, q) && (!both || of(before.p, self.p, p))
     }
@@ -178,6 +179,14 @@ mod tests {
                             change.shrinks(below, [2.0, 0.5], both),
                         ];
                         assert_eq!(this, other, "{q:?} {p:?} {both} {below}");
+                    }
+                    for before in [[0.0, 0.5], [0.25, 0.25], [f64::NAN, 0.0]] {
+                        let (lanes_before, change_before) = moved([before, before]);
+                        let [this, other] = [
+                            lanes.is_next_within(&lanes_before, [0.5, 0.25], both),
+                            change.is_next_within(&change_before, [0.5, 0.25], both),
+                        ];
+                        assert_eq!(this, other, "{q:?} {p:?} {both} {before:?}");
                     }
                 }
             }

@@ -146,7 +146,7 @@ pub use closures::{
     separable,
 };
 pub use coefficient::{Coefficient, Coefficients};
-pub use components::{Components, MOST_STAGES, StageRows};
+pub use components::{Components, MOST_ROW_STAGES, StageRows};
 pub use composition::{Composition, CompositionMemory, Substep, Substeps};
 pub use coupled::Coupled;
 pub use dense::DenseOutput;

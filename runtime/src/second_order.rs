@@ -1,14 +1,14 @@
 //! Second-order systems: coupled stages without the momenta.
 
 mod local;
-mod rows;
+mod row_stages;
 mod stages;
 
 use core::marker::PhantomData;
 use core::mem;
 
 use self::local::{Locally, is_local};
-use self::rows::are_in_rows;
+use self::row_stages::are_in_rows;
 pub use self::stages::SecondOrderStages;
 use crate::in_lanes::{
     ByLanes, Sums, entry, extend, extrapolate, in_groups, is_about, lane_of, lanes, scale_of,
@@ -38,8 +38,9 @@ use crate::{
 /// [local](crate::SeparableHamiltonian::LOCAL_FORCE), a [`Chain`](crate::Chain), is gone through once in a sweep, as long as a step goes
 /// on from the one before and settles in its first sweeps: the positions of the stages are made, and used, component by component. What
 /// is then compared with a tolerance is by how much the next positions can differ, at most but for rounding, from those of the sweep.
-/// Of less than eight stages, and components that fill rows of eight, it is gone through in [rows](crate::SeparableHamiltonian::ROW_FORCES):
-/// the lanes run along the components. Both have the same bits.
+/// With fewer than eight stages, and a number of components that is a multiple of eight, a system that
+/// [can](crate::SeparableHamiltonian::ROW_FORCES) goes through them in rows: the lanes run along the components. Both have the same
+/// bits.
 #[derive(Clone, Copy, Debug)]
 pub struct SecondOrderInLanes(());
 
@@ -119,6 +120,7 @@ where
             lanes,
             start,
             of_increments,
+            in_rows,
         } = memory;
         if !eliminates::<P>() {
             return <InLanes as Solver<V, S>>::take::<P, R>(
@@ -126,6 +128,8 @@ where
             );
         }
         *of_increments = R::COMPENSATED;
+        // Where an iteration fails they are not.
+        *in_rows = false;
         if !<S as Hamiltonian<V>>::UNIT_MASSES {
             velocity::<P, V, S>(system, step, step.p, start, lanes);
         }
@@ -144,12 +148,13 @@ where
             false => settle::<P::Class, f64>(&mut sweeps, kept, stopping)?,
         };
         work.evaluations += sweeps.evaluations().finish;
-        if are_in_rows::<P, V, S>(step.q.dimension()) {
+        *in_rows = are_in_rows::<P, V, S>(step.q.dimension());
+        if *in_rows {
             if R::COMPENSATED {
                 velocity::<P, V, S>(system, step, step.p_low, outcome.q, lanes);
-                rows::compensated_result::<P, R, V>(step, lanes, outcome);
+                row_stages::compensated_result::<P, R, V>(step, lanes, outcome);
             } else {
-                rows::plain_result::<P, V>(step, lanes, outcome);
+                row_stages::plain_result::<P, V>(step, lanes, outcome);
             }
         } else if R::COMPENSATED {
             compensated_result::<P, R, V, S>(step, system, start, lanes, outcome);
@@ -174,9 +179,8 @@ where
             true => 1.0,
             false => P::POSITIONS.weights[stage] * at.size,
         };
-        let in_rows = are_in_rows::<P, V, S>(p.dimension());
-        let force = |stage: usize, k: usize| match in_rows {
-            true => rows::force(stages, stage, k) * factor(stage),
+        let force = |stage: usize, k: usize| match memory.in_rows {
+            true => row_stages::force(stages, stage, k) * factor(stage),
             false => entry::<P, V>(stages.force.as_ref(), stage, k) * factor(stage),
         };
         extend::<P, V>(&P::POSITIONS, at, force, p);

@@ -5,7 +5,7 @@ use crate::kernel::kick_and_drift;
 use crate::stage::is_finite;
 use crate::{
     Class, Components, Error, F64x2, F64x4, F64x8, Hamiltonian, HamiltonianInLanes, Lanes, Layout,
-    MOST_STAGES, Quantity, Scalar, StageRows, State, Vector, copy,
+    MOST_ROW_STAGES, Quantity, Scalar, StageRows, State, Vector, copy,
 };
 
 pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {
@@ -90,8 +90,12 @@ pub(super) fn check_pass<V: Vector, S: Hamiltonian<V>>(
 }
 
 /// Checks that the force component by component is the force, where the system makes it so: of doubles and of all lanes, for which it
-/// may be written apart.
-pub(super) fn check_local_forces<V, S>(system: &S, state: &State<V>) -> Result<(), Error>
+/// may be written apart, and in rows; at the present positions and at uneven ones around them.
+pub(super) fn check_local_forces<V, S>(
+    system: &S,
+    state: &State<V>,
+    step_size: f64,
+) -> Result<(), Error>
 where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
@@ -100,15 +104,44 @@ where
         return Ok(());
     }
     let State { time, q, p } = state;
-    check_local_force(system, *time, q, p)?;
-    check_local_force(system, *time, &splat::<V, F64x2>(q), &splat(p))?;
-    check_local_force(system, *time, &splat::<V, F64x4>(q), &splat(p))?;
-    check_local_force(system, *time, &splat::<V, F64x8>(q), &splat(p))?;
-    check_row_forces(system, state)
+    let stages: [V; MOST_ROW_STAGES] =
+        core::array::from_fn(|stage| uneven(state, step_size, stage));
+    for q in [q, &stages[1]] {
+        check_local_force(system, *time, q, p)?;
+        check_local_force(system, *time, &splat::<V, F64x2>(q), &splat(p))?;
+        check_local_force(system, *time, &splat::<V, F64x4>(q), &splat(p))?;
+        check_local_force(system, *time, &splat::<V, F64x8>(q), &splat(p))?;
+    }
+    check_row_forces(system, state, step_size, &stages)
 }
 
-/// Checks that the force in rows is the force, of two stages.
-fn check_row_forces<V, S>(system: &S, state: &State<V>) -> Result<(), Error>
+/// Positions around the present ones: they themselves for stage 0, and others in which all components differ for those after it. Where
+/// positions and momenta are zero so are many forces that are wrong.
+fn uneven<V: Vector<Scalar = f64>>(state: &State<V>, step_size: f64, stage: usize) -> V {
+    let largest = |vector: &V| {
+        vector
+            .as_slice()
+            .iter()
+            .fold(0.0, |a: f64, &b| a.max(b.abs()))
+    };
+    let size = largest(&state.q).max(largest(&state.p) * step_size.abs());
+    let size = if size > 0.0 { size } else { 1.0 };
+    let mut positions = state.q.clone();
+    for (component, position) in positions.as_mut_slice().iter_mut().enumerate() {
+        // Fractions of a multiple of the golden section: far from each other, for any number of them.
+        let fraction = (0.618_033_988_749_895 * (component + 1) as f64).fract() - 0.5;
+        *position += 0.125 * size * stage as f64 * fraction;
+    }
+    positions
+}
+
+/// Checks that the force in rows is the force, of as many stages as there can be, each at its time and at positions of its own.
+fn check_row_forces<V, S>(
+    system: &S,
+    state: &State<V>,
+    step_size: f64,
+    positions: &[V; MOST_ROW_STAGES],
+) -> Result<(), Error>
 where
     V: Vector<Scalar = f64>,
     S: Hamiltonian<V>,
@@ -117,41 +150,57 @@ where
     if !S::ROW_FORCES || q.dimension() == 0 || !q.dimension().is_multiple_of(F64x8::WIDTH) {
         return Ok(());
     }
-    let mut nearer = q.clone();
-    for component in nearer.as_mut_slice() {
-        *component *= 0.5;
-    }
-    let positions = [q, &nearer];
-    let mut forces = [q.zeros_like(), q.zeros_like()];
+    let times = core::array::from_fn(|stage| time + step_size * stage as f64 / 8.0);
+    let mut forces = positions.clone();
     for force in &mut forces {
         force.as_mut_slice().fill(f64::NAN);
     }
-    let [first, second] = &mut forces;
-    system.row_forces(&mut RowsInMemory {
-        time: *time,
-        stages: [(q, first), (&nearer, second)].map(|(q, force)| InMemory {
-            q: q.as_slice(),
-            force: force.as_mut_slice(),
-        }),
-    });
-    for (q, local) in positions.into_iter().zip(&forces) {
-        let mut force = q.zeros_like();
-        system.force(*time, q, p, &mut force);
-        if let Some((component, local, expected)) = first_difference(local, &force) {
-            return Err(Error::NotTheSameLocalForce {
-                component,
-                local,
-                expected,
+    let mut stages = positions.iter().zip(&mut forces);
+    let mut rows = RowsInMemory {
+        times,
+        stages: core::array::from_fn(|_| {
+            let (q, force) = stages.next().map_or((&[][..], &mut [][..]), |(q, force)| {
+                (q.as_slice(), force.as_mut_slice())
             });
+            InMemory { q, force }
+        }),
+        outside: None,
+    };
+    system.row_forces(&mut rows);
+    let refused = |(component, local, expected)| {
+        Err(Error::NotTheSameLocalForce {
+            component,
+            local,
+            expected,
+        })
+    };
+    if let Some(row) = rows.outside {
+        return refused((row.saturating_mul(F64x8::WIDTH), f64::NAN, f64::NAN));
+    }
+    for ((time, q), local) in times.into_iter().zip(positions).zip(&forces) {
+        let mut force = q.zeros_like();
+        system.force(time, q, p, &mut force);
+        if let Some(difference) = first_difference(local, &force) {
+            return refused(difference);
         }
     }
     Ok(())
 }
 
-/// Two stages that are in memory, in rows.
+/// Stages that are in memory, in rows.
 struct RowsInMemory<'a> {
-    time: f64,
-    stages: [InMemory<'a, f64>; 2],
+    times: [f64; MOST_ROW_STAGES],
+    stages: [InMemory<'a, f64>; MOST_ROW_STAGES],
+    /// The first row that was asked for, or set, and is none.
+    outside: Option<usize>,
+}
+
+impl RowsInMemory<'_> {
+    fn look(&mut self, row: usize) {
+        if row >= self.count() {
+            self.outside.get_or_insert(row);
+        }
+    }
 }
 
 impl StageRows for RowsInMemory<'_> {
@@ -163,23 +212,24 @@ impl StageRows for RowsInMemory<'_> {
         self.stages.len()
     }
 
-    fn time(&self, _stage: usize) -> F64x8 {
-        F64x8::from_f64(self.time)
+    fn time(&self, stage: usize) -> F64x8 {
+        F64x8::from_f64(self.times.get(stage).copied().unwrap_or(f64::NAN))
     }
 
-    fn positions(&mut self, row: usize) -> [F64x8; MOST_STAGES] {
+    fn positions(&mut self, row: usize) -> [F64x8; MOST_ROW_STAGES] {
+        self.look(row);
         array(F64x8::from_f64(f64::NAN), |stage| {
-            F64x8::from_fn(|lane| match self.stages.get_mut(stage) {
-                Some(stage) => stage.position(row * F64x8::WIDTH + lane),
-                None => f64::NAN,
+            F64x8::from_fn(|lane| {
+                self.stages[stage].position(row.saturating_mul(F64x8::WIDTH).saturating_add(lane))
             })
         })
     }
 
-    fn set_forces(&mut self, row: usize, forces: [F64x8; MOST_STAGES]) {
+    fn set_forces(&mut self, row: usize, forces: [F64x8; MOST_ROW_STAGES]) {
+        self.look(row);
         for (stage, force) in self.stages.iter_mut().zip(forces) {
             for (lane, force) in force.to_array().into_iter().enumerate() {
-                stage.set_force(row * F64x8::WIDTH + lane, force);
+                stage.set_force(row.saturating_mul(F64x8::WIDTH).saturating_add(lane), force);
             }
         }
     }

@@ -5,7 +5,7 @@ use core::mem;
 
 use num_traits::Zero;
 
-use super::rows::{AlongRows, are_in_rows, enter, leave};
+use super::row_stages::{AlongRows, are_in_rows, enter, leave};
 use super::{Positions, Start, Terms, apart, eliminates, position, tableau};
 use crate::in_lanes::{combination, increment_factor, is_about, lane_of, lanes, scale_of, times};
 use crate::iteration::{Begun, Sweeps};
@@ -14,7 +14,7 @@ use crate::lane_movement::{LaneMovement, LanePart};
 use crate::starting_values::starts_at_once;
 use crate::{
     Change, Class, Components, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, Kept,
-    Lanes, Quantity, Scalar, StageTableau, Stopping, Summation, Vector, Work,
+    Lanes, Quantity, Scalar, StageRows, StageTableau, Stopping, Summation, Vector, Work,
 };
 
 /// Whether stages are iterated along the components: for vectors on the heap, where all stages of a component are in one group.
@@ -76,8 +76,12 @@ where
         let (step, stages) = (lanes.step, &mut *lanes.stages);
         if in_rows {
             let mut along = AlongRows::<P, R, _, MEASURED>::new(terms, step, stages);
+            if along.count() == 0 {
+                // Of another dimension, which is seen when the step is looked at.
+                return LanePart::or_none(None);
+            }
             Hamiltonian::<V>::row_forces(lanes.system, &mut along);
-            let (largest, changes) = along.moved();
+            let (largest, changes) = along.changes();
             self.largest = largest;
             return changes;
         }

@@ -1,5 +1,6 @@
 //! The memory of second-order systems.
 
+use super::row_stages;
 use crate::{LaneStages, Quantity, StageStorage, StageTableau, Vector};
 
 /// Stages in lanes, and the velocity that they start from.
@@ -10,6 +11,8 @@ pub struct SecondOrderStages<V: Vector, P: StageTableau> {
     pub(crate) start: V,
     /// Whether the forces, and their velocities, are increments between steps: of compensated sums.
     pub(crate) of_increments: bool,
+    /// Whether the forces are in rows, in the place of the velocities.
+    pub(crate) in_rows: bool,
 }
 
 impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SecondOrderStages<V, P> {
@@ -20,15 +23,24 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SecondOrderSt
             lanes: LaneStages::like(prototype),
             start: prototype.zeros_like(),
             of_increments: false,
+            in_rows: false,
         }
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
-        self.lanes.non_finite()
+        match self.in_rows {
+            true => self
+                .non_finite_force()
+                .map(|stage| (Quantity::Force, stage)),
+            false => self.lanes.non_finite(),
+        }
     }
 
     fn non_finite_force(&self) -> Option<usize> {
-        self.lanes.non_finite_force()
+        match self.in_rows {
+            true => row_stages::non_finite_force(&self.lanes),
+            false => self.lanes.non_finite_force(),
+        }
     }
 
     #[inline]

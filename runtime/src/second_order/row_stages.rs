@@ -1,8 +1,8 @@
 //! Second-order systems whose force is made in rows: eight neighbouring components side by side, of all stages at once.
 //!
 //! The forces are in the place of the velocities, which unit masses leave free, row by row and in a row stage by stage, from step to
-//! step. In their own place, component by component with the stages in lanes, they are only where an iteration does not settle in its
-//! first sweeps.
+//! step. In their own place, component by component with the stages in lanes, they are while a step is iterated that does not go on
+//! from one before, or does not settle in its first sweeps.
 
 use core::marker::PhantomData;
 
@@ -16,8 +16,8 @@ use crate::lane_movement::LanePart;
 use crate::lane_stages::LaneStages;
 use crate::summation::add;
 use crate::{
-    F64x8, Hamiltonian, HamiltonianInLanes, Lanes, MOST_STAGES, Outcome, Plain, Scalar, StageRows,
-    StageTableau, Step, Summation, Vector,
+    F64x8, Hamiltonian, HamiltonianInLanes, Lanes, MOST_ROW_STAGES, Outcome, Plain, Scalar,
+    StageRows, StageTableau, Step, Summation, Vector,
 };
 
 /// Components in a row.
@@ -34,7 +34,7 @@ where
     is_local::<P, V, S>()
         && <S as Hamiltonian<V>>::ROW_FORCES
         && P::INCREMENTS
-        && P::POSITIONS.count <= MOST_STAGES
+        && P::POSITIONS.count <= MOST_ROW_STAGES
         && dimension >= WIDTH
         && dimension.is_multiple_of(WIDTH)
 }
@@ -76,6 +76,16 @@ fn store<L: Lanes>(row: &mut [L], stage: usize, numbers: F64x8) {
 /// How many elements in memory a row of all stages is.
 const fn row_length<P: StageTableau>() -> usize {
     P::POSITIONS.count * parts::<P::Lanes>()
+}
+
+/// The first stage, from 1, whose force is not finite.
+pub(super) fn non_finite_force<P: StageTableau, V: Vector>(
+    stages: &LaneStages<V, P>,
+) -> Option<usize> {
+    let components = || 0..forces(stages).len() / row_length::<P>() * WIDTH;
+    let first = (0..P::POSITIONS.count)
+        .find(|&stage| components().any(|k| !force(stages, stage, k).is_finite()));
+    first.map(|stage| stage + 1)
 }
 
 /// The force on a component at a stage.
@@ -131,7 +141,7 @@ pub(super) struct AlongRows<'a, P: StageTableau, R, C: 'static, const MEASURED: 
     /// The largest position, or zero.
     largest: F64x8,
     /// The largest change of a force at each stage.
-    changes: [F64x8; MOST_STAGES],
+    changes: [F64x8; MOST_ROW_STAGES],
     /// The sum of all changes.
     sum: F64x8,
     summation: PhantomData<R>,
@@ -174,15 +184,25 @@ where
             p: &p[..n],
             forces: &mut forces[..n * row_length::<P>()],
             largest: F64x8::zero(),
-            changes: [F64x8::zero(); MOST_STAGES],
+            changes: [F64x8::zero(); MOST_ROW_STAGES],
             sum: F64x8::zero(),
             summation: PhantomData,
         }
     }
 
+    /// A row, or another one where there is none, for which the sweep is none that settles.
+    #[inline(always)]
+    fn inside(&mut self, row: usize) -> usize {
+        let is_inside = row < self.q.len();
+        if !is_inside {
+            self.sum = F64x8::from_f64(f64::NAN);
+        }
+        if is_inside { row } else { 0 }
+    }
+
     /// The largest position, and how much the forces of each stage have changed.
     #[inline(always)]
-    pub(super) fn moved(self) -> (P::Lanes, LanePart<P::Lanes>) {
+    pub(super) fn changes(self) -> (P::Lanes, LanePart<P::Lanes>) {
         let largest = P::Lanes::from_fn(|lane| match self.changes.get(lane) {
             Some(change) => change.largest(),
             None => 0.0,
@@ -215,14 +235,14 @@ where
         F64x8::from_f64(lane_of(self.times, stage))
     }
 
-    // Loops over indices, and rows without a way out: else all of it is in memory, and takes four times as long. A system that asks for
-    // another row is refused before.
+    // Loops over indices, and nothing that leaves before its end: else all of it is in memory, and takes four times as long.
     #[allow(clippy::needless_range_loop, reason = "all in registers")]
     #[inline(always)]
-    fn positions(&mut self, row: usize) -> [F64x8; MOST_STAGES] {
+    fn positions(&mut self, row: usize) -> [F64x8; MOST_ROW_STAGES] {
+        let row = self.inside(row);
         let [q, q_low, p] = [self.q, self.q_low, self.p].map(|rows| F64x8::from_array(rows[row]));
         let forces = &self.forces[row * row_length::<P>()..(row + 1) * row_length::<P>()];
-        let mut positions = [F64x8::zero(); MOST_STAGES];
+        let mut positions = [F64x8::zero(); MOST_ROW_STAGES];
         for stage in 0..P::POSITIONS.count {
             let sum = sum_of_products(None, self.terms.columns.len(), |j| {
                 let entry = self.terms.columns[j].as_ref()[stage];
@@ -230,8 +250,7 @@ where
             });
             let terms = (self.terms.factor, sum);
             let node = F64x8::from_f64(tableau::<P>().nodes[stage]);
-            let size = (self.size, node);
-            let position = position::<R, F64x8>((q, q_low), size, p, terms);
+            let position = position::<R, F64x8>((q, q_low), (self.size, node), p, terms);
             if MEASURED {
                 self.largest = self.largest.larger(position.abs());
             }
@@ -242,7 +261,8 @@ where
 
     #[allow(clippy::needless_range_loop, reason = "all in registers")]
     #[inline(always)]
-    fn set_forces(&mut self, row: usize, forces: [F64x8; MOST_STAGES]) {
+    fn set_forces(&mut self, row: usize, forces: [F64x8; MOST_ROW_STAGES]) {
+        let row = self.inside(row);
         let places = &mut self.forces[row * row_length::<P>()..(row + 1) * row_length::<P>()];
         for stage in 0..P::POSITIONS.count {
             let new = match R::COMPENSATED {
@@ -300,12 +320,8 @@ pub(super) fn compensated_result<P: StageTableau, R: Summation, V: Vector<Scalar
 ) {
     let bases = [step.q, step.q_low, step.p, step.p_low].map(rows);
     let [q, q_low, p, p_low] = [q, q_low, p, p_low].map(rows_mut);
-    let n = [q.len(), q_low.len(), p.len(), p_low.len()]
-        .into_iter()
-        .min();
-    let n = bases
-        .iter()
-        .fold(n.unwrap_or(0), |n, base| n.min(base.len()));
+    let results = [q.len(), q_low.len(), p.len(), p_low.len()];
+    let n = (results.into_iter().chain(bases.map(<[_]>::len))).fold(usize::MAX, usize::min);
     let bases = bases.map(|base| &base[..n]);
     let [q, q_low, p, p_low] = [q, q_low, p, p_low].map(|rows| &mut rows[..n]);
     let (h, count) = (F64x8::from_f64(step.size), P::POSITIONS.count);
