@@ -115,6 +115,9 @@ where
     check_row_forces(system, state, step_size, &stages)
 }
 
+/// 2⁻³²
+const FRACTION: f64 = 1.0 / 4_294_967_296.0;
+
 /// Positions around the present ones: they themselves for stage 0, and others in which all components differ for those after it. Where
 /// positions and momenta are zero so are many forces that are wrong.
 fn uneven<V: Vector<Scalar = f64>>(state: &State<V>, step_size: f64, stage: usize) -> V {
@@ -128,8 +131,9 @@ fn uneven<V: Vector<Scalar = f64>>(state: &State<V>, step_size: f64, stage: usiz
     let size = if size > 0.0 { size } else { 1.0 };
     let mut positions = state.q.clone();
     for (component, position) in positions.as_mut_slice().iter_mut().enumerate() {
-        // Fractions of a multiple of the golden section: far from each other, for any number of them.
-        let fraction = (0.618_033_988_749_895 * (component + 1) as f64).fract() - 0.5;
+        // The fractions of the multiples of the golden section, in units of 2⁻³²: far from each other, however many there are.
+        let multiple = (component as u32).wrapping_add(1).wrapping_mul(0x9e37_79b9);
+        let fraction = f64::from(multiple) * FRACTION - 0.5;
         *position += 0.125 * size * stage as f64 * fraction;
     }
     positions

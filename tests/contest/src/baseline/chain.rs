@@ -8,17 +8,17 @@ use super::explicit::Splitting;
 use super::gauss::{Rule, product};
 use super::lanes::Lanes;
 
-/// Particles in a block.
-const LANES: usize = 8;
-
 /// Positions or momenta of the moving particles, eight in a block.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Blocks(Vec<f64x8>);
+pub struct Blocks(pub(super) Vec<f64x8>);
 
 impl Blocks {
+    /// Particles in a block.
+    pub(super) const LANES: usize = f64x8::COUNT;
+
     /// The `values`; what does not fill a block is left out.
     pub fn new(values: &[f64]) -> Self {
-        let (blocks, _) = values.as_chunks::<LANES>();
+        let (blocks, _) = values.as_chunks::<{ Self::LANES }>();
         Self(blocks.iter().copied().map(f64x8::new).collect())
     }
 
@@ -30,7 +30,7 @@ impl Blocks {
 
 /// Walks along the chain: the forces on one block after the other, from the blocks of positions.
 #[derive(Clone, Copy)]
-struct Walk {
+pub(super) struct Walk {
     here: f64x8,
     /// The tensions of the bonds to the right of the block before.
     tensions: f64x8,
@@ -39,7 +39,7 @@ struct Walk {
 impl Walk {
     /// From the wall on the left to the first block.
     #[inline(always)]
-    fn new(first: f64x8) -> Self {
+    pub(super) fn new(first: f64x8) -> Self {
         Self {
             here: first,
             tensions: tension(f64x8::splat(first.lane(0))),
@@ -48,11 +48,17 @@ impl Walk {
 
     /// The force on the present block, which has the block `next` to its right.
     #[inline(always)]
-    fn force(&mut self, next: f64x8) -> f64x8 {
+    pub(super) fn force(&mut self, next: f64x8) -> f64x8 {
         let (here, right) = (self.here.to_array(), next.lane(0));
-        let right = f64x8::from_fn(|i| if i + 1 < LANES { here[i + 1] } else { right });
+        let right = f64x8::from_fn(|i| {
+            if i + 1 < Blocks::LANES {
+                here[i + 1]
+            } else {
+                right
+            }
+        });
         let tensions = tension(right - self.here);
-        let (old, new) = (self.tensions.lane(LANES - 1), tensions.to_array());
+        let (old, new) = (self.tensions.lane(Blocks::LANES - 1), tensions.to_array());
         let left = f64x8::from_fn(|i| if i == 0 { old } else { new[i - 1] });
         *self = Self {
             here: next,
@@ -143,7 +149,7 @@ impl<const S: usize> SecondOrder<S> {
             extrapolated: scaled(product(&square, &rule.extrapolation())),
             weights: rule.b.map(|b| h * b),
             position_weights: array::from_fn(|i| h * h * rule.b[i] * (1.0 - rule.c[i])),
-            forces: vec![[f64x8::splat(0.0); S]; particles / LANES],
+            forces: vec![[f64x8::splat(0.0); S]; particles / Blocks::LANES],
         }
     }
 

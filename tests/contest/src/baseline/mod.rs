@@ -10,6 +10,7 @@
 )]
 
 pub mod chain;
+pub mod chain_no_drift;
 pub mod explicit;
 pub mod gauss;
 pub mod lanes;

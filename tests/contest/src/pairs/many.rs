@@ -1,10 +1,11 @@
-//! The long chain: lanes along the components, with plain sums.
+//! The long chain: lanes along the components.
 
 use symplectic::nalgebra::DVector;
-use symplectic::{Integrator, Method, Plain};
+use symplectic::{Compensated, Integrator, Method, Plain};
 
 use super::{Pair, Problem, TO_ROUNDING, rule};
 use crate::baseline::chain::{self, Blocks};
+use crate::baseline::chain_no_drift::{DoubleBlocks, NoDrift};
 use crate::baseline::explicit::{self, Splitting};
 use crate::baseline::gauss::Rule;
 use symplectic_tests::methods::{
@@ -68,7 +69,7 @@ impl Chain {
         }
     }
 
-    /// A method with `scale` times the step of the problem: to the tolerance by hand, and down to rounding.
+    /// A method with `scale` times the step of the problem: to the tolerance by hand, and down to rounding; and with compensated sums.
     fn implicit<M: Method, const STAGES: usize>(
         &self,
         pairs: &mut Vec<Pair>,
@@ -93,6 +94,20 @@ impl Chain {
             Integrator::<_, _, _, Plain>::in_second_order_lanes,
             by_hand,
         );
+        let (begin, by_hand) = (self.blocks(), NoDrift::new(rule, PARTICLES, step_size));
+        let compensated = self.pair(
+            method,
+            step_size,
+            Integrator::<_, _, _, Compensated>::in_second_order_lanes,
+            move |steps| {
+                let (q, p) = begin.clone();
+                let (mut q, mut p) = (DoubleBlocks::new(q), DoubleBlocks::new(p));
+                by_hand
+                    .clone()
+                    .run((&mut q, &mut p), 1e4 * tolerance, steps);
+                q.high.values().chain(p.high.values()).collect()
+            },
+        );
         let steps = self.steps_of(step_size);
         pairs.push(Pair {
             steps,
@@ -102,6 +117,10 @@ impl Chain {
             sums: TO_ROUNDING,
             steps,
             ..to_rounding
+        });
+        pairs.push(Pair {
+            steps,
+            ..compensated
         });
     }
 
