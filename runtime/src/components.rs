@@ -22,7 +22,8 @@ pub const MOST_ROW_STAGES: usize = 7;
 /// component is in a row, and the force on every row has to be set, once. The positions of a stage are at the place of its number in what
 /// is given, from 0; what is behind the last stage is not looked at.
 ///
-/// Where a row is asked for, or set, that there is not, no stages settle: steps go on by the force.
+/// A system that asks for a row that there is not, or sets one, is refused when the solver is made. One that does so later only, by
+/// what it sees, panics as it would by an index out of bounds.
 pub trait StageRows {
     /// How many rows there are, one at least.
     fn count(&self) -> usize;

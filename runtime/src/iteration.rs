@@ -38,6 +38,9 @@ pub(crate) trait Sweeps {
     /// Whether a change that is down to rounding errors is the last where the next one would be down to a unit of EPSILON.
     const HASTY: bool;
 
+    /// Whether it is known after each sweep how large they are; else only what they [are about](Self::are_about), from the start.
+    const MEASURED: bool = true;
+
     /// Whether changes that are far from rounding errors are looked at.
     const LOOKS_AFAR: bool = false;
 
@@ -65,12 +68,6 @@ pub(crate) trait Sweeps {
     /// One sweep over all of them.
     fn sweep(&mut self) -> Self::Movement;
 
-    /// One after which it is not asked how large they are, only how it moved them.
-    #[inline(always)]
-    fn sweep_unmeasured(&mut self) -> Self::Movement {
-        self.sweep()
-    }
-
     /// One that moves them twice as far. Only asked for of systems that are not separable, of sums that wait for stagnation, and where
     /// changes that are far from rounding are not looked at: others need not have it.
     #[inline(always)]
@@ -78,7 +75,7 @@ pub(crate) trait Sweeps {
         self.sweep()
     }
 
-    /// By how much that moved them altogether.
+    /// By how much that moved them altogether, where they are [measured](Self::MEASURED).
     fn change(&self, movement: &Self::Movement) -> Change;
 
     /// [`patiently`], in another place where that leaves these stages in registers.

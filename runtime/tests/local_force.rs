@@ -5,8 +5,8 @@ use std::cell::Cell;
 use symplectic::nalgebra::DVector;
 use symplectic::{
     Bonds, Chain, Compensated, Components, Error, F64x8, Hamiltonian, HamiltonianInLanes,
-    Integrator, Lanes, MOST_ROW_STAGES, Method, Plain, Scalar, SeparableHamiltonian, StageRows,
-    State, Statistics, Summation, Vector, copy, tableau,
+    Integrator, MOST_ROW_STAGES, Method, Plain, Scalar, SeparableHamiltonian, StageRows, State,
+    Statistics, Summation, Vector, copy, tableau,
 };
 
 tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
@@ -669,45 +669,4 @@ fn another_force_in_rows_is_refused() {
             }
         }
     }
-}
-
-/// Asks for rows that there are not, from some time on.
-struct Late(f64);
-
-impl<V: Vector> SeparableHamiltonian<V> for Late {
-    const UNIT_MASSES: bool = true;
-    const LOCAL_FORCE: bool = true;
-    const ROW_FORCES: bool = true;
-
-    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
-        copy(velocity, p);
-    }
-
-    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
-        SeparableHamiltonian::<V>::force(&SpringsInRows(FaultyRows::None), time, q, force);
-    }
-
-    fn local_force(&self, time: V::Scalar, components: &mut impl Components<V::Scalar>) {
-        SeparableHamiltonian::<V>::local_force(&SpringsInRows(FaultyRows::None), time, components);
-    }
-
-    fn row_forces(&self, rows: &mut impl StageRows) {
-        let fault = match rows.time(0).to_array()[0] < self.0 {
-            true => FaultyRows::None,
-            false => FaultyRows::AsksBeyondInVain,
-        };
-        SeparableHamiltonian::<V>::row_forces(&SpringsInRows(fault), rows);
-    }
-}
-
-#[test]
-fn rows_that_there_are_not_leave_steps_to_the_force() -> Result<(), Error> {
-    for at in [2.0, 5.0] {
-        let set = |_: &mut Integrator<_, _, _, Compensated>| Ok(());
-        let (late, _) = run(Gauss3, Late(at), 16, STEP_SIZE, set)?;
-        let (sound, _) = run(Gauss3, Late(f64::INFINITY), 16, STEP_SIZE, set)?;
-        let distance = distance(&late, &sound);
-        assert!(distance <= 1e-13, "{distance:e}");
-    }
-    Ok(())
 }

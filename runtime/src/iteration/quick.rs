@@ -62,7 +62,7 @@ fn to_tolerance<W: Sweeps>(
 ) -> Result<u32, Begun<W::Movement>> {
     let mut iterations = 0;
     while iterations + 1 < late {
-        let this = sweeps.sweep_unmeasured();
+        let this = sweeps.sweep();
         iterations += 1;
         if this.is_within([tolerance; 2], both) && this.is_number() {
             return Ok(iterations);
@@ -99,7 +99,14 @@ fn to_rounding<T: Scalar, W: Sweeps>(
             {
                 return Ok((begun.iterations, size.scales));
             }
-            let scales = sweeps.change(&this).scales();
+            let scales = if W::MEASURED {
+                sweeps.change(&this).scales()
+            } else if sweeps.are_about(&this, size.scales, both) && this.is_number() {
+                size.scales
+            } else {
+                begun.last = Some(this);
+                return Err(begun);
+            };
             if is_known::<T>(scales, both) {
                 size = Size::of::<T>(scales);
                 if this.is_within(size.near, both) {
@@ -138,6 +145,10 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
         if this.settles_within(size.near, both) {
             if sweeps.are_about(&this, size.scales, true) {
                 break this;
+            }
+            if !W::MEASURED {
+                begun.last = Some(this);
+                return Err(begun);
             }
             let scales = sweeps.change(&this).scales();
             if is_known::<T>(scales, true) {

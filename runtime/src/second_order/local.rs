@@ -35,7 +35,7 @@ pub(super) fn is_local<P: StageTableau, V: Vector, S: HamiltonianInLanes<V>>() -
 /// Where an iteration does not settle in its first sweeps it goes on by [`Positions`], with positions in memory.
 pub(super) struct Locally<'p, 'a, P: StageTableau, R, V: Vector, S> {
     positions: &'p mut Positions<'a, P, R, V, S>,
-    /// The largest component of the positions of the stages, or zero where the last sweep was not measured.
+    /// The largest component of the positions that the stages start from: sweeps make positions, and no more of them.
     largest: P::Lanes,
 }
 
@@ -59,7 +59,7 @@ where
         are_in_rows::<P, V, S>(self.positions.lanes.step.q.dimension())
     }
 
-    /// The largest component of the positions of the stages and of what they start from.
+    /// The largest component of the positions at the start of the step, and of those that the stages start from.
     #[inline(always)]
     fn scale(&self) -> P::Lanes {
         scale_of::<P, V>(self.positions.lanes.step.q, &[]).larger(self.largest)
@@ -82,7 +82,9 @@ where
             }
             Hamiltonian::<V>::row_forces(lanes.system, &mut along);
             let (largest, changes) = along.changes();
-            self.largest = largest;
+            if MEASURED {
+                self.largest = largest;
+            }
             return changes;
         }
         let [force, ..] = stages.force.as_mut() else {
@@ -105,17 +107,16 @@ where
         };
         let time = times::<P, V>(&P::POSITIONS, step, 0);
         P::Lanes::local_force::<V, S>(lanes.system, time, &mut along);
-        self.largest = along.largest;
+        if MEASURED {
+            self.largest = along.largest;
+        }
         LanePart::or_none(along.changes)
     }
 
     /// [`walk`](Self::walk), but by how much the next positions can differ from those that the forces are at, but for rounding.
     #[inline(always)]
-    fn moves<const MEASURED: bool>(
-        &mut self,
-        terms: &Terms<impl AsRef<[f64]>>,
-    ) -> LanePart<P::Lanes> {
-        let LanePart { largest, sum } = self.walk::<MEASURED>(terms);
+    fn moves(&mut self, terms: &Terms<impl AsRef<[f64]>>) -> LanePart<P::Lanes> {
+        let LanePart { largest, sum } = self.walk::<false>(terms);
         let factor = P::Lanes::from_f64(terms.factor);
         let largest = sum_of_products(None, terms.columns.len(), |j| {
             let column: P::Lanes = lanes(terms.columns[j].as_ref(), 0);
@@ -127,15 +128,6 @@ where
         // Of infinite changes products may be no numbers, and are lost.
         let sum = sum * P::Lanes::zero();
         LanePart { largest, sum }
-    }
-
-    /// A sweep, measured or not.
-    #[inline(always)]
-    fn swept<const MEASURED: bool>(&mut self) -> LaneMovement<P::Lanes> {
-        let h = self.positions.lanes.step.size;
-        let q = apart(|| self.moves::<MEASURED>(&Terms::new::<P>(R::COMPENSATED, h)));
-        // Both halves are this one.
-        LaneMovement { q, p: q }
     }
 }
 
@@ -213,6 +205,8 @@ where
 
     const HASTY: bool = !R::COMPENSATED;
 
+    const MEASURED: bool = false;
+
     #[inline(always)]
     fn evaluations(&self) -> EvaluationCounts {
         let counts = self.positions.evaluations();
@@ -233,7 +227,7 @@ where
         // Sweeps follow, each with what it has moved.
         apart(|| {
             let h = self.positions.lanes.step.size;
-            self.walk::<false>(&Start::<P>::terms(R::COMPENSATED, h));
+            self.walk::<true>(&Start::<P>::terms(R::COMPENSATED, h));
         });
     }
 
@@ -275,12 +269,10 @@ where
 
     #[inline(always)]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
-        self.swept::<true>()
-    }
-
-    #[inline(always)]
-    fn sweep_unmeasured(&mut self) -> LaneMovement<P::Lanes> {
-        self.swept::<false>()
+        let h = self.positions.lanes.step.size;
+        let q = apart(|| self.moves(&Terms::new::<P>(R::COMPENSATED, h)));
+        // Both halves are this one.
+        LaneMovement { q, p: q }
     }
 
     #[inline(always)]

@@ -190,16 +190,6 @@ where
         }
     }
 
-    /// A row, or another one where there is none, for which the sweep is none that settles.
-    #[inline(always)]
-    fn inside(&mut self, row: usize) -> usize {
-        let is_inside = row < self.q.len();
-        if !is_inside {
-            self.sum = F64x8::from_f64(f64::NAN);
-        }
-        if is_inside { row } else { 0 }
-    }
-
     /// The largest position, and how much the forces of each stage have changed.
     #[inline(always)]
     pub(super) fn changes(self) -> (P::Lanes, LanePart<P::Lanes>) {
@@ -235,11 +225,11 @@ where
         F64x8::from_f64(lane_of(self.times, stage))
     }
 
-    // Loops over indices, and nothing that leaves before its end: else all of it is in memory, and takes four times as long.
+    // Loops over indices, and nothing that leaves before its end: else all of it is in memory, and takes four times as long. Another row
+    // in place of one that there is not would take a fifth longer.
     #[allow(clippy::needless_range_loop, reason = "all in registers")]
     #[inline(always)]
     fn positions(&mut self, row: usize) -> [F64x8; MOST_ROW_STAGES] {
-        let row = self.inside(row);
         let [q, q_low, p] = [self.q, self.q_low, self.p].map(|rows| F64x8::from_array(rows[row]));
         let forces = &self.forces[row * row_length::<P>()..(row + 1) * row_length::<P>()];
         let mut positions = [F64x8::zero(); MOST_ROW_STAGES];
@@ -262,7 +252,6 @@ where
     #[allow(clippy::needless_range_loop, reason = "all in registers")]
     #[inline(always)]
     fn set_forces(&mut self, row: usize, forces: [F64x8; MOST_ROW_STAGES]) {
-        let row = self.inside(row);
         let places = &mut self.forces[row * row_length::<P>()..(row + 1) * row_length::<P>()];
         for stage in 0..P::POSITIONS.count {
             let new = match R::COMPENSATED {
