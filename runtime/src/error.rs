@@ -179,7 +179,7 @@ pub enum Error {
         expected: f64,
     },
 
-    /// A system makes its force component by component, and what comes out is not its force.
+    /// A system makes its force component by component or in rows, and what comes out is not its force.
     #[error(
         "component {component} of the force is {local} in size by `local_force` or `row_forces` and {expected} by `force`: they have to be the \
          same to the last bit; leave them and `LOCAL_FORCE = true`, `ROW_FORCES = true` out, or make them from the same operations"
@@ -187,7 +187,8 @@ pub enum Error {
     NotTheSameLocalForce {
         /// The component, from 0.
         component: usize,
-        /// Its size component by component; not a number where it was not set.
+        /// Its size component by component, or in rows; not a number where it was not set, and neither is the other one where a row was
+        /// asked for, or set, that there is not.
         local: f64,
         /// Its size by the force.
         expected: f64,
