@@ -93,15 +93,13 @@ fn to_rounding<T: Scalar, W: Sweeps>(
                 let next = |before| this.is_next_within(&before, one, both);
                 this.is_within(one, both) || begun.before.is_some_and(next)
             };
-            if is_last(size.scales)
-                && sweeps.are_about(&this, size.scales, both)
-                && this.is_number()
-            {
+            let is_sound = |scales| sweeps.are_about(&this, scales, both) && this.is_number();
+            if is_last(size.scales) && is_sound(size.scales) {
                 return Ok((begun.iterations, size.scales));
             }
             let scales = if W::MEASURED {
                 sweeps.change(&this).scales()
-            } else if sweeps.are_about(&this, size.scales, both) && this.is_number() {
+            } else if is_sound(size.scales) {
                 size.scales
             } else {
                 begun.last = Some(this);

@@ -231,13 +231,10 @@ impl Matrices<'_, '_, '_, '_> {
         let count = nodes.len();
         let fill = |value: &dyn Fn(usize) -> f64| literal::array(&lanes.fill(count, value));
         let columns = (0..count).map(|k| fill(&|i| matrix[i][k]));
-        let weights: Vec<f64> = self
-            .graph
-            .forces
-            .iter()
-            .map(|f| f.weight.to_f64())
-            .collect();
-        let of_forces = (0..count).map(|k| fill(&|i| matrix[i][k] * weights[k]));
+        let of_forces = (0..count).map(|k| {
+            let weight = self.graph.forces[k].weight.to_f64();
+            fill(&|i| matrix[i][k] * weight)
+        });
         let (times, rest) = (fill(&|i| nodes[i]), fill(&|i| 1.0 - nodes[i]));
         quote! {
             ::core::option::Option::Some(::symplectic::SecondOrderTableau {

@@ -25,7 +25,7 @@ pub(super) fn chain(pairs: &mut Vec<Pair>) {
         step_size: 0.5,
         // To t = 100.
         steps: 200,
-        compared: 20,
+        compared: 200,
         tolerance: 1e-14,
         at_once: false,
     };
