@@ -231,14 +231,24 @@ pub(crate) const fn extrapolates<P: StageTableau>() -> bool {
         && (P::Class::SEPARABLE || !P::POSITIONS.extrapolation.is_empty())
 }
 
-/// The largest component of stages and of what they start from, lane by lane.
+/// The largest component of stages and of what they start from, that of some in each lane.
 #[inline(always)]
 pub(crate) fn scale_of<P: StageTableau, V: Vector<Scalar = f64>>(
     base: &V,
     groups: &[Laned<V, P>],
 ) -> P::Lanes {
+    let components = base.as_slice();
+    // Where they are many, they have all lanes.
+    let rows = match mem::needs_drop::<V>() {
+        true => components.len() / P::Lanes::WIDTH,
+        false => 0,
+    };
+    let (in_rows, rest) = components.split_at(rows * P::Lanes::WIDTH);
     let mut scale = P::Lanes::from_f64(0.0);
-    for &component in base.as_slice() {
+    for row in in_rows.chunks_exact(P::Lanes::WIDTH) {
+        scale = scale.larger(P::Lanes::from_fn(|lane| row[lane]).abs());
+    }
+    for &component in rest {
         scale = scale.larger(P::Lanes::from_f64(component).abs());
     }
     for group in groups {

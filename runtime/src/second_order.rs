@@ -151,7 +151,6 @@ where
         *in_rows = are_in_rows::<P, V, S>(step.q.dimension());
         if *in_rows {
             if R::COMPENSATED {
-                velocity::<P, V, S>(system, step, step.p_low, outcome.q, lanes);
                 row_stages::compensated_result::<P, R, V>(step, lanes, outcome);
             } else {
                 row_stages::plain_result::<P, V>(step, lanes, outcome);

@@ -299,8 +299,7 @@ fn total<P: StageTableau>(
     add::<Plain, F64x8>(base, F64x8::zero(), P::POSITIONS.count, term).0
 }
 
-/// The result of a step with compensated sums, of increments. In the place of the positions is the velocity of what the momentum
-/// leaves out.
+/// The result of a step with compensated sums, of increments.
 #[inline(always)]
 pub(super) fn compensated_result<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     step: &Step<'_, V>,
@@ -325,7 +324,7 @@ pub(super) fn compensated_result<P: StageTableau, R: Summation, V: Vector<Scalar
             (rest, increment(stage))
         });
         let parts = [sum, p_base];
-        let rest = q_rest + h * F64x8::from_array(q[row]);
+        let rest = q_rest + h * p_rest;
         let (high, low) = add::<R, F64x8>(q_base, rest, 2, |part| h * parts[part]);
         (q[row], q_low[row]) = (high.to_array(), low.to_array());
     }
