@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use crate::in_lanes::{ByLanes, Sums, extrapolate, extrapolates, fill, sum, sums, total, values};
 use crate::iteration::{Begun, Sweeps, patiently, settle};
-use crate::lane_movement::{LaneMovement, LanePart};
+use crate::lane_movement::LaneMovement;
 use crate::lane_stages::{LaneStages, Laned};
 use crate::stage_tableau::Columns;
 use crate::starting_values::{Starting, starts_at_once};
@@ -136,7 +136,7 @@ where
         base: (&V, &V),
         out: &mut [Laned<V, P>],
         terms: &[Laned<V, P>],
-    ) -> LanePart<P::Lanes> {
+    ) -> P::Lanes {
         let sums = sums::<R, P>(columns, weights, step.size, R::COMPENSATED);
         values::<P, V>(&sums, out, base, terms, sum::<P>)
     }

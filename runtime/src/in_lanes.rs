@@ -3,9 +3,11 @@
 use core::marker::PhantomData;
 use core::mem;
 
+use num_traits::Zero;
+
 use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::kernel::sum_of_products;
-use crate::lane_movement::{LaneMovement, LanePart};
+use crate::lane_movement::{LaneMovement, noted, part_change};
 use crate::lane_stages::{LaneStages, Laned};
 use crate::stage_tableau::Columns;
 use crate::summation::{Beyond, add, moved};
@@ -212,8 +214,8 @@ where
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
         let (step, stages) = (self.step, &*self.stages);
         Change {
-            q: (movement.q).change(scale_of::<P, V>(step.q, stages.q.as_ref())),
-            p: (movement.p).change(scale_of::<P, V>(step.p, stages.p.as_ref())),
+            q: part_change(movement.q, scale_of::<P, V>(step.q, stages.q.as_ref())),
+            p: part_change(movement.p, scale_of::<P, V>(step.p, stages.p.as_ref())),
         }
     }
 
@@ -316,7 +318,7 @@ where
 
     /// New positions, of velocities that are increments or not yet; returns how much they changed.
     #[inline(always)]
-    pub(crate) fn positions(&mut self, of_increments: bool) -> LanePart<P::Lanes> {
+    pub(crate) fn positions(&mut self, of_increments: bool) -> P::Lanes {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.q, step.q_low);
         let (columns, weights) = (Columns::<P>::POSITIONS, P::MOMENTA.weights);
@@ -327,7 +329,7 @@ where
 
     /// New momenta, of forces that are increments or not yet; returns how much they changed.
     #[inline(always)]
-    pub(crate) fn momenta(&mut self, of_increments: bool) -> LanePart<P::Lanes> {
+    pub(crate) fn momenta(&mut self, of_increments: bool) -> P::Lanes {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.p, step.p_low);
         let (columns, weights) = (Columns::<P>::MOMENTA, P::POSITIONS.weights);
@@ -523,7 +525,7 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     (base, low): (&V, &V),
     terms: &[Laned<V, P>],
     value: impl Fn((usize, usize), (P::Lanes, P::Lanes), P::Lanes) -> P::Lanes,
-) -> LanePart<P::Lanes> {
+) -> P::Lanes {
     let n = shortest(out)
         .min(shortest(terms))
         .min(base.dimension())
@@ -532,7 +534,7 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     if mem::needs_drop::<V>() {
         return long_values::<P, V>(sums, out, (base, low), terms, value);
     }
-    let mut part = None;
+    let mut largest = None;
     for k in 0..n {
         let start = P::Lanes::from_f64(base[k]);
         for (group, out) in out.iter_mut().enumerate() {
@@ -544,10 +546,10 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
             let new = moved(sums.beyond, *component, new);
             let change = (new - *component).abs();
             *component = new;
-            part = Some(LanePart::noted(part, change));
+            largest = Some(noted(largest, change));
         }
     }
-    LanePart::or_none(part)
+    largest.unwrap_or_else(P::Lanes::zero)
 }
 
 /// [`values`] of vectors on the heap, which has looked where their components are: else it would be done again after every one that is
@@ -559,7 +561,7 @@ fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
     (base, low): (&[f64], &[f64]),
     terms: &[Laned<V, P>],
     value: impl Fn((usize, usize), (P::Lanes, P::Lanes), P::Lanes) -> P::Lanes,
-) -> LanePart<P::Lanes> {
+) -> P::Lanes {
     let n = base.len();
     let mut places = out.iter_mut();
     let mut out = P::groups(|_| match places.next() {
@@ -568,7 +570,7 @@ fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
     });
     let terms = P::groups(|group| &terms[group].as_slice()[..n]);
     let (out, terms) = (out.as_mut(), terms.as_ref());
-    let mut part = None;
+    let mut largest = None;
     for k in 0..n {
         let [start, low] = [base[k], low[k]].map(P::Lanes::from_f64);
         for (group, out) in out.iter_mut().enumerate() {
@@ -579,10 +581,10 @@ fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
             let new = moved(sums.beyond, out[k], new);
             let change = (new - out[k]).abs();
             out[k] = new;
-            part = Some(LanePart::noted(part, change));
+            largest = Some(noted(largest, change));
         }
     }
-    LanePart::or_none(part)
+    largest.unwrap_or_else(P::Lanes::zero)
 }
 
 /// `base + sum`, for a sum with what the base leaves out.

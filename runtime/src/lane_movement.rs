@@ -3,79 +3,53 @@
 use crate::iteration::{Movement, is_next_within};
 use crate::{Lanes, PartChange};
 
-/// How a sweep moved the stages, lane by lane.
+/// How a sweep moved the positions and the momenta of the stages: the largest change of a component, lane by lane. NaN where one is: a
+/// stage that is a number again after it was none has changed by NaN too.
 #[derive(Clone, Copy)]
 pub(crate) struct LaneMovement<L> {
-    pub(crate) q: LanePart<L>,
-    pub(crate) p: LanePart<L>,
+    pub(crate) q: L,
+    pub(crate) p: L,
 }
 
-/// How it moved the positions, or the momenta.
-#[derive(Clone, Copy)]
-pub(crate) struct LanePart<L> {
-    /// The largest change of a component; any where one is NaN.
-    pub(crate) largest: L,
-    /// All changes together: NaN where one is. A stage that is a number again after it was none has changed by NaN too.
-    pub(crate) sum: L,
+/// The largest change, with one more: not from zero, with which the compiler would compare it.
+#[inline(always)]
+pub(crate) fn noted<L: Lanes>(largest: Option<L>, change: L) -> L {
+    largest.map_or(change, |largest| largest.larger_or_nan(change))
 }
 
-impl<L: Lanes> LanePart<L> {
-    /// With one more change: not from zero, which the compiler has to add.
-    #[inline(always)]
-    pub(crate) fn noted(part: Option<Self>, change: L) -> Self {
-        match part {
-            Some(Self { largest, sum }) => Self {
-                largest: largest.larger(change),
-                sum: sum + change,
-            },
-            None => Self {
-                largest: change,
-                sum: change,
-            },
-        }
-    }
-
-    /// No change, where there is no component.
-    #[inline(always)]
-    pub(crate) fn or_none(part: Option<Self>) -> Self {
-        part.unwrap_or_else(|| Self::noted(None, L::zero()))
-    }
-
-    /// That of all lanes together; `scale` is the largest component, lane by lane.
-    #[inline(always)]
-    pub(crate) fn change(&self, scale: L) -> PartChange {
-        match self.sum.any_nan() {
-            false => PartChange::new(self.largest.largest(), scale.largest()),
-            true => PartChange::new(f64::NAN, f64::NAN),
-        }
+/// The largest change, and the largest component, lane by lane, as those of all lanes together.
+#[inline(always)]
+pub(crate) fn part_change<L: Lanes>(change: L, scale: L) -> PartChange {
+    match change.any_nan() {
+        false => PartChange::new(change.largest(), scale.largest()),
+        true => PartChange::new(f64::NAN, f64::NAN),
     }
 }
 
 impl<L: Lanes> Movement for LaneMovement<L> {
     #[inline(always)]
     fn is_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
-        !self.q.largest.any_above(q) && (!both || !self.p.largest.any_above(p))
+        !self.q.any_above(q) && (!both || !self.p.any_above(p))
     }
 
     #[inline(always)]
     fn settles_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
-        let (of_q, of_p) = (!self.q.largest.any_above(q), !self.p.largest.any_above(p));
+        let (of_q, of_p) = (!self.q.any_above(q), !self.p.any_above(p));
         if both { of_q & of_p } else { of_q | of_p }
     }
 
     #[inline(always)]
     fn exceeds(&self, [q, p]: [f64; 2], both: bool) -> bool {
-        self.q.largest.any_above(q) && (!both || self.p.largest.any_above(p))
+        self.q.any_above(q) && (!both || self.p.any_above(p))
     }
 
     #[inline(always)]
     fn is_next_within(&self, before: &Self, [q, p]: [f64; 2], both: bool) -> bool {
-        let of = |before: LanePart<L>, this: LanePart<L>, bound: f64| {
-            let sum = before.sum;
-            let (before, this) = (before.largest, this.largest);
+        let of = |before: L, this: L, bound: f64| {
             // What holds in every lane holds for the largest of all, for which the processor would have to wait.
             let in_lanes = !(this * this - before * L::from_f64(bound)).any_above(0.0);
-            (in_lanes || is_next_within(before.largest(), this.largest(), bound)) && !sum.any_nan()
+            (in_lanes || is_next_within(before.largest(), this.largest(), bound))
+                && !before.any_nan()
         };
         of(before.q, self.q, q) && (!both || of(before.p, self.p, p))
     }
@@ -94,7 +68,7 @@ impl<L: Lanes> Movement for LaneMovement<L> {
 
     #[inline(always)]
     fn is_number(&self) -> bool {
-        !(self.q.sum + self.p.sum).any_nan()
+        !(self.q + self.p).any_nan()
     }
 }
 
@@ -103,14 +77,16 @@ impl<L: Lanes> LaneMovement<L> {
     #[inline(always)]
     fn sizes(&self, [q, p]: [f64; 2], both: bool) -> L {
         match both {
-            true => (self.q.largest * L::from_f64(q)).larger(self.p.largest * L::from_f64(p)),
-            false => self.q.largest,
+            true => (self.q * L::from_f64(q)).larger(self.p * L::from_f64(p)),
+            false => self.q,
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use num_traits::Zero;
+
     use super::*;
     use crate::{Change, F64x2, Scalar};
 
@@ -118,32 +94,30 @@ mod tests {
     fn moved(lanes: [[f64; 2]; 2]) -> (LaneMovement<F64x2>, Change) {
         let [q, p] = lanes.map(F64x2::from_array);
         let one = F64x2::from_f64(1.0);
-        let [q, p] = [q, p].map(|change| LanePart::noted(None, change));
-        let change = Change {
-            q: q.change(one),
-            p: p.change(one),
-        };
+        let [of_q, of_p] = [q, p].map(|change| part_change(change, one));
+        let change = Change { q: of_q, p: of_p };
         (LaneMovement { q, p }, change)
     }
 
     #[test]
     fn what_is_not_a_number_is_not_lost() {
         let changes = [[1.0, 0.5], [2.0, 0.0], [0.25, 3.0]];
-        let noted = |changes: &[[f64; 2]]| {
+        let all_noted = |changes: &[[f64; 2]]| {
             let changes = changes.iter().map(|&change| F64x2::from_array(change));
-            LanePart::or_none(changes.fold(None, |part, x| Some(LanePart::noted(part, x))))
+            let largest = changes.fold(None, |largest, x| Some(noted(largest, x)));
+            largest.unwrap_or_else(F64x2::zero)
         };
         let ones = F64x2::from_f64(1.0);
-        let all = noted(&changes);
-        assert_eq!(all.change(ones), PartChange::new(3.0, 1.0));
+        let all = all_noted(&changes);
+        assert_eq!(part_change(all, ones), PartChange::new(3.0, 1.0));
         assert!(LaneMovement { q: all, p: all }.is_number());
-        assert_eq!(noted(&[]).change(ones), PartChange::new(0.0, 1.0));
+        assert_eq!(part_change(all_noted(&[]), ones), PartChange::new(0.0, 1.0));
         for component in 0..3 {
             for lane in 0..2 {
                 let mut changes = changes;
                 changes[component][lane] = f64::NAN;
-                let none = noted(&changes);
-                assert!(none.change(ones).is_undefined());
+                let none = all_noted(&changes);
+                assert!(part_change(none, ones).is_undefined());
                 assert!(!LaneMovement { q: none, p: all }.is_number());
                 assert!(!LaneMovement { q: all, p: none }.is_number());
             }

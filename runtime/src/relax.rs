@@ -64,8 +64,7 @@ fn relax_rows<R: Summation, T: Scalar, const N: usize>(
     let terms: [_; N] = array(&[][..], |j| &terms[j][..n]);
     let factors = splats::<f64, Eight, N>(array(0.0, |j| factors[j]));
     let zero = F64x8::zero();
-    // The larger numbers may lose what is not one; the sum of all does not.
-    let (mut difference, mut scale, mut sum) = (zero, zero, zero);
+    let (mut difference, mut scale) = (zero, zero);
     for i in 0..n {
         let start = Eight::load(&base[i]);
         let low = Eight::load(&low[i]);
@@ -74,11 +73,10 @@ fn relax_rows<R: Summation, T: Scalar, const N: usize>(
         let new = moved(R::BEYOND, old, new);
         let change = (new - old).abs();
         out[i] = Eight::store(new);
-        difference = difference.larger(change);
+        difference = difference.larger_or_nan(change);
         scale = scale.larger(start.abs()).larger(new.abs());
-        sum += change;
     }
-    let difference = if sum.any_nan() {
+    let difference = if difference.any_nan() {
         f64::NAN
     } else {
         difference.largest()

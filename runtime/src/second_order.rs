@@ -16,7 +16,7 @@ use crate::in_lanes::{
 };
 use crate::iteration::{Begun, Sweeps, patiently, settle};
 use crate::kernel::sum_of_products;
-use crate::lane_movement::{LaneMovement, LanePart};
+use crate::lane_movement::{LaneMovement, part_change};
 use crate::lane_stages::{LaneStages, Laned};
 use crate::stage_tableau::Columns;
 use crate::starting_values::{MOST, StartingColumns, starting_columns, starts_at_once, weighted};
@@ -409,7 +409,7 @@ where
 {
     /// New positions; returns how much they changed.
     #[inline(always)]
-    fn positions(&mut self) -> LanePart<P::Lanes> {
+    fn positions(&mut self) -> P::Lanes {
         let terms = Terms::new::<P>(R::COMPENSATED, self.lanes.step.size);
         // In columns the factor is the same in every sweep.
         self.with(&terms, (!R::COMPENSATED).then_some(terms.factor))
@@ -417,11 +417,7 @@ where
 
     /// The positions with these terms, whose factor may be in the columns; returns how much they changed.
     #[inline(always)]
-    fn with(
-        &mut self,
-        terms: &Terms<impl AsRef<[f64]>>,
-        in_columns: Option<f64>,
-    ) -> LanePart<P::Lanes> {
+    fn with(&mut self, terms: &Terms<impl AsRef<[f64]>>, in_columns: Option<f64>) -> P::Lanes {
         let before = if in_columns.is_some() {
             1.0
         } else {
@@ -606,7 +602,7 @@ where
     #[inline(always)]
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
         let stages = self.lanes.stages.q.as_ref();
-        let q = (movement.q).change(scale_of::<P, V>(self.lanes.step.q, stages));
+        let q = part_change(movement.q, scale_of::<P, V>(self.lanes.step.q, stages));
         Change { q, p: q }
     }
 

@@ -10,7 +10,7 @@ use super::{Positions, Start, Terms, apart, eliminates, position, tableau};
 use crate::in_lanes::{combination, increment_factor, is_about, lane_of, lanes, scale_of, times};
 use crate::iteration::{Begun, Sweeps};
 use crate::kernel::sum_of_products;
-use crate::lane_movement::{LaneMovement, LanePart};
+use crate::lane_movement::{LaneMovement, noted, part_change};
 use crate::starting_values::starts_at_once;
 use crate::{
     Change, Class, Components, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, Kept,
@@ -67,10 +67,7 @@ where
 
     /// The forces at the positions with these terms; returns how much they changed.
     #[inline(always)]
-    fn walk<const MEASURED: bool>(
-        &mut self,
-        terms: &Terms<impl AsRef<[f64]>>,
-    ) -> LanePart<P::Lanes> {
+    fn walk<const MEASURED: bool>(&mut self, terms: &Terms<impl AsRef<[f64]>>) -> P::Lanes {
         let in_rows = self.are_in_rows();
         let lanes = &mut self.positions.lanes;
         let (step, stages) = (lanes.step, &mut *lanes.stages);
@@ -78,7 +75,7 @@ where
             let mut along = AlongRows::<P, R, _, MEASURED>::new(terms, step, stages);
             if along.count() == 0 {
                 // Of another dimension, which is seen when the step is looked at.
-                return LanePart::or_none(None);
+                return P::Lanes::zero();
             }
             Hamiltonian::<V>::row_forces(lanes.system, &mut along);
             let (largest, changes) = along.changes();
@@ -88,7 +85,7 @@ where
             return changes;
         }
         let [force, ..] = stages.force.as_mut() else {
-            return LanePart::or_none(None);
+            return P::Lanes::zero();
         };
         let force = force.as_mut_slice();
         let n = (force.len().min(step.q.dimension()))
@@ -110,24 +107,21 @@ where
         if MEASURED {
             self.largest = along.largest;
         }
-        LanePart::or_none(along.changes)
+        along.changes.unwrap_or_else(P::Lanes::zero)
     }
 
     /// [`walk`](Self::walk), but by how much the next positions can differ from those that the forces are at, but for rounding.
     #[inline(always)]
-    fn moves(&mut self, terms: &Terms<impl AsRef<[f64]>>) -> LanePart<P::Lanes> {
-        let LanePart { largest, sum } = self.walk::<false>(terms);
+    fn moves(&mut self, terms: &Terms<impl AsRef<[f64]>>) -> P::Lanes {
+        let changes = self.walk::<false>(terms);
         let factor = P::Lanes::from_f64(terms.factor);
-        let largest = sum_of_products(None, terms.columns.len(), |j| {
+        sum_of_products(None, terms.columns.len(), |j| {
             let column: P::Lanes = lanes(terms.columns[j].as_ref(), 0);
             (
                 (column * factor).abs(),
-                P::Lanes::from_f64(lane_of(largest, j)),
+                P::Lanes::from_f64(lane_of(changes, j)),
             )
-        });
-        // Of infinite changes products may be no numbers, and are lost.
-        let sum = sum * P::Lanes::zero();
-        LanePart { largest, sum }
+        })
     }
 }
 
@@ -141,8 +135,8 @@ struct Along<'a, P: StageTableau, R, C: 'static, const MEASURED: bool> {
     /// Those of the sweep before, and the new ones where they have been set; or the increments made of them.
     force: &'a mut [P::Lanes],
     largest: P::Lanes,
-    /// How much the forces have changed.
-    changes: Option<LanePart<P::Lanes>>,
+    /// The largest change of a force.
+    changes: Option<P::Lanes>,
     summation: PhantomData<R>,
 }
 
@@ -190,7 +184,7 @@ where
         };
         let change = (new - *place).abs();
         *place = new;
-        self.changes = Some(LanePart::noted(self.changes, change));
+        self.changes = Some(noted(self.changes, change));
     }
 }
 
@@ -277,7 +271,7 @@ where
 
     #[inline(always)]
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
-        let q = movement.q.change(self.scale());
+        let q = part_change(movement.q, self.scale());
         Change { q, p: q }
     }
 

@@ -12,7 +12,6 @@ use super::local::is_local;
 use super::{Terms, position, tableau};
 use crate::in_lanes::{entry, lane_of, shortest, times};
 use crate::kernel::sum_of_products;
-use crate::lane_movement::LanePart;
 use crate::lane_stages::LaneStages;
 use crate::summation::add;
 use crate::{
@@ -142,8 +141,6 @@ pub(super) struct AlongRows<'a, P: StageTableau, R, C: 'static, const MEASURED: 
     largest: F64x8,
     /// The largest change of a force at each stage.
     changes: [F64x8; MOST_ROW_STAGES],
-    /// The sum of all changes.
-    sum: F64x8,
     summation: PhantomData<R>,
 }
 
@@ -185,22 +182,20 @@ where
             forces: &mut forces[..n * row_length::<P>()],
             largest: F64x8::zero(),
             changes: [F64x8::zero(); MOST_ROW_STAGES],
-            sum: F64x8::zero(),
             summation: PhantomData,
         }
     }
 
     /// The largest position, and how much the forces of each stage have changed.
     #[inline(always)]
-    pub(super) fn changes(self) -> (P::Lanes, LanePart<P::Lanes>) {
-        let largest = P::Lanes::from_fn(|lane| match self.changes.get(lane) {
+    pub(super) fn changes(self) -> (P::Lanes, P::Lanes) {
+        let changes = P::Lanes::from_fn(|lane| match self.changes.get(lane) {
+            Some(change) if change.any_nan() => f64::NAN,
             Some(change) => change.largest(),
             None => 0.0,
         });
-        let sum = self.sum.to_array().into_iter().fold(0.0, |sum, x| sum + x);
-        let sum = P::Lanes::from_f64(sum);
         let positions = P::Lanes::from_f64(self.largest.largest());
-        (positions, LanePart { largest, sum })
+        (positions, changes)
     }
 }
 
@@ -260,8 +255,7 @@ where
             };
             let change = (new - load(places, stage)).abs();
             store(places, stage, new);
-            self.changes[stage] = self.changes[stage].larger(change);
-            self.sum += change;
+            self.changes[stage] = self.changes[stage].larger_or_nan(change);
         }
     }
 }
