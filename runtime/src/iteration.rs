@@ -68,6 +68,18 @@ pub(crate) trait Sweeps {
     /// One sweep over all of them.
     fn sweep(&mut self) -> Self::Movement;
 
+    /// How many sweeps are not worth a look, for there will be others: at the start of a step that goes on from one before.
+    #[inline(always)]
+    fn unseen(&self) -> u32 {
+        0
+    }
+
+    /// One of these.
+    #[inline(always)]
+    fn sweep_unseen(&mut self) {
+        self.sweep();
+    }
+
     /// One that moves them twice as far. Only asked for of systems that are not separable, of sums that wait for stagnation, and where
     /// changes that are far from rounding are not looked at: others need not have it.
     #[inline(always)]

@@ -121,6 +121,7 @@ where
             start,
             of_increments,
             in_rows,
+            sweeps: sweeps_before,
         } = memory;
         if !eliminates::<P>() {
             return <InLanes as Solver<V, S>>::take::<P, R>(
@@ -144,9 +145,13 @@ where
             start,
         };
         let mut work = match is_local::<P, V, S>() {
-            true => settle::<P::Class, f64>(&mut Locally::new(&mut sweeps), kept, stopping)?,
+            true => {
+                let mut locally = Locally::new(&mut sweeps, *sweeps_before);
+                settle::<P::Class, f64>(&mut locally, kept, stopping)?
+            }
             false => settle::<P::Class, f64>(&mut sweeps, kept, stopping)?,
         };
+        *sweeps_before = work.iterations;
         work.evaluations += sweeps.evaluations().finish;
         *in_rows = are_in_rows::<P, V, S>(step.q.dimension());
         if *in_rows {

@@ -205,7 +205,8 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     ) -> Result<u64, Error> {
         let before = self.course.anew();
         let mut course = mem::replace(&mut self.course, before);
-        if <MemoryOf<M, S, V, N> as StageStorage<V>>::BROADCASTS {
+        // Increments wait for their weights, and would wait again until they are in memory.
+        if !R::COMPENSATED && <MemoryOf<M, S, V, N> as StageStorage<V>>::BROADCASTS {
             // Nothing is done with it, but the compiler does not know, and leaves it in memory.
             hint::black_box(&mut course);
         }

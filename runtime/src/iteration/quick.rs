@@ -29,11 +29,19 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     }
     sweeps.begin(kept);
     let late = stopping.max_iterations.min(PATIENCE);
+    // Two are looked at, whatever was before.
+    let unseen = sweeps.unseen().min(late - 2);
+    for _ in 0..unseen {
+        sweeps.sweep_unseen();
+    }
+    let mut begun = Begun {
+        iterations: unseen,
+        ..Begun::NOTHING
+    };
     if !W::HASTY {
         let bound = stopping.max_iterations.min(STAGNATION);
         // Where either half will do, the smallest change may be one of many that were not near; where both count, none of them is.
         let near_by = if C::SEPARABLE { late } else { bound };
-        let mut begun = Begun::NOTHING;
         if !C::SEPARABLE && late == PATIENCE && other_coin(sweeps.time()) {
             // From the other side. An ordinary sweep comes first: it leaves mostly the error that shrinks least, to be mirrored.
             begun.first = Some(sweeps.sweep());
@@ -45,10 +53,10 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     let [q, p] = units::<T>(WITHIN_REACH, kept.scales);
     let tolerance = stopping.tolerance;
     if tolerance >= q && (!both || tolerance >= p) {
-        let settled = to_tolerance(sweeps, tolerance, late, both);
+        let settled = to_tolerance(sweeps, tolerance, begun, late, both);
         settled.map(|iterations| (iterations, kept.scales))
     } else {
-        to_rounding::<T, W>(sweeps, kept.scales, late, both)
+        to_rounding::<T, W>(sweeps, kept.scales, begun, late, both)
     }
 }
 
@@ -57,21 +65,18 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
 fn to_tolerance<W: Sweeps>(
     sweeps: &mut W,
     tolerance: f64,
+    mut begun: Begun<W::Movement>,
     late: u32,
     both: bool,
 ) -> Result<u32, Begun<W::Movement>> {
-    let mut iterations = 0;
-    while iterations + 1 < late {
+    while begun.iterations + 1 < late {
         let this = sweeps.sweep();
-        iterations += 1;
+        begun.iterations += 1;
         if this.is_within([tolerance; 2], both) && this.is_number() {
-            return Ok(iterations);
+            return Ok(begun.iterations);
         }
     }
-    Err(Begun {
-        iterations,
-        ..Begun::NOTHING
-    })
+    Err(begun)
 }
 
 /// To a change that can be rounding errors, if the next one would be a unit of EPSILON.
@@ -79,11 +84,11 @@ fn to_tolerance<W: Sweeps>(
 fn to_rounding<T: Scalar, W: Sweeps>(
     sweeps: &mut W,
     scales: [f64; 2],
+    mut begun: Begun<W::Movement>,
     late: u32,
     both: bool,
 ) -> Hastened<W::Movement> {
     let mut size = Size::of::<T>(scales);
-    let mut begun = Begun::NOTHING;
     while begun.iterations + 1 < late {
         let this = sweeps.sweep();
         begun.iterations += 1;
@@ -131,12 +136,11 @@ fn to_rounding<T: Scalar, W: Sweeps>(
 fn to_stagnation<T: Scalar, W: Sweeps>(
     sweeps: &mut W,
     scales: [f64; 2],
-    begun: Begun<W::Movement>,
+    mut begun: Begun<W::Movement>,
     [near_by, bound]: [u32; 2],
     both: bool,
 ) -> Hastened<W::Movement> {
     let mut size = Size::of::<T>(scales);
-    let mut begun = begun;
     let mut this = loop {
         let this = sweeps.sweep();
         begun.iterations += 1;

@@ -7,7 +7,7 @@ use num_traits::Zero;
 
 use super::row_stages::{AlongRows, are_in_rows, enter, leave};
 use super::{Positions, Start, Terms, apart, eliminates, position, tableau};
-use crate::in_lanes::{combination, increment_factor, is_about, lane_of, lanes, scale_of, times};
+use crate::in_lanes::{combination, increment_factor, is_about, lane_of, lanes, times};
 use crate::iteration::{Begun, Sweeps};
 use crate::kernel::sum_of_products;
 use crate::lane_movement::{LaneMovement, noted, part_change};
@@ -35,8 +35,11 @@ pub(super) fn is_local<P: StageTableau, V: Vector, S: HamiltonianInLanes<V>>() -
 /// Where an iteration does not settle in its first sweeps it goes on by [`Positions`], with positions in memory.
 pub(super) struct Locally<'p, 'a, P: StageTableau, R, V: Vector, S> {
     positions: &'p mut Positions<'a, P, R, V, S>,
-    /// The largest component of the positions that the stages start from: sweeps make positions, and no more of them.
+    /// The largest component of the positions at the start of the step, and of those that the stages start from: sweeps make positions,
+    /// and no more of them.
     largest: P::Lanes,
+    /// How many sweeps the step before took.
+    sweeps_before: u32,
 }
 
 impl<'p, 'a, P, R, V, S> Locally<'p, 'a, P, R, V, S>
@@ -46,10 +49,15 @@ where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
-    pub(super) fn new(positions: &'p mut Positions<'a, P, R, V, S>) -> Self {
+    /// How many sweeps at least are looked at, if the step takes as many as that before: the last ones, those in which rounding shows, and
+    /// one more to find that it takes less.
+    const SEEN: u32 = if R::COMPENSATED { 5 } else { 2 };
+
+    pub(super) fn new(positions: &'p mut Positions<'a, P, R, V, S>, sweeps_before: u32) -> Self {
         Self {
             positions,
-            largest: P::Lanes::from_f64(0.0),
+            largest: P::Lanes::zero(),
+            sweeps_before,
         }
     }
 
@@ -57,12 +65,6 @@ where
     #[inline(always)]
     fn are_in_rows(&self) -> bool {
         are_in_rows::<P, V, S>(self.positions.lanes.step.q.dimension())
-    }
-
-    /// The largest component of the positions at the start of the step, and of those that the stages start from.
-    #[inline(always)]
-    fn scale(&self) -> P::Lanes {
-        scale_of::<P, V>(self.positions.lanes.step.q, &[]).larger(self.largest)
     }
 
     /// The forces at the positions with these terms; returns how much they changed.
@@ -168,7 +170,7 @@ where
         let terms = (self.terms.factor, sum);
         let position = position::<R, P::Lanes>(base, (self.size, node), velocity, terms);
         if MEASURED {
-            self.largest = self.largest.larger(position.abs());
+            self.largest = (self.largest.larger(base.0.abs())).larger(position.abs());
         }
         position
     }
@@ -270,13 +272,26 @@ where
     }
 
     #[inline(always)]
+    fn unseen(&self) -> u32 {
+        self.sweeps_before.saturating_sub(Self::SEEN)
+    }
+
+    #[inline(always)]
+    fn sweep_unseen(&mut self) {
+        let h = self.positions.lanes.step.size;
+        apart(|| {
+            self.walk::<false>(&Terms::new::<P>(R::COMPENSATED, h));
+        });
+    }
+
+    #[inline(always)]
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
-        let q = part_change(movement.q, self.scale());
+        let q = part_change(movement.q, self.largest);
         Change { q, p: q }
     }
 
     #[inline(always)]
     fn are_about(&self, _movement: &Self::Movement, [q, _]: [f64; 2], _both: bool) -> bool {
-        is_about(self.scale(), q)
+        is_about(self.largest, q)
     }
 }

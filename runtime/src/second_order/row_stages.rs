@@ -137,7 +137,7 @@ pub(super) struct AlongRows<'a, P: StageTableau, R, C: 'static, const MEASURED: 
     q_low: &'a [[f64; WIDTH]],
     p: &'a [[f64; WIDTH]],
     forces: &'a mut [P::Lanes],
-    /// The largest position, or zero.
+    /// The largest position, at the start of the step too, or zero.
     largest: F64x8,
     /// The largest change of a force at each stage.
     changes: [F64x8; MOST_ROW_STAGES],
@@ -186,7 +186,7 @@ where
         }
     }
 
-    /// The largest position, and how much the forces of each stage have changed.
+    /// The largest position, at the start of the step too, and how much the forces of each stage have changed.
     #[inline(always)]
     pub(super) fn changes(self) -> (P::Lanes, P::Lanes) {
         let changes = P::Lanes::from_fn(|lane| match self.changes.get(lane) {
@@ -228,6 +228,9 @@ where
         let [q, q_low, p] = [self.q, self.q_low, self.p].map(|rows| F64x8::from_array(rows[row]));
         let forces = &self.forces[row * row_length::<P>()..(row + 1) * row_length::<P>()];
         let mut positions = [F64x8::zero(); MOST_ROW_STAGES];
+        if MEASURED {
+            self.largest = self.largest.larger(q.abs());
+        }
         for stage in 0..P::POSITIONS.count {
             let sum = sum_of_products(None, self.terms.columns.len(), |j| {
                 let entry = self.terms.columns[j].as_ref()[stage];

@@ -13,6 +13,8 @@ pub struct SecondOrderStages<V: Vector, P: StageTableau> {
     pub(crate) of_increments: bool,
     /// Whether the forces are in rows, in the place of the velocities.
     pub(crate) in_rows: bool,
+    /// How many sweeps the step before took.
+    pub(crate) sweeps: u32,
 }
 
 impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SecondOrderStages<V, P> {
@@ -24,6 +26,7 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SecondOrderSt
             start: prototype.zeros_like(),
             of_increments: false,
             in_rows: false,
+            sweeps: 0,
         }
     }
 
