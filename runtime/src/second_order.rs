@@ -1,6 +1,7 @@
 //! Second-order systems: coupled stages without the momenta.
 
 mod local;
+mod results;
 mod row_stages;
 mod stages;
 
@@ -11,21 +12,18 @@ use self::local::{Locally, is_local};
 use self::row_stages::are_in_rows;
 pub use self::stages::SecondOrderStages;
 use crate::in_lanes::{
-    ByLanes, Sums, entry, extend, extrapolate, in_groups, is_about, lane_of, lanes, scale_of,
-    shortest, total, values,
+    ByLanes, Sums, entry, extend, extrapolate, is_about, lanes, scale_of, values,
 };
 use crate::iteration::{Begun, Sweeps, patiently, settle};
-use crate::kernel::sum_of_products;
 use crate::lane_movement::{LaneMovement, part_change};
-use crate::lane_stages::{LaneStages, Laned};
+use crate::lane_stages::LaneStages;
 use crate::stage_tableau::Columns;
 use crate::starting_values::{MOST, StartingColumns, starting_columns, starts_at_once, weighted};
-use crate::summation::add;
 use crate::vector::is_in_place;
 use crate::{
     Change, Class, Error, EvaluationCounts, Failure, Hamiltonian, HamiltonianInLanes, InLanes,
-    Inside, Kept, Lanes, Outcome, Plain, Quantity, Scalar, SecondOrderTableau, Solver,
-    StageTableau, Step, Stopping, Summation, Vector, Work,
+    Inside, Kept, Lanes, Outcome, Quantity, Scalar, SecondOrderTableau, Solver, StageTableau, Step,
+    Stopping, Summation, Vector, Work,
 };
 
 /// [`InLanes`] for second-order systems `q'' = M⁻¹ f(q)`, whose velocity `M⁻¹ p` is linear in the momentum: only the
@@ -155,15 +153,13 @@ where
         work.evaluations += sweeps.evaluations().finish;
         *in_rows = are_in_rows::<P, V, S>(step.q.dimension());
         if *in_rows {
-            if R::COMPENSATED {
-                row_stages::compensated_result::<P, R, V>(step, lanes, outcome);
-            } else {
-                row_stages::plain_result::<P, V>(step, lanes, outcome);
-            }
+            results::in_rows::<P, R, V>(step, lanes, outcome);
+        } else if is_local::<P, V, S>() {
+            results::by_eights::<P, R, V>(step, lanes, outcome);
         } else if R::COMPENSATED {
-            compensated_result::<P, R, V, S>(step, system, start, lanes, outcome);
+            results::compensated::<P, R, V, S>(step, system, start, lanes, outcome);
         } else {
-            sweeps.plain_result(outcome);
+            results::plain::<P, V, S>(step, start, lanes, outcome);
         }
         Ok(work)
     }
@@ -205,49 +201,6 @@ where
                 *out += factor * (start[k] + sum);
             }
         }
-    }
-}
-
-/// The result of a step with compensated sums: of increments.
-#[inline(always)]
-fn compensated_result<P, R, V, S>(
-    step: &Step<'_, V>,
-    system: &S,
-    start: &V,
-    stages: &mut LaneStages<V, P>,
-    Outcome { q, q_low, p, p_low }: Outcome<'_, V>,
-) where
-    P: StageTableau,
-    R: Summation,
-    V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V>,
-{
-    let h = step.size;
-    total::<R, P, V>(
-        (p, p_low),
-        (step.p, step.p_low),
-        stages.force.as_ref(),
-        &P::POSITIONS,
-        h,
-    );
-    // The velocity of what the momentum leaves out, in the place of the result.
-    velocity::<P, V, S>(system, step, step.p_low, q, stages);
-    let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force).as_ref();
-    let n = shortest(slopes)
-        .min(step.q.dimension())
-        .min(start.dimension());
-    let slopes = P::groups(|group| &slopes[group].as_slice()[..n]);
-    let start = &start.as_slice()[..n];
-    let (base, low) = (&step.q.as_slice()[..n], &step.q_low.as_slice()[..n]);
-    let (q, q_low) = (&mut q.as_mut_slice()[..n], &mut q_low.as_mut_slice()[..n]);
-    for k in 0..n {
-        // As a rule small beside the velocity, by the step size: its rounding errors are like those that the increments have.
-        let sum = sum_of_products(None, P::POSITIONS.count, |stage| {
-            let slope = slopes.as_ref()[stage / P::Lanes::WIDTH][k];
-            (tableau::<P>().rest[stage], lane_of(slope, stage))
-        });
-        let parts = [sum, start[k]];
-        (q[k], q_low[k]) = add::<R, f64>(base[k], low[k] + h * q[k], 2, |part| h * parts[part]);
     }
 }
 
@@ -463,40 +416,6 @@ where
             if force.dimension() == velocity.dimension() {
                 P::Lanes::velocity::<V, S>(self.lanes.system, time, q, force, velocity);
             }
-        }
-    }
-
-    /// The result of a step with plain sums: of forces, which are no increments yet, and not looked at one by one before they have met
-    /// their weights, all at once.
-    #[inline(always)]
-    fn plain_result(&self, Outcome { q, p, .. }: Outcome<'_, V>) {
-        let (step, stages) = (self.lanes.step, &*self.lanes.stages);
-        let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force).as_ref();
-        let forces = stages.force.as_ref();
-        let n = (shortest(slopes).min(shortest(forces)))
-            .min(step.q.dimension())
-            .min(step.p.dimension())
-            .min(self.start.dimension());
-        let h = P::Lanes::from_f64(step.size);
-        let weights = P::groups(|group| lanes::<P::Lanes>(P::POSITIONS.weights, group) * h);
-        let weights = weights.as_ref();
-        let rest = P::groups(|group| lanes::<P::Lanes>(tableau::<P>().rest, group));
-        // `base + Σ_j factor_j term_j` in component k.
-        let total = |base: f64, terms: &[Laned<V, P>], factor: &[P::Lanes], k: usize| {
-            let terms = P::groups(|group| factor[group] * terms[group].as_slice()[k]);
-            let term = |stage: usize| in_groups(terms.as_ref(), stage);
-            add::<Plain, f64>(base, 0.0, P::POSITIONS.count, term).0
-        };
-        let factors = P::groups(|group| rest.as_ref()[group] * weights[group]);
-        let (q, p) = (&mut q.as_mut_slice()[..n], &mut p.as_mut_slice()[..n]);
-        let (q_base, p_base) = (&step.q.as_slice()[..n], &step.p.as_slice()[..n]);
-        let start = &self.start.as_slice()[..n];
-        for k in 0..n {
-            p[k] = total(p_base[k], forces, weights, k);
-        }
-        for k in 0..n {
-            let mean = total(start[k], slopes, factors.as_ref(), k);
-            q[k] = step.size.fused(mean, q_base[k]);
         }
     }
 }

@@ -25,6 +25,7 @@ pub(super) fn is_local<P: StageTableau, V: Vector, S: HamiltonianInLanes<V>>() -
         && <S as Hamiltonian<V>>::UNIT_MASSES
         && mem::needs_drop::<V>()
         && eliminates::<P>()
+        && P::INCREMENTS
         && starts_at_once(&P::POSITIONS)
         && P::POSITIONS.count <= P::Lanes::WIDTH
 }

@@ -13,10 +13,9 @@ use super::{Terms, position, tableau};
 use crate::in_lanes::{entry, lane_of, shortest, times};
 use crate::kernel::sum_of_products;
 use crate::lane_stages::LaneStages;
-use crate::summation::add;
 use crate::{
-    F64x8, Hamiltonian, HamiltonianInLanes, Lanes, MOST_ROW_STAGES, Outcome, Plain, Scalar,
-    StageRows, StageTableau, Step, Summation, Vector,
+    F64x8, Hamiltonian, HamiltonianInLanes, Lanes, MOST_ROW_STAGES, Scalar, StageRows,
+    StageTableau, Step, Summation, Vector,
 };
 
 /// Components in a row.
@@ -32,7 +31,6 @@ where
 {
     is_local::<P, V, S>()
         && <S as Hamiltonian<V>>::ROW_FORCES
-        && P::INCREMENTS
         && P::POSITIONS.count <= MOST_ROW_STAGES
         && dimension >= WIDTH
         && dimension.is_multiple_of(WIDTH)
@@ -40,7 +38,7 @@ where
 
 /// The forces in rows.
 #[inline(always)]
-fn forces<P: StageTableau, V: Vector>(stages: &LaneStages<V, P>) -> &[P::Lanes] {
+pub(super) fn forces<P: StageTableau, V: Vector>(stages: &LaneStages<V, P>) -> &[P::Lanes] {
     (stages.velocity.as_ref().first()).map_or(&[], Vector::as_slice)
 }
 
@@ -57,7 +55,7 @@ const fn parts<L: Lanes>() -> usize {
 
 /// The forces of one stage in a row, from those of the row.
 #[inline(always)]
-fn load<L: Lanes>(row: &[L], stage: usize) -> F64x8 {
+pub(super) fn load<L: Lanes>(row: &[L], stage: usize) -> F64x8 {
     let parts = &row[stage * parts::<L>()..(stage + 1) * parts::<L>()];
     F64x8::from_fn(|lane| lane_of(parts[lane / L::WIDTH], lane))
 }
@@ -73,7 +71,7 @@ fn store<L: Lanes>(row: &mut [L], stage: usize, numbers: F64x8) {
 }
 
 /// How many elements in memory a row of all stages is.
-const fn row_length<P: StageTableau>() -> usize {
+pub(super) const fn row_length<P: StageTableau>() -> usize {
     P::POSITIONS.count * parts::<P::Lanes>()
 }
 
@@ -146,13 +144,13 @@ pub(super) struct AlongRows<'a, P: StageTableau, R, C: 'static, const MEASURED: 
 
 /// The rows of a vector.
 #[inline(always)]
-fn rows<V: Vector<Scalar = f64>>(vector: &V) -> &[[f64; WIDTH]] {
+pub(super) fn rows<V: Vector<Scalar = f64>>(vector: &V) -> &[[f64; WIDTH]] {
     vector.as_slice().as_chunks().0
 }
 
 /// [`rows`], to be written.
 #[inline(always)]
-fn rows_mut<V: Vector<Scalar = f64>>(vector: &mut V) -> &mut [[f64; WIDTH]] {
+pub(super) fn rows_mut<V: Vector<Scalar = f64>>(vector: &mut V) -> &mut [[f64; WIDTH]] {
     vector.as_mut_slice().as_chunks_mut().0
 }
 
@@ -260,69 +258,5 @@ where
             store(places, stage, new);
             self.changes[stage] = self.changes[stage].larger_or_nan(change);
         }
-    }
-}
-
-/// The result of a step with plain sums, of forces.
-#[inline(always)]
-pub(super) fn plain_result<P: StageTableau, V: Vector<Scalar = f64>>(
-    step: &Step<'_, V>,
-    stages: &LaneStages<V, P>,
-    Outcome { q, p, .. }: Outcome<'_, V>,
-) {
-    let (q, p) = (rows_mut(q), rows_mut(p));
-    let (q_base, p_base) = (rows(step.q), rows(step.p));
-    let n = (q.len().min(p.len())).min(q_base.len().min(p_base.len()));
-    let (q, p, q_base, p_base) = (&mut q[..n], &mut p[..n], &q_base[..n], &p_base[..n]);
-    let weight = |stage: usize| P::POSITIONS.weights[stage] * step.size;
-    let rest = |stage: usize| tableau::<P>().rest[stage] * weight(stage);
-    let forces = forces(stages).chunks_exact(row_length::<P>());
-    for (row, forces) in forces.take(n).enumerate() {
-        let [q_base, p_base] = [q_base[row], p_base[row]].map(F64x8::from_array);
-        p[row] = total::<P>(p_base, forces, weight).to_array();
-        let mean = total::<P>(p_base, forces, rest);
-        q[row] = F64x8::from_f64(step.size).fused(mean, q_base).to_array();
-    }
-}
-
-/// `base + Σ_j factor_j force_j`
-#[inline(always)]
-fn total<P: StageTableau>(
-    base: F64x8,
-    forces: &[P::Lanes],
-    factor: impl Fn(usize) -> f64,
-) -> F64x8 {
-    let term = |stage| F64x8::from_f64(factor(stage)) * load(forces, stage);
-    add::<Plain, F64x8>(base, F64x8::zero(), P::POSITIONS.count, term).0
-}
-
-/// The result of a step with compensated sums, of increments.
-#[inline(always)]
-pub(super) fn compensated_result<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
-    step: &Step<'_, V>,
-    stages: &LaneStages<V, P>,
-    Outcome { q, q_low, p, p_low }: Outcome<'_, V>,
-) {
-    let bases = [step.q, step.q_low, step.p, step.p_low].map(rows);
-    let [q, q_low, p, p_low] = [q, q_low, p, p_low].map(rows_mut);
-    let results = [q.len(), q_low.len(), p.len(), p_low.len()];
-    let n = (results.into_iter().chain(bases.map(<[_]>::len))).fold(usize::MAX, usize::min);
-    let bases = bases.map(|base| &base[..n]);
-    let [q, q_low, p, p_low] = [q, q_low, p, p_low].map(|rows| &mut rows[..n]);
-    let (h, count) = (F64x8::from_f64(step.size), P::POSITIONS.count);
-    let forces = forces(stages).chunks_exact(row_length::<P>());
-    for (row, increments) in forces.take(n).enumerate() {
-        let [q_base, q_rest, p_base, p_rest] = bases.map(|rows| F64x8::from_array(rows[row]));
-        let increment = |stage| load(increments, stage);
-        let (high, low) = add::<R, F64x8>(p_base, p_rest, count, increment);
-        (p[row], p_low[row]) = (high.to_array(), low.to_array());
-        let sum = sum_of_products(None, count, |stage| {
-            let rest = F64x8::from_f64(tableau::<P>().rest[stage]);
-            (rest, increment(stage))
-        });
-        let parts = [sum, p_base];
-        let rest = q_rest + h * p_rest;
-        let (high, low) = add::<R, F64x8>(q_base, rest, 2, |part| h * parts[part]);
-        (q[row], q_low[row]) = (high.to_array(), low.to_array());
     }
 }
