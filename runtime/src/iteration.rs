@@ -74,7 +74,7 @@ pub(crate) trait Sweeps {
         0
     }
 
-    /// One of these.
+    /// A sweep of which nobody wants to know how it moves the stages.
     #[inline(always)]
     fn sweep_unseen(&mut self) {
         self.sweep();
@@ -273,7 +273,7 @@ fn is_square_safe(size: f64) -> bool {
 /// At which of the two the iteration ends goes with the side from which it came, and starting values come from the same side
 /// at every step: the energy would drift, for Hénon–Heiles and Gauss 8 by 1e-21 of it a step.
 #[inline]
-const fn coin(time: f64) -> bool {
+pub(crate) const fn coin(time: f64) -> bool {
     bits(time) & 1 == 1
 }
 

@@ -14,7 +14,7 @@ pub use self::stages::SecondOrderStages;
 use crate::in_lanes::{
     ByLanes, Sums, entry, extend, extrapolate, is_about, lanes, scale_of, values,
 };
-use crate::iteration::{Begun, Sweeps, patiently, settle};
+use crate::iteration::{Begun, Sweeps, coin, patiently, settle};
 use crate::lane_movement::{LaneMovement, part_change};
 use crate::lane_stages::LaneStages;
 use crate::stage_tableau::Columns;
@@ -149,7 +149,8 @@ where
             }
             false => settle::<P::Class, f64>(&mut sweeps, kept, stopping)?,
         };
-        *sweeps_before = work.iterations;
+        let by_coin = R::COMPENSATED && coin(step.time);
+        *sweeps_before = work.iterations.saturating_sub(u32::from(by_coin));
         work.evaluations += sweeps.evaluations().finish;
         *in_rows = are_in_rows::<P, V, S>(step.q.dimension());
         if *in_rows {

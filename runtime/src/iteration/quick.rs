@@ -38,10 +38,10 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
         iterations: unseen,
         ..Begun::NOTHING
     };
+    let bound = stopping.max_iterations.min(STAGNATION);
+    // Where either half will do, the smallest change may be one of many that were not near; where both count, none of them is.
+    let near_by = if C::SEPARABLE { late } else { bound };
     if !W::HASTY {
-        let bound = stopping.max_iterations.min(STAGNATION);
-        // Where either half will do, the smallest change may be one of many that were not near; where both count, none of them is.
-        let near_by = if C::SEPARABLE { late } else { bound };
         if !C::SEPARABLE && late == PATIENCE && other_coin(sweeps.time()) {
             // From the other side. An ordinary sweep comes first: it leaves mostly the error that shrinks least, to be mirrored.
             begun.first = Some(sweeps.sweep());
@@ -53,30 +53,33 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     let [q, p] = units::<T>(WITHIN_REACH, kept.scales);
     let tolerance = stopping.tolerance;
     if tolerance >= q && (!both || tolerance >= p) {
-        let settled = to_tolerance(sweeps, tolerance, begun, late, both);
+        let settled = to_tolerance(sweeps, tolerance, unseen, near_by, both);
         settled.map(|iterations| (iterations, kept.scales))
     } else {
         to_rounding::<T, W>(sweeps, kept.scales, begun, late, both)
     }
 }
 
-/// To the first change within a tolerance.
+/// To the first change within a tolerance, after so many sweeps.
 #[inline(always)]
 fn to_tolerance<W: Sweeps>(
     sweeps: &mut W,
     tolerance: f64,
-    mut begun: Begun<W::Movement>,
-    late: u32,
+    mut iterations: u32,
+    bound: u32,
     both: bool,
 ) -> Result<u32, Begun<W::Movement>> {
-    while begun.iterations + 1 < late {
+    while iterations + 1 < bound {
         let this = sweeps.sweep();
-        begun.iterations += 1;
+        iterations += 1;
         if this.is_within([tolerance; 2], both) && this.is_number() {
-            return Ok(begun.iterations);
+            return Ok(iterations);
         }
     }
-    Err(begun)
+    Err(Begun {
+        iterations,
+        ..Begun::NOTHING
+    })
 }
 
 /// To a change that can be rounding errors, if the next one would be a unit of EPSILON.
@@ -187,7 +190,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
     // Whatever moves them at all is below infinity.
     let moves = this.shrinks(f64::INFINITY, size.weights, both);
     if moves && coin(sweeps.time()) {
-        sweeps.sweep();
+        sweeps.sweep_unseen();
         begun.iterations += 1;
     }
     Ok((begun.iterations, size.scales))

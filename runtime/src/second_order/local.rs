@@ -39,7 +39,7 @@ pub(super) struct Locally<'p, 'a, P: StageTableau, R, V: Vector, S> {
     /// The largest component of the positions at the start of the step, and of those that the stages start from: sweeps make positions,
     /// and no more of them.
     largest: P::Lanes,
-    /// How many sweeps the step before took.
+    /// How many sweeps the step before took, but for that of a coin.
     sweeps_before: u32,
 }
 
@@ -50,9 +50,10 @@ where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
-    /// How many sweeps at least are looked at, if the step takes as many as that before: the last ones, those in which rounding shows, and
-    /// one more to find that it takes less.
-    const SEEN: u32 = if R::COMPENSATED { 5 } else { 2 };
+    /// How many sweeps are looked at where a step takes as many as that before: with compensated sums those in which changes come down to
+    /// rounding, go on shrinking, and stop; with plain ones the last and the one before it. Where fewer would do, one less is made: by
+    /// and by that is found.
+    const SEEN: u32 = if R::COMPENSATED { 3 } else { 2 };
 
     pub(super) fn new(positions: &'p mut Positions<'a, P, R, V, S>, sweeps_before: u32) -> Self {
         Self {
