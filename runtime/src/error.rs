@@ -187,11 +187,22 @@ pub enum Error {
     NotTheSameLocalForce {
         /// The component, from 0.
         component: usize,
-        /// Its size component by component, or in rows; not a number where it was not set, and neither is the other one where a row was
-        /// asked for, or set, that there is not.
+        /// Its size component by component, or in rows; not a number where it was not set.
         local: f64,
         /// Its size by the force.
         expected: f64,
+    },
+
+    /// A system that makes its force in rows asks for the positions in a row that there is not, or sets the forces in it.
+    #[error(
+        "`row_forces` asks for row {row} or sets it, and there are {rows}, from 0: ask and set below `rows.count()` only, or leave it and \
+         `ROW_FORCES = true` out"
+    )]
+    NoSuchRow {
+        /// The row.
+        row: usize,
+        /// How many rows there are.
+        rows: usize,
     },
 
     /// A system evaluates velocity and force at once, and one of them is not what comes out alone.

@@ -273,7 +273,7 @@ pub trait SeparableHamiltonian<V: Vector> {
     /// and the number of components is a multiple of eight: then no lane is without work, and results are made row by row too.
     /// Making that solver fails with [`Error::NotTheSameLocalForce`](crate::Error::NotTheSameLocalForce) where other bits come out of it
     /// than by `force`, for as many stages as there can be, each with a time and with positions of its own near those of the present
-    /// state, or where it asks for a row that there is not.
+    /// state, and with [`Error::NoSuchRow`](crate::Error::NoSuchRow) where it asks for a row that there is not, or sets it.
     ///
     /// ```
     /// use symplectic::nalgebra::DVector;

@@ -208,7 +208,8 @@ impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
     /// # Errors
     ///
     /// [`Error::NotSecondOrder`], where the velocity is not linear in the momentum, or depends on time;
-    /// [`Error::NotTheSameLocalForce`], where the force component by component, or in rows, is another one.
+    /// [`Error::NotTheSameLocalForce`], where the force component by component, or in rows, is another one, and [`Error::NoSuchRow`], where
+    /// there is no such row.
     pub fn in_second_order_lanes(
         self,
     ) -> Result<Integrator<M, S, V, R, SecondOrderInLanes>, Error> {

@@ -171,24 +171,28 @@ where
         outside: None,
     };
     system.row_forces(&mut rows);
-    let refused = |(component, local, expected)| {
-        Err(Error::NotTheSameLocalForce {
-            component,
-            local,
-            expected,
-        })
-    };
     if let Some(row) = rows.outside {
-        return refused((row.saturating_mul(F64x8::WIDTH), f64::NAN, f64::NAN));
+        let rows = rows.count();
+        return Err(Error::NoSuchRow { row, rows });
     }
     for ((time, q), local) in times.into_iter().zip(positions).zip(&forces) {
         let mut force = q.zeros_like();
         system.force(time, q, p, &mut force);
-        if let Some(difference) = first_difference(local, &force) {
-            return refused(difference);
-        }
+        check_same(local, &force)?;
     }
     Ok(())
+}
+
+/// Checks that a force made locally is the force.
+fn check_same<V: Vector>(local: &V, force: &V) -> Result<(), Error> {
+    match first_difference(local, force) {
+        Some((component, local, expected)) => Err(Error::NotTheSameLocalForce {
+            component,
+            local,
+            expected,
+        }),
+        None => Ok(()),
+    }
 }
 
 /// Stages that are in memory, in rows.
@@ -267,13 +271,7 @@ fn check_local_force<V: Vector, S: Hamiltonian<V>>(
         force: local.as_mut_slice(),
     };
     system.local_force(time, &mut components);
-    first_difference(&local, &force).map_or(Ok(()), |(component, local, expected)| {
-        Err(Error::NotTheSameLocalForce {
-            component,
-            local,
-            expected,
-        })
-    })
+    check_same(&local, &force)
 }
 
 /// Components that are in memory. The positions of those whose forces are set are no numbers any more, and neither are forces that are

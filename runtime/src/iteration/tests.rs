@@ -16,6 +16,8 @@ struct Scripted<'a, const HASTY: bool> {
     begun: usize,
     /// How many sweeps there were before the one that moved the stages twice as far.
     beyond: Option<usize>,
+    /// How many sweeps need not be looked at, and how many were not.
+    unseen: [u32; 2],
     time: f64,
 }
 
@@ -27,6 +29,7 @@ impl<'a, const HASTY: bool> Scripted<'a, HASTY> {
             made: 0,
             begun: 0,
             beyond: None,
+            unseen: [0; 2],
             time,
         }
     }
@@ -69,6 +72,15 @@ impl<const HASTY: bool> Sweeps for Scripted<'_, HASTY> {
             .map(|units| PartChange::new(units * f64::EPSILON * scale, scale));
         self.made += 1;
         Change { q, p }
+    }
+
+    fn unseen(&self) -> u32 {
+        self.unseen[0]
+    }
+
+    fn sweep_unseen(&mut self) {
+        self.unseen[1] += 1;
+        self.sweep();
     }
 
     fn sweep_beyond(&mut self) -> Change {
@@ -171,6 +183,50 @@ fn what_stagnates_after_another_step_has_one_sweep_more_at_half_of_all_times() {
     }
     assert_eq!(after(true, 5), Ok(5));
     assert!(after(true, 4).is_err());
+}
+
+/// The sweeps of an iteration of which so many need not be looked at, and how many were not.
+fn passing_over<const HASTY: bool>(
+    unseen: u32,
+    changes: &[f64],
+    bound: usize,
+) -> (Option<u32>, u32) {
+    let changes: Vec<_> = changes.iter().map(|&change| [change; 2]).collect();
+    let mut script = Scripted::<HASTY>::new(&changes, &[1.0], time(false));
+    script.unseen[0] = unseen;
+    let settled = made::<Separable, _>(&mut script, stages([1.0; 2]), at_most(bound));
+    (settled.ok().map(|x| x.0), script.unseen[1])
+}
+
+#[test]
+fn sweeps_that_others_follow_are_not_looked_at() {
+    fn check<const HASTY: bool>(changes: [f64; 12], sweeps: u32, looks: u32) {
+        for unseen in 0..sweeps {
+            let settled = Some(sweeps.max(unseen + looks));
+            let found = passing_over::<HASTY>(unseen, &changes, 20);
+            assert_eq!(found, (settled, unseen), "{HASTY}");
+        }
+        // At least two are looked at, and no more are made than there may be.
+        for bound in 2..=sweeps as usize {
+            let (settled, passed_over) = passing_over::<HASTY>(9, &changes, bound);
+            assert_eq!(passed_over, bound as u32 - 2, "{HASTY}");
+            let (expected, _) = passing_over::<HASTY>(0, &changes, bound);
+            assert_eq!(settled, expected, "{HASTY} {bound}");
+        }
+        // What is not a number is missed where it does not stay, and only there.
+        let mut changes = changes;
+        changes[0] = f64::NAN;
+        assert_eq!(passing_over::<HASTY>(2, &changes, 20), (Some(sweeps), 2));
+        changes[2..].fill(f64::NAN);
+        assert_eq!(passing_over::<HASTY>(2, &changes, 12).0, None);
+    }
+    let mut changes = [0.5; 12];
+    changes[..3].copy_from_slice(&[1e3, 200.0, 50.0]);
+    check::<true>(changes, 4, 1);
+    // Only of two that are looked at is it known that the second is not smaller.
+    let mut changes = [6.0; 12];
+    changes[..5].copy_from_slice(&[1e12, 1e6, 50.0, 4.0, 5.0]);
+    check::<false>(changes, 5, 2);
 }
 
 #[test]
