@@ -36,6 +36,8 @@ use crate::{
 /// [local](crate::SeparableHamiltonian::LOCAL_FORCE), a [`Chain`](crate::Chain), is gone through once in a sweep, as long as a step goes
 /// on from the one before and settles in its first sweeps: the positions of the stages are made, and used, component by component. What
 /// is then compared with a tolerance is by how much the next positions can differ, at most but for rounding, from those of the sweep.
+/// Of the first sweeps of a step it is not asked how far they move the stages: as many as there were in the step before, but for the last
+/// two, with compensated sums three. A step may take one sweep less than the one before, or any number more.
 /// With fewer than eight stages, and a number of components that is a multiple of eight, a system that
 /// [can](crate::SeparableHamiltonian::ROW_FORCES) goes through them in rows: the lanes run along the components. Both have the same
 /// bits.
