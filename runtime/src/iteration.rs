@@ -185,7 +185,8 @@ impl Movement for Change {
 pub(crate) struct Begun<M> {
     /// How many sweeps were made.
     iterations: u32,
-    /// The first one, where it was not looked at and somebody may want to know.
+    /// The first one, where it was not looked at and somebody may want to know; where it was [not seen](Sweeps::unseen) nobody does, and
+    /// what is then noise counts as such if it is small beside what was looked at.
     first: Option<M>,
     /// The one before the last.
     before: Option<M>,

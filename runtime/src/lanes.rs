@@ -41,7 +41,7 @@ pub trait Lanes: Scalar {
     /// The larger of two numbers in each lane; either where one of them is NaN.
     fn larger(self, other: Self) -> Self;
 
-    /// The larger of two numbers that are not negative in each lane; NaN where one of them is.
+    /// The larger of two numbers in each lane that [`abs`](Scalar::abs) has given; NaN where one of them is.
     fn larger_or_nan(self, other: Self) -> Self;
 
     /// The largest number; any where one of them is NaN.
@@ -282,7 +282,7 @@ macro_rules! lanes {
             /// [`larger_or_nan`](Lanes::larger_or_nan): numbers that are not negative are in the order of their bits, and NaN is above
             /// them. In eight lanes whatever the width, for which it is one instruction that the compiler makes narrower.
             #[inline(always)]
-            fn larger_bits(self, other: Self) -> Self {
+            fn larger_by_bits(self, other: Self) -> Self {
                 let bits = |numbers: Self| {
                     let lanes = numbers.to_array();
                     let bits = |lane: usize| lanes.get(lane).map_or(0, |x| x.to_bits().cast_signed());
@@ -294,7 +294,7 @@ macro_rules! lanes {
 
             /// The same by sums.
             #[inline(always)]
-            fn larger_unless_nan(self, other: Self) -> Self {
+            fn larger_by_sums(self, other: Self) -> Self {
                 Self(self.0.fast_max(other.0) | (self.0 + other.0).is_nan())
             }
         }
@@ -328,9 +328,9 @@ macro_rules! lanes {
             fn larger_or_nan(self, other: Self) -> Self {
                 // Where whole numbers are compared in one instruction.
                 if cfg!(any(target_feature = "sse4.2", target_arch = "aarch64")) {
-                    self.larger_bits(other)
+                    self.larger_by_bits(other)
                 } else {
-                    self.larger_unless_nan(other)
+                    self.larger_by_sums(other)
                 }
             }
 
@@ -440,33 +440,43 @@ lanes!(
 mod tests {
     use super::*;
 
-    #[test]
-    fn the_larger_is_not_a_number_where_one_is_not() {
-        let tiny = f64::from_bits(1);
-        let numbers = [0.0, tiny, 1.0, 1.5, f64::MAX, f64::INFINITY, f64::NAN];
-        for a in numbers {
-            for b in numbers {
-                // By turns, each of them alone and beside the other.
-                let [x, y] = [
-                    F64x4::from_array([a, b, a, b]),
-                    F64x4::from_array([b, a, a, 1.0]),
-                ];
-                let expected = |lane: usize| {
-                    let (x, y) = (x.to_array()[lane], y.to_array()[lane]);
-                    if x.is_nan() || y.is_nan() {
-                        f64::NAN
-                    } else {
-                        x.max(y)
-                    }
-                };
-                for found in [x.larger_bits(y), x.larger_unless_nan(y), x.larger_or_nan(y)] {
-                    for (lane, found) in found.to_array().into_iter().enumerate() {
-                        let expected = expected(lane);
-                        let same = found == expected || found.is_nan() && expected.is_nan();
-                        assert!(same, "{x:?} {y:?}: {found} in lane {lane}");
-                    }
+    /// As many pairs as lanes, from one of all pairs on.
+    fn check<L: Lanes>(by_bits: fn(L, L) -> L, by_sums: fn(L, L) -> L) {
+        // As processors make them, with a sign.
+        let nan = core::hint::black_box(0.0) / core::hint::black_box(0.0);
+        let numbers = [
+            -0.0,
+            f64::from_bits(1),
+            1.0,
+            1.5,
+            f64::MAX,
+            f64::INFINITY,
+            nan,
+        ];
+        let count = numbers.len();
+        for first in 0..count * count {
+            let number = |lane: usize| {
+                let pair = (first + lane) % (count * count);
+                [numbers[pair / count], numbers[pair % count]]
+            };
+            let [a, b] = [0, 1].map(|side| L::from_fn(|lane| number(lane)[side]).abs());
+            for found in [by_bits(a, b), by_sums(a, b), a.larger_or_nan(b)] {
+                for (lane, &found) in found.to_array().as_ref().iter().enumerate() {
+                    let [a, b] = number(lane).map(f64::abs);
+                    let same = match a.is_nan() || b.is_nan() {
+                        true => found.is_nan(),
+                        false => found == a.max(b),
+                    };
+                    assert!(same, "{a} {b}: {found}");
                 }
             }
         }
+    }
+
+    #[test]
+    fn the_larger_is_not_a_number_where_one_is_not() {
+        check(F64x2::larger_by_bits, F64x2::larger_by_sums);
+        check(F64x4::larger_by_bits, F64x4::larger_by_sums);
+        check(F64x8::larger_by_bits, F64x8::larger_by_sums);
     }
 }

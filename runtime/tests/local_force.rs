@@ -1,6 +1,7 @@
 //! Forces component by component: second-order stages along a chain.
 
 use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use symplectic::nalgebra::DVector;
 use symplectic::{
@@ -674,4 +675,105 @@ fn another_force_in_rows_is_refused() {
             }
         }
     }
+}
+
+/// Springs that are a hundred times stiffer in the beginning.
+#[derive(Clone, Copy)]
+struct Softening;
+
+impl Bonds for Softening {
+    fn tension<T: Scalar>(&self, time: T, stretch: T) -> T {
+        let more = (time * time * T::from_f64(-4.0)).exp() * T::from_f64(100.0);
+        (more + T::one()) * stretch
+    }
+}
+
+#[test]
+fn steps_after_hard_ones_take_few_sweeps_again() -> Result<(), Error> {
+    fn check<M: Method + Copy, R: Summation>(
+        method: M,
+        n: usize,
+        set: impl Fn(&mut Integrator<M, Chain<Softening>, DVector<f64>, R>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let made = |state| {
+            let chain = Chain::ring(Softening);
+            let mut made = Integrator::with_summation(method, chain, state, 0.1)?;
+            set(&mut made)?;
+            made.in_second_order_lanes()
+        };
+        let sweeps = |integrator: &mut Integrator<M, _, _, R, _>, steps: u64| {
+            let before = integrator.statistics().iterations;
+            integrator.take_steps(steps)?;
+            Ok::<_, Error>((integrator.statistics().iterations - before) as f64 / steps as f64)
+        };
+        let mut hard = made(State {
+            time: 0.0,
+            ..start(n)
+        })?;
+        let first = sweeps(&mut hard, 5)?;
+        hard.take_steps(25)?;
+        let mut anew = made(hard.state().clone())?;
+        anew.take_steps(10)?;
+        hard.take_steps(10)?;
+        let (after, expected) = (sweeps(&mut hard, 200)?, sweeps(&mut anew, 200)?);
+        assert!(first > 1.5 * expected, "{n}: {first} {expected}");
+        let ratio = after / expected;
+        assert!((0.97..=1.03).contains(&ratio), "{n}: {after} {expected}");
+        Ok(())
+    }
+    for n in [16, 17] {
+        check::<_, Plain>(Gauss3, n, |made| made.set_tolerance(1e-13))?;
+        check::<_, Plain>(Gauss3, n, |_| Ok(()))?;
+        check::<_, Compensated>(Gauss3, n, |_| Ok(()))?;
+        check::<_, Plain>(Gauss8, n, |made| made.set_tolerance(1e-13))?;
+        check::<_, Plain>(Gauss8, n, |_| Ok(()))?;
+        check::<_, Compensated>(Gauss8, n, |_| Ok(()))?;
+    }
+    Ok(())
+}
+
+/// Asks for a row that there is not once it has been told to.
+struct Late<'a>(&'a Cell<bool>);
+
+impl<V: Vector> SeparableHamiltonian<V> for Late<'_> {
+    const UNIT_MASSES: bool = true;
+    const LOCAL_FORCE: bool = true;
+    const ROW_FORCES: bool = true;
+
+    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
+        copy(velocity, p);
+    }
+
+    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
+        let sound = SpringsInRows(FaultyRows::None);
+        SeparableHamiltonian::<V>::force(&sound, time, q, force);
+    }
+
+    fn local_force(&self, time: V::Scalar, components: &mut impl Components<V::Scalar>) {
+        let sound = SpringsInRows(FaultyRows::None);
+        SeparableHamiltonian::<V>::local_force(&sound, time, components);
+    }
+
+    fn row_forces(&self, rows: &mut impl StageRows) {
+        let fault = match self.0.get() {
+            true => FaultyRows::AsksBeyondInVain,
+            false => FaultyRows::None,
+        };
+        SeparableHamiltonian::<V>::row_forces(&SpringsInRows(fault), rows);
+    }
+}
+
+#[test]
+fn a_row_that_is_asked_for_too_late_is_a_panic_that_leaves_the_state() -> Result<(), Error> {
+    let late = Cell::new(false);
+    let made = Integrator::new(Gauss2, Late(&late), start(16), STEP_SIZE)?;
+    let mut integrator = made.in_second_order_lanes()?;
+    let before = integrator.take_steps(5)?.clone();
+    late.set(true);
+    let steps = AssertUnwindSafe(|| integrator.take_steps(5).map(|_| ()));
+    assert!(catch_unwind(steps).is_err());
+    late.set(false);
+    assert_eq!(*integrator.state(), before);
+    integrator.take_steps(5)?;
+    Ok(())
 }

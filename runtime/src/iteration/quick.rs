@@ -7,8 +7,8 @@ use super::{
     is_known, other_coin, units,
 };
 
-/// A tolerance of so many units of EPSILON is waited for, for as long as sweeps are [early](PATIENCE): rounding lets changes
-/// come down to it but for noisy evaluations.
+/// A tolerance of so many units of EPSILON is waited for, for as long as sweeps are [early](PATIENCE), or, where both halves count, one
+/// without progress would [do](STAGNATION): rounding lets changes come down to it but for noisy evaluations.
 const WITHIN_REACH: f64 = 8.0;
 
 /// The sweeps of an iteration that has settled, and how large its stages are; or what is begun of one that has not.
@@ -46,7 +46,7 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
             // From the other side. An ordinary sweep comes first: it leaves mostly the error that shrinks least, to be mirrored.
             begun.first = Some(sweeps.sweep());
             sweeps.sweep_beyond();
-            begun.iterations = 2;
+            begun.iterations += 2;
         }
         return to_stagnation::<T, W>(sweeps, kept.scales, begun, [near_by, bound], both);
     }
@@ -101,14 +101,15 @@ fn to_rounding<T: Scalar, W: Sweeps>(
                 let next = |before| this.is_next_within(&before, one, both);
                 this.is_within(one, both) || begun.before.is_some_and(next)
             };
-            let is_sound = |scales| sweeps.are_about(&this, scales, both) && this.is_number();
-            if is_last(size.scales) && is_sound(size.scales) {
-                return Ok((begun.iterations, size.scales));
+            let before = size.scales;
+            let is_sound = || sweeps.are_about(&this, before, both) && this.is_number();
+            if is_last(before) && is_sound() {
+                return Ok((begun.iterations, before));
             }
             let scales = if W::MEASURED {
                 sweeps.change(&this).scales()
-            } else if is_sound(size.scales) {
-                size.scales
+            } else if is_sound() {
+                before
             } else {
                 begun.last = Some(this);
                 return Err(begun);

@@ -230,6 +230,32 @@ fn sweeps_that_others_follow_are_not_looked_at() {
 }
 
 #[test]
+fn to_a_tolerance_there_are_more_sweeps_where_both_halves_count() {
+    fn check<C: Class>(sweeps: i32) -> bool {
+        let changes: Vec<_> = (1..=20)
+            .map(|k| [1e3 * 2_f64.powi(sweeps - k); 2])
+            .collect();
+        let mut script = Scripted::<true>::new(&changes, &[1.0], 1.0);
+        let stopping = Stopping {
+            tolerance: 1e3 * f64::EPSILON,
+            ..at_most(20)
+        };
+        let hastened = hasten::<C, f64, _>(&mut script, stages([1.0; 2]), stopping);
+        if let Ok((iterations, _)) = hastened {
+            assert_eq!(iterations, sweeps as u32);
+        }
+        let mut script = Scripted::<true>::new(&changes, &[1.0], 1.0);
+        let settled = made::<C, _>(&mut script, stages([1.0; 2]), stopping);
+        assert_eq!(settled.map(|x| x.0), Ok(sweeps as u32));
+        hastened.is_ok()
+    }
+    for sweeps in 1..=19 {
+        assert_eq!(check::<Separable>(sweeps), sweeps < 10, "{sweeps}");
+        assert_eq!(check::<General>(sweeps), sweeps < 16, "{sweeps}");
+    }
+}
+
+#[test]
 fn the_sweep_more_does_not_depend_on_how_many_there_were() {
     let near = [60.0, 50.0, 40.0, 30.0, 20.0, 10.0, 5.0, 6.0, 6.0, 6.0];
     for far in 1..=20 {

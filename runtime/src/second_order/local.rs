@@ -39,7 +39,7 @@ pub(super) struct Locally<'p, 'a, P: StageTableau, R, V: Vector, S> {
     /// The largest component of the positions at the start of the step, and of those that the stages start from: sweeps make positions,
     /// and no more of them.
     largest: P::Lanes,
-    /// How many sweeps the step before took, but for that of a coin.
+    /// How many sweeps the step before took, but for one where that came from a coin.
     sweeps_before: u32,
 }
 
@@ -50,10 +50,10 @@ where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
-    /// How many sweeps are looked at where a step takes as many as that before: with compensated sums those in which changes come down to
-    /// rounding, go on shrinking, and stop; with plain ones the last and the one before it. Where fewer would do, one less is made: by
-    /// and by that is found.
-    const SEEN: u32 = if R::COMPENSATED { 3 } else { 2 };
+    /// How many sweeps are looked at where a step takes as many as that before: those in which changes come down to rounding, go on
+    /// shrinking, and stop. With plain sums the last one is foreseen from the two before it. Where fewer sweeps would do, one or two less
+    /// are made.
+    const SEEN: u32 = 3;
 
     pub(super) fn new(positions: &'p mut Positions<'a, P, R, V, S>, sweeps_before: u32) -> Self {
         Self {
@@ -192,6 +192,7 @@ where
     }
 }
 
+/// Nobody looks at how these change, or for what is not finite: what does not settle at once [goes on](Sweeps::go_on) elsewhere.
 impl<P, R, V, S> Sweeps for Locally<'_, '_, P, R, V, S>
 where
     P: StageTableau,

@@ -13,7 +13,7 @@ use crate::{
     F64x8, HamiltonianInLanes, Lanes, Outcome, Plain, Scalar, StageTableau, Step, Summation, Vector,
 };
 
-/// Components side by side, and the most stages.
+/// Components side by side; as many stages as there are at most in lanes.
 const WIDTH: usize = F64x8::WIDTH;
 
 /// With unit masses, of forces in rows.

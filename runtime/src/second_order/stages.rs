@@ -13,7 +13,7 @@ pub struct SecondOrderStages<V: Vector, P: StageTableau> {
     pub(crate) of_increments: bool,
     /// Whether the forces are in rows, in the place of the velocities.
     pub(crate) in_rows: bool,
-    /// How many sweeps the step before took, but for that of a coin.
+    /// How many sweeps the step before took, but for one where that came from a coin: of chains, and other systems of local forces.
     pub(crate) sweeps: u32,
 }
 
