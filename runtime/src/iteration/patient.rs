@@ -126,7 +126,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         if once_more {
             return Ok((iteration, last.scales()));
         }
-        if tolerates && this.is_within([tolerance; 2], both) && this.is_number() {
+        if tolerates && this.is_within([tolerance; 2], both) {
             return Ok((iteration, sweeps.change(&this).scales()));
         }
         if overlooks && early && this.exceeds(far, both) && this.is_number() {

@@ -72,7 +72,7 @@ fn to_tolerance<W: Sweeps>(
     while iterations + 1 < bound {
         let this = sweeps.sweep();
         iterations += 1;
-        if this.is_within([tolerance; 2], both) && this.is_number() {
+        if this.is_within([tolerance; 2], both) {
             return Ok(iterations);
         }
     }
@@ -102,13 +102,13 @@ fn to_rounding<T: Scalar, W: Sweeps>(
                 this.is_within(one, both) || begun.before.is_some_and(next)
             };
             let before = size.scales;
-            let is_sound = || sweeps.are_about(&this, before, both) && this.is_number();
-            if is_last(before) && is_sound() {
+            let are_about_that = || sweeps.are_about(&this, before, both);
+            if is_last(before) && are_about_that() {
                 return Ok((begun.iterations, before));
             }
             let scales = if W::MEASURED {
                 sweeps.change(&this).scales()
-            } else if is_sound() {
+            } else if are_about_that() {
                 before
             } else {
                 begun.last = Some(this);
