@@ -50,9 +50,6 @@ pub trait Lanes: Scalar {
     /// Whether a number is above `bound`; NaN is not.
     fn any_above(self, bound: f64) -> bool;
 
-    /// Whether no number is above `bound`; NaN is not allowed.
-    fn all_within(self, bound: f64) -> bool;
-
     /// Whether all numbers are below `bound`; NaN is not.
     fn all_below(self, bound: f64) -> bool;
 
@@ -345,11 +342,6 @@ macro_rules! lanes {
             #[inline(always)]
             fn any_above(self, bound: f64) -> bool {
                 self.0.simd_gt(<$inner>::splat(bound)).any()
-            }
-
-            #[inline(always)]
-            fn all_within(self, bound: f64) -> bool {
-                self.0.simd_le(<$inner>::splat(bound)).all()
             }
 
             #[inline(always)]
