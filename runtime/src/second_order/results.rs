@@ -109,7 +109,10 @@ fn of_rows<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
 }
 
 /// Positions and momenta and what these leave out, from those before: of increments where sums are compensated, else of forces.
-#[allow(clippy::redundant_closure, reason = "a reference to one would be called")]
+#[allow(
+    clippy::redundant_closure,
+    reason = "a reference to one would be called"
+)]
 #[inline(always)]
 fn of_unit_masses<P: StageTableau, R: Summation, T: Scalar>(
     size: f64,
