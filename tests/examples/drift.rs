@@ -9,6 +9,7 @@ use symplectic::{
 };
 use symplectic_tests::drift::{Sample, ensemble, exponent};
 use symplectic_tests::methods::{Gauss6, Gauss8};
+use symplectic_tests::scenes::fput_chain;
 use symplectic_tests::scenes::henon_heiles::{self, HenonHeiles};
 use symplectic_tests::scenes::kepler::{self, Kepler};
 use symplectic_tests::scenes::nonseparable::{self, Nonseparable};
@@ -31,6 +32,7 @@ fn main() -> Result<(), Error> {
     let ellipses = orbits(|k| kepler::start(0.6 - 1e-3 * k));
     let stars = orbits(|k| beside(henon_heiles::start(), k));
     let rings = orbits(|k| beside(nonseparable::start(), k));
+    let chains = orbits(|k| beside(fput_chain::start(8), k));
     // The step sizes are such that the errors of the methods themselves are below those of rounding.
     let kepler = Ensemble {
         problem: "Kepler, e ≈ 0.6",
@@ -52,7 +54,15 @@ fn main() -> Result<(), Error> {
         starts: &rings,
     };
     general.rows(Gauss6, 1.0 / 32.0, &steps)?;
-    general.rows(Gauss8, 1.0 / 16.0, &steps)
+    general.rows(Gauss8, 1.0 / 16.0, &steps)?;
+    // Six stages go in rows of eight particles, eight stages in lanes of their own.
+    let chain = Ensemble {
+        problem: "FPUT chain, N = 8",
+        system: fput_chain::system(),
+        starts: &chains,
+    };
+    chain.second_order_rows(Gauss6, 1.0 / 8.0, &steps)?;
+    chain.second_order_rows(Gauss8, 1.0 / 4.0, &steps)
 }
 
 /// The start of every orbit.
@@ -83,12 +93,7 @@ impl<S: HamiltonianInLanes<V> + Copy, V: Vector<Scalar = f64>> Ensemble<'_, S, V
         let compensated = |start| Ok(Integrator::new(method, system, start, step_size)?.in_lanes());
         row("compensated", ensemble(compensated, self.starts, steps)?);
         if <S as Hamiltonian<V>>::Class::SEPARABLE {
-            let second_order =
-                |start| Integrator::new(method, system, start, step_size)?.in_second_order_lanes();
-            row(
-                "compensated, second order",
-                ensemble(second_order, self.starts, steps)?,
-            );
+            self.second_order(method, step_size, steps)?;
         } else {
             let at_once =
                 |start| Ok(Integrator::new(method, system, start, step_size)?.at_once_in_lanes());
@@ -99,6 +104,36 @@ impl<S: HamiltonianInLanes<V> + Copy, V: Vector<Scalar = f64>> Ensemble<'_, S, V
         }
         let plain = |start| Ok(Integrator::plain(method, system, start, step_size)?.in_lanes());
         row("plain", ensemble(plain, self.starts, steps)?);
+        Ok(())
+    }
+
+    /// A row for the step without momentum stages.
+    fn second_order<M: Method>(
+        &self,
+        method: M,
+        step_size: f64,
+        steps: &[u64],
+    ) -> Result<(), Error> {
+        let system = self.system;
+        let compensated =
+            |start| Integrator::new(method, system, start, step_size)?.in_second_order_lanes();
+        let samples = ensemble(compensated, self.starts, steps)?;
+        self.row::<M>("compensated, second order", &samples);
+        Ok(())
+    }
+
+    /// That, and one with plain sums.
+    fn second_order_rows<M: Method>(
+        &self,
+        method: M,
+        step_size: f64,
+        steps: &[u64],
+    ) -> Result<(), Error> {
+        self.second_order(method, step_size, steps)?;
+        let system = self.system;
+        let plain =
+            |start| Integrator::plain(method, system, start, step_size)?.in_second_order_lanes();
+        self.row::<M>("plain, second order", &ensemble(plain, self.starts, steps)?);
         Ok(())
     }
 
