@@ -13,7 +13,8 @@ use divan::Bencher;
 use peers::{End, Equations};
 use symplectic::nalgebra::SVector;
 use symplectic::{
-    Compensated, Hamiltonian, Integrator, Method, Plain, SeparableHamiltonian, State, Summation,
+    Compensated, Error, Hamiltonian, HamiltonianInLanes, Integrator, Method, Plain, Solver, State,
+    Summation, Vector,
 };
 use symplectic_contest::baseline::gauss::{FirstOrder, Rule, SecondOrder};
 use symplectic_contest::baseline::no_drift::{Double, NoDrift, NoDriftGeneral};
@@ -192,21 +193,17 @@ fn long_chain() -> Vec<Entry> {
         chain::Blocks::new(dynamic.p.as_slice()),
     );
     let mut entries = others::<_, N, { 2 * N }>(&settings, fput_chain::system(), &start);
-    entries.push(library::<_, _, _, Compensated>(
-        "Gauss 8, library",
-        Gauss8,
+    entries.extend(in_second_order_lanes(
+        &settings,
         fput_chain::system(),
         dynamic.clone(),
-        settings.end,
-        settings.gauss,
     ));
-    entries.push(library::<_, _, _, Plain>(
+    entries.push(library(
         "Blanes–Moan, library, plain",
         BlanesMoanSrkn14a,
-        fput_chain::system(),
-        dynamic,
-        settings.end,
-        settings.blanes_moan,
+        (fput_chain::system(), dynamic),
+        (settings.end, settings.blanes_moan),
+        Ok::<Integrator<_, _, _, Plain>, _>,
     ));
     let values =
         |q: &chain::Blocks, p: &chain::Blocks| Some(q.values().chain(p.values()).collect());
@@ -245,29 +242,65 @@ fn steps(end: f64, step_size: f64) -> (f64, u64) {
     (end / steps, steps as u64)
 }
 
-/// A run of the library.
-fn library<M, S, V, R>(
+/// A run of the library, by the solver that is set.
+fn library<M, S, V, R, N>(
     name: &'static str,
     method: M,
-    system: S,
-    start: State<V>,
-    end: f64,
-    step_size: f64,
+    (system, start): (S, State<V>),
+    (end, step_size): (f64, f64),
+    set: impl Fn(Integrator<M, S, V, R>) -> Result<Integrator<M, S, V, R, N>, Error> + 'static,
 ) -> Entry
 where
     M: Method,
     S: Hamiltonian<V> + Copy + 'static,
-    V: symplectic::Vector<Scalar = f64>,
+    V: Vector<Scalar = f64>,
     R: Summation,
+    N: Solver<V, S>,
 {
     entry(name, move || {
         let (h, steps) = steps(end, step_size);
-        let mut integrator =
-            Integrator::<M, S, V, R>::with_summation(method, system, start.clone(), h).ok()?;
+        let integrator = Integrator::with_summation(method, system, start.clone(), h);
+        let mut integrator = integrator.and_then(&set).ok()?;
         integrator.take_steps(steps).ok()?;
         let State { q, p, .. } = integrator.state();
         Some([q.as_slice(), p.as_slice()].concat())
     })
+}
+
+/// Gauss with eight stages of the library, in lanes as by hand and stage by stage.
+fn in_second_order_lanes<S, V>(settings: &Settings, system: S, start: State<V>) -> [Entry; 3]
+where
+    S: HamiltonianInLanes<V> + Copy + 'static,
+    V: Vector<Scalar = f64>,
+{
+    let (tolerance, problem) = (settings.stages, (system, start));
+    let steps_to = (settings.end, settings.gauss);
+    [
+        library(
+            "Gauss 8, library",
+            Gauss8,
+            problem.clone(),
+            steps_to,
+            Integrator::<_, _, _, Compensated>::in_second_order_lanes,
+        ),
+        library(
+            "Gauss 8, library, plain",
+            Gauss8,
+            problem.clone(),
+            steps_to,
+            move |mut made: Integrator<_, _, _, Plain>| {
+                made.set_tolerance(tolerance)?;
+                made.in_second_order_lanes()
+            },
+        ),
+        library(
+            "Gauss 8, library, stage by stage",
+            Gauss8,
+            problem,
+            steps_to,
+            Ok::<Integrator<_, _, _, Compensated>, _>,
+        ),
+    ]
 }
 
 /// DOP853 of both crates.
@@ -303,7 +336,7 @@ fn separable<S, B, const N: usize, const M: usize>(
     start: &State<SVector<f64, N>>,
 ) -> Vec<Entry>
 where
-    S: SeparableHamiltonian<SVector<f64, N>> + Copy + 'static,
+    S: HamiltonianInLanes<SVector<f64, N>> + Copy + 'static,
     B: systems::Separable<N> + Copy + 'static,
 {
     let &Settings {
@@ -320,30 +353,13 @@ where
     entries.push(entry("Forest–Ruth, differential-equations", move || {
         peers::forest_ruth(&Equations(system), y, end, forest_ruth)
     }));
-    let run = start.clone();
-    entries.push(library::<_, _, _, Compensated>(
-        "Gauss 8, library",
-        Gauss8,
-        system,
-        run.clone(),
-        end,
-        gauss,
-    ));
-    entries.push(library::<_, _, _, Plain>(
-        "Gauss 8, library, plain",
-        Gauss8,
-        system,
-        run.clone(),
-        end,
-        gauss,
-    ));
-    entries.push(library::<_, _, _, Plain>(
+    entries.extend(in_second_order_lanes(settings, system, start.clone()));
+    entries.push(library(
         "Blanes–Moan, library, plain",
         BlanesMoanSrkn14a,
-        system,
-        run,
-        end,
-        blanes_moan,
+        (system, start.clone()),
+        (end, blanes_moan),
+        Ok::<Integrator<_, _, _, Plain>, _>,
     ));
     let (q, p) = (start.q.data.0[0], start.p.data.0[0]);
     entries.push(entry("Blanes–Moan, by hand", move || {
@@ -381,7 +397,7 @@ fn general<S, B, const N: usize, const M: usize>(
     start: &State<SVector<f64, N>>,
 ) -> Vec<Entry>
 where
-    S: Hamiltonian<SVector<f64, N>> + Copy + 'static,
+    S: HamiltonianInLanes<SVector<f64, N>> + Copy + 'static,
     B: systems::General<N> + Copy + 'static,
 {
     let &Settings {
@@ -392,22 +408,30 @@ where
         ..
     } = settings;
     let mut entries = others::<S, N, M>(settings, system, start);
-    let run = start.clone();
-    entries.push(library::<_, _, _, Compensated>(
+    let (problem, steps_to) = ((system, start.clone()), (end, gauss));
+    entries.push(library(
         "Gauss 8, library",
         Gauss8,
-        system,
-        run.clone(),
-        end,
-        gauss,
+        problem.clone(),
+        steps_to,
+        |made: Integrator<_, _, _, Compensated>| Ok(made.at_once_in_lanes()),
     ));
-    entries.push(library::<_, _, _, Plain>(
+    entries.push(library(
         "Gauss 8, library, plain",
         Gauss8,
-        system,
-        run,
-        end,
-        gauss,
+        problem.clone(),
+        steps_to,
+        move |mut made: Integrator<_, _, _, Plain>| {
+            made.set_tolerance(stages)?;
+            Ok(made.at_once_in_lanes())
+        },
+    ));
+    entries.push(library(
+        "Gauss 8, library, stage by stage",
+        Gauss8,
+        problem,
+        steps_to,
+        Ok::<Integrator<_, _, _, Compensated>, _>,
     ));
     let (q, p) = (start.q.data.0[0], start.p.data.0[0]);
     entries.push(entry("Gauss 8, by hand, plain", move || {
