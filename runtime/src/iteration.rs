@@ -115,8 +115,7 @@ pub(crate) trait Sweeps {
 /// How a sweep moved the stages. Comparisons, but for [`is_within`](Self::is_within), may lose what is not a number: see
 /// [`is_number`](Self::is_number).
 pub(crate) trait Movement: Copy {
-    /// Whether the positions moved, and the momenta where they count, by no more than these bounds; and neither by what is no
-    /// number.
+    /// Whether the positions moved, and the momenta where they count, by no more than these bounds, and both by numbers.
     fn is_within(&self, bounds: [f64; 2], both: bool) -> bool;
 
     /// [`is_within`](Self::is_within), but either half will do where the momenta do not count: [`Class::settling`].

@@ -5,7 +5,8 @@
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
 use symplectic::{
-    Class, Error, Hamiltonian, HamiltonianInLanes, Integrator, Method, State, Vector,
+    Class, Compensated, Error, Hamiltonian, HamiltonianInLanes, Integrator, Method, Plain, State,
+    Summation, Vector,
 };
 use symplectic_tests::drift::{Sample, ensemble, exponent};
 use symplectic_tests::methods::{Gauss6, Gauss8};
@@ -61,8 +62,10 @@ fn main() -> Result<(), Error> {
         system: fput_chain::system(),
         starts: &chains,
     };
-    chain.second_order_rows(Gauss6, 1.0 / 8.0, &steps)?;
-    chain.second_order_rows(Gauss8, 1.0 / 4.0, &steps)
+    chain.second_order::<_, Compensated>(Gauss6, "compensated", 1.0 / 8.0, &steps)?;
+    chain.second_order::<_, Plain>(Gauss6, "plain", 1.0 / 8.0, &steps)?;
+    chain.second_order::<_, Compensated>(Gauss8, "compensated", 1.0 / 4.0, &steps)?;
+    chain.second_order::<_, Plain>(Gauss8, "plain", 1.0 / 4.0, &steps)
 }
 
 /// The start of every orbit.
@@ -93,7 +96,7 @@ impl<S: HamiltonianInLanes<V> + Copy, V: Vector<Scalar = f64>> Ensemble<'_, S, V
         let compensated = |start| Ok(Integrator::new(method, system, start, step_size)?.in_lanes());
         row("compensated", ensemble(compensated, self.starts, steps)?);
         if <S as Hamiltonian<V>>::Class::SEPARABLE {
-            self.second_order(method, step_size, steps)?;
+            self.second_order::<M, Compensated>(method, "compensated", step_size, steps)?;
         } else {
             let at_once =
                 |start| Ok(Integrator::new(method, system, start, step_size)?.at_once_in_lanes());
@@ -108,32 +111,22 @@ impl<S: HamiltonianInLanes<V> + Copy, V: Vector<Scalar = f64>> Ensemble<'_, S, V
     }
 
     /// A row for the step without momentum stages.
-    fn second_order<M: Method>(
+    fn second_order<M: Method, R: Summation>(
         &self,
         method: M,
+        sums: &str,
         step_size: f64,
         steps: &[u64],
     ) -> Result<(), Error> {
-        let system = self.system;
-        let compensated =
-            |start| Integrator::new(method, system, start, step_size)?.in_second_order_lanes();
-        let samples = ensemble(compensated, self.starts, steps)?;
-        self.row::<M>("compensated, second order", &samples);
-        Ok(())
-    }
-
-    /// That, and one with plain sums.
-    fn second_order_rows<M: Method>(
-        &self,
-        method: M,
-        step_size: f64,
-        steps: &[u64],
-    ) -> Result<(), Error> {
-        self.second_order(method, step_size, steps)?;
-        let system = self.system;
-        let plain =
-            |start| Integrator::plain(method, system, start, step_size)?.in_second_order_lanes();
-        self.row::<M>("plain, second order", &ensemble(plain, self.starts, steps)?);
+        let made = |start| {
+            let made =
+                Integrator::<_, _, _, R>::with_summation(method, self.system, start, step_size)?;
+            made.in_second_order_lanes()
+        };
+        self.row::<M>(
+            &format!("{sums}, second order"),
+            &ensemble(made, self.starts, steps)?,
+        );
         Ok(())
     }
 

@@ -2,19 +2,16 @@
 
 use num_traits::Zero;
 
-use super::row_stages::{forces, load, row_length, rows, rows_mut};
+use super::row_stages::{WIDTH, forces, load, row_length, rows, rows_mut};
 use super::{slopes, tableau, velocity};
 use crate::array::array;
-use crate::in_lanes::{in_groups, lane_of, lanes, shortest, total as total_of};
+use crate::in_lanes::{in_groups, lane_of, lanes, shortest, total};
 use crate::kernel::sum_of_products;
 use crate::lane_stages::{LaneStages, Laned};
 use crate::summation::add;
 use crate::{
     F64x8, HamiltonianInLanes, Lanes, Outcome, Plain, Scalar, StageTableau, Step, Summation, Vector,
 };
-
-/// Components side by side; as many stages as there are at most in lanes.
-const WIDTH: usize = F64x8::WIDTH;
 
 /// With unit masses, of forces in rows.
 #[inline(always)]
@@ -131,18 +128,18 @@ fn of_unit_masses<P: StageTableau, R: Summation, T: Scalar>(
         return [high, low, momentum, momentum_low];
     }
     let weight = |stage: usize| P::POSITIONS.weights[stage] * size;
-    let mean = total::<P, T>(p, &force, |stage| rest(stage) * weight(stage));
+    let mean = plus_forces::<P, T>(p, &force, |stage| rest(stage) * weight(stage));
     [
         h.fused(mean, q),
         q_low,
-        total::<P, T>(p, &force, weight),
+        plus_forces::<P, T>(p, &force, weight),
         p_low,
     ]
 }
 
 /// `base + Σ_j factor_j force_j`
 #[inline(always)]
-fn total<P: StageTableau, T: Scalar>(
+fn plus_forces<P: StageTableau, T: Scalar>(
     base: T,
     force: &impl Fn(usize) -> T,
     factor: impl Fn(usize) -> f64,
@@ -166,7 +163,7 @@ pub(super) fn compensated<P, R, V, S>(
     S: HamiltonianInLanes<V>,
 {
     let h = step.size;
-    total_of::<R, P, V>(
+    total::<R, P, V>(
         (p, p_low),
         (step.p, step.p_low),
         stages.force.as_ref(),

@@ -19,7 +19,7 @@ use crate::{
 };
 
 /// Components in a row.
-const WIDTH: usize = F64x8::WIDTH;
+pub(super) const WIDTH: usize = F64x8::WIDTH;
 
 /// Whether the forces of stages are in rows.
 #[inline(always)]
