@@ -198,6 +198,23 @@ impl Tableau {
         self.orders.get_or_init(decided).clone()
     }
 
+    /// Whether the method is for general Hamiltonians what it is for separable ones: symplectic, and of the same order.
+    ///
+    /// ```
+    /// use symplectic_compiler::{catalogue, derive};
+    ///
+    /// assert!(derive("polynomial(3)", "lobatto(3)")?.keeps_its_order_in_general());
+    /// let splitting = catalogue::find("forest-ruth-1990").expect("a known method").derive()?;
+    /// assert!(!splitting.keeps_its_order_in_general());
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    pub fn keeps_its_order_in_general(&self) -> bool {
+        let orders = self.orders();
+        let loses_symplecticity =
+            self.separable_properties().symplectic.holds && !self.properties().symplectic.holds;
+        !loses_symplecticity && orders.general.order >= orders.separable.order
+    }
+
     /// Linear stability, decided at the first call.
     ///
     /// ```

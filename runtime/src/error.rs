@@ -138,15 +138,36 @@ pub enum Error {
 
     /// The velocity of a system that is to be taken as one of second order is not linear in the momentum.
     #[error(
-        "component {component} of a velocity is {velocity} where one that is linear in the momentum is {linear}: the \
+        "component {component} of the velocity is {velocity} in size, and {linear} if it were linear in the momentum: the \
          system is not q'' = f(q) up to masses; take it by `in_lanes`"
     )]
     NotSecondOrder {
         /// The component, from 0.
         component: usize,
-        /// The velocity there.
+        /// Its size.
         velocity: f64,
-        /// What it would be if it were linear.
+        /// The size that it would have if it were linear in the momentum.
+        linear: f64,
+    },
+
+    /// A method whose order holds for quadratic kinetic energy only, and a system whose velocity is not linear in the momentum.
+    #[error(
+        "`{method}` has order {order} where the kinetic energy is pᵀM⁻¹p/2 with a constant M, and order {lower_order} for other separable systems; \
+         component {component} of the velocity is {velocity} in size, and {linear} if it were linear in the momentum: take a \
+         method for separable systems, or write `.accept_lower_order()` after the method"
+    )]
+    NotQuadraticKinetic {
+        /// The name of the method.
+        method: &'static str,
+        /// Its order where the kinetic energy is quadratic.
+        order: u32,
+        /// Its order for other separable systems.
+        lower_order: u32,
+        /// The component of the velocity, from 0.
+        component: usize,
+        /// Its size.
+        velocity: f64,
+        /// The size that it would have if it were linear in the momentum.
         linear: f64,
     },
 

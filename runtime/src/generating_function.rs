@@ -11,8 +11,8 @@ use crate::integrator::checks::{check_state, check_step_size};
 use crate::stage::{first_mismatch, first_non_finite, first_non_finite_of, is_finite};
 use crate::{
     Change, Class, Coefficient, Coefficients, Error, EvaluationCounts, Hamiltonian, Kept, Method,
-    Outcome, PartChange, Plain, Quantity, Scalar, StagePlan, StageStorage, Step, Stopping,
-    Summation, Vector, Witness,
+    Outcome, PartChange, Plain, ProvedFor, Quantity, Scalar, StagePlan, StageStorage, Step,
+    Stopping, Summation, Vector, Witness,
 };
 
 /// What [`generating_function`] returns: the value at `(q0, p1)`, and the step that it generates.
@@ -84,7 +84,7 @@ pub struct GeneratingFunction<V: Vector> {
 /// # Ok(())
 /// # }
 /// ```
-pub fn generating_function<M: Method, S: Hamiltonian<V>, V: Vector>(
+pub fn generating_function<M: Method + ProvedFor<S::Class>, S: Hamiltonian<V>, V: Vector>(
     _method: M,
     system: &S,
     time: f64,

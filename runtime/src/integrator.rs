@@ -10,8 +10,8 @@ use crate::interpolation::Line;
 use crate::time::{Clock, uniform};
 use crate::{
     AtOnceInLanes, Class, Compensated, Error, FixedPoint, Hamiltonian, HamiltonianInLanes, InLanes,
-    Inside, Interpolation, Method, Plain, Plan, Retry, Scalar, SecondOrderInLanes, Solver, State,
-    States, Statistics, Stopping, Summation, Vector,
+    Inside, Interpolation, Method, Plain, Plan, ProvedFor, Retry, Scalar, SecondOrderInLanes,
+    Solver, State, States, Statistics, Stopping, Summation, Vector,
 };
 #[cfg(feature = "alloc")]
 use crate::{GeneratingFunction, Kept, Step, generating_function::generating};
@@ -20,10 +20,12 @@ mod advance;
 mod blocks;
 pub(crate) mod checks;
 mod course;
+pub(crate) mod linearity;
 mod parts;
 
 use checks::{
-    check_local_forces, check_masses, check_pass, check_slopes, check_state, check_step_size,
+    check_local_forces, check_masses, check_pass, check_quadratic_kinetic, check_slopes,
+    check_state, check_step_size,
 };
 use course::Course;
 
@@ -89,8 +91,11 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     /// # Errors
     ///
     /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`],
-    /// [`Error::NotUnitMasses`], [`Error::NotTheSameForce`], [`Error::NotTheSameSlopes`].
-    pub fn new(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error> {
+    /// [`Error::NotQuadraticKinetic`], [`Error::NotUnitMasses`], [`Error::NotTheSameForce`], [`Error::NotTheSameSlopes`].
+    pub fn new(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error>
+    where
+        M: ProvedFor<S::Class>,
+    {
         Self::with_summation(method, system, state, step_size)
     }
 }
@@ -116,7 +121,10 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V, Plain> {
     /// # Ok(())
     /// # }
     /// ```
-    pub fn plain(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error> {
+    pub fn plain(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error>
+    where
+        M: ProvedFor<S::Class>,
+    {
         Self::with_summation(method, system, state, step_size)
     }
 }
@@ -250,10 +258,14 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         system: S,
         state: State<V>,
         step_size: f64,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, Error>
+    where
+        M: ProvedFor<S::Class>,
+    {
         check_step_size(step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
         check_masses(&system, &state)?;
+        check_quadratic_kinetic::<M, V, S>(&system, &state)?;
         if !R::COMPENSATED {
             check_pass(&system, &state, step_size)?;
         }

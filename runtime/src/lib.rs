@@ -112,6 +112,7 @@ mod newton;
 mod output;
 mod partial;
 mod progress;
+mod proved;
 mod relax;
 #[cfg(feature = "report")]
 pub mod report;
@@ -182,6 +183,7 @@ pub use newton::{
 pub use newton::{DualNumbers, HamiltonianInDuals};
 pub use num_traits;
 pub use progress::Progress;
+pub use proved::{LowerOrder, Orders, ProvedFor};
 pub use relax::relax;
 pub use retry::Retry;
 pub use scalar::Scalar;

@@ -4,12 +4,14 @@ use core::fmt::Debug;
 
 use crate::{
     Change, Class, Coefficients, EvaluationCounts, Failure, General, Hamiltonian, Inside,
-    Interpolation, Kept, Moves, Outcome, Separable, Solver, Span, StageStorage, Step, Stopping,
-    Summation, Vector, Witness, Work,
+    Interpolation, Kept, LowerOrder, Moves, Orders, Outcome, ProvedFor, Separable, Solver, Span,
+    StageStorage, Step, Stopping, Summation, Vector, Witness, Work,
 };
 
 /// A symplectic partitioned Runge–Kutta method: a type without a value, emitted from a proved tableau.
-pub trait Method: Copy + Debug + 'static {
+///
+/// It can be run on separable systems. On general ones it can where it is [`ProvedFor`] them.
+pub trait Method: ProvedFor<Separable> + Copy + Debug + 'static {
     /// Name of the method.
     const NAME: &'static str;
     /// Number of stages s of the tableau; a plan may store fewer.
@@ -19,6 +21,33 @@ pub trait Method: Copy + Debug + 'static {
     const DEFINITION: &'static str;
     /// The coefficients, for what is computed beside the step; the plans have theirs in their code.
     const COEFFICIENTS: Coefficients;
+    /// Its order for each class of Hamiltonians.
+    const ORDERS: Orders;
+    /// Whether it is refused for separable systems whose kinetic energy is not quadratic: where its order is lower there.
+    const NEEDS_QUADRATIC_KINETIC: bool = Self::ORDERS.nystrom > Self::ORDERS.separable;
+
+    /// The same method, for every system: also where its order is lower or it is not symplectic.
+    ///
+    /// ```
+    /// symplectic::tableau! { ForestRuth { base: forest-ruth-1990 } }
+    /// use symplectic::nalgebra::Vector1;
+    /// use symplectic::{Error, Integrator, Method, State, hamiltonian};
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let system = hamiltonian::<Vector1<f64>, _, _>(
+    ///     |_, q, p, velocity| velocity[0] = p[0] * (q[0] * q[0] + 1.0),
+    ///     |_, q, p, force| force[0] = -q[0] * (p[0] * p[0] + 1.0),
+    /// );
+    /// let start = State::from_arrays(0.0, [0.0], [1.0]);
+    /// assert_eq!((ForestRuth::ORDERS.separable, ForestRuth::ORDERS.general), (4, 1));
+    /// let mut integrator = Integrator::new(ForestRuth.accept_lower_order(), system, start, 0.1)?;
+    /// integrator.step()?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    fn accept_lower_order(self) -> LowerOrder<Self> {
+        LowerOrder(self)
+    }
 
     /// How it steps a system with any Hamiltonian.
     type General: Plan<Class = General>;

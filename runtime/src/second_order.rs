@@ -14,6 +14,7 @@ pub use self::stages::SecondOrderStages;
 use crate::in_lanes::{
     ByLanes, Sums, entry, extend, extrapolate, is_about, lanes, scale_of, values,
 };
+use crate::integrator::linearity::{NonLinear, non_linear_velocity};
 use crate::iteration::{Begun, Sweeps, coin, patiently, settle};
 use crate::lane_movement::{LaneMovement, part_change};
 use crate::lane_stages::LaneStages;
@@ -44,9 +45,6 @@ use crate::{
 #[derive(Clone, Copy, Debug)]
 pub struct SecondOrderInLanes(());
 
-/// How far a velocity may be from one that is linear, of the largest component: far more than rounding.
-const TOLERANCE: f64 = 1e-12;
-
 impl SecondOrderInLanes {
     /// The solver, if the velocity of `system` is linear in the momentum, `p` and another one, and does not depend on time.
     ///
@@ -58,40 +56,18 @@ impl SecondOrderInLanes {
         V: Vector<Scalar = f64>,
         S: Hamiltonian<V>,
     {
-        let velocity = |time: f64, momentum: &dyn Fn(usize) -> f64| {
-            let (mut point, mut velocity) = (p.zeros_like(), p.zeros_like());
-            for (k, component) in point.as_mut_slice().iter_mut().enumerate() {
-                *component = momentum(k);
-            }
-            system.velocity(time, q, &point, &mut velocity);
-            velocity
-        };
-        let first = |k: usize| p.as_slice()[k];
-        let second = |k: usize| 0.75 * (k + 1) as f64;
-        let (v, w) = (velocity(time, &first), velocity(time, &second));
-        let cases = [
-            (velocity(time, &|k| first(k) + second(k)), 1.0, 1.0),
-            (velocity(time, &|k| -2.0 * second(k)), 0.0, -2.0),
-            (velocity(time + 1.0, &second), 0.0, 1.0),
-        ];
-        for (velocity, of_first, of_second) in cases {
-            let linear = |k: usize| of_first * v.as_slice()[k] + of_second * w.as_slice()[k];
-            let sizes = v.as_slice().iter().chain(w.as_slice()).map(|x| x.abs());
-            let bound = TOLERANCE * sizes.fold(0.0, f64::max);
-            for (component, &velocity) in velocity.as_slice().iter().enumerate() {
-                let linear = linear(component);
-                // What is not a number is not within the bound.
-                let near = (velocity - linear).abs() <= bound;
-                if !near {
-                    return Err(Error::NotSecondOrder {
-                        component,
-                        velocity,
-                        linear,
-                    });
-                }
-            }
+        match non_linear_velocity(system, time, q, p) {
+            None => Ok(Self(())),
+            Some(NonLinear {
+                component,
+                velocity,
+                linear,
+            }) => Err(Error::NotSecondOrder {
+                component,
+                velocity,
+                linear,
+            }),
         }
-        Ok(Self(()))
     }
 }
 

@@ -44,8 +44,8 @@
 /// ```
 ///
 /// (Marsden & West 2001, §2.6.4), so that everything is proved of it that is proved of a tableau. It is symplectic for
-/// separable Hamiltonians, `require: [symplectic(separable)]`; a [`General`](crate::General) system can be stepped with it
-/// too, by iteration, but that step is not symplectic and has a lower order.
+/// separable Hamiltonians, `require: [symplectic(separable)]`. On a [`General`](crate::General) system it is not symplectic and has
+/// a lower order: there it compiles with [`accept_lower_order`](crate::Method::accept_lower_order) only.
 ///
 /// A step of a [`Separable`](crate::Separable) system is straight-line code. Where it begins and ends with a kick, the force
 /// at its end is the one at the start of the next step, and is evaluated once.

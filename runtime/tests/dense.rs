@@ -5,8 +5,8 @@ mod common;
 use common::systems::{Pendulum, Product, point};
 use symplectic::nalgebra::{DVector, SVector, Vector2};
 use symplectic::{
-    Error, Hamiltonian, Integrator, Interpolation, Method, Scalar, SeparableHamiltonian, Solver,
-    State, Summation, Vector, composition, tableau,
+    Error, Hamiltonian, Integrator, Interpolation, Method, ProvedFor, Scalar, SeparableHamiltonian,
+    Solver, State, Summation, Vector, composition, tableau,
 };
 
 tableau! {
@@ -70,7 +70,7 @@ fn errors<M, S, V>(
     size: f64,
 ) -> Result<[f64; 2], Error>
 where
-    M: Method,
+    M: Method + ProvedFor<S::Class>,
     S: Hamiltonian<V>,
     V: Vector<Scalar = f64>,
 {
@@ -101,7 +101,7 @@ fn shows<M, S, V>(
     expected: [u32; 2],
 ) -> Result<(), Error>
 where
-    M: Method,
+    M: Method + ProvedFor<S::Class>,
     S: Hamiltonian<V>,
     V: Vector<Scalar = f64>,
 {
@@ -129,7 +129,7 @@ where
 
 fn interpolation<M, S, V>(_method: M, _system: impl Fn() -> S, _start: &State<V>) -> Interpolation
 where
-    M: Method,
+    M: Method + ProvedFor<S::Class>,
     S: Hamiltonian<V>,
     V: Vector,
 {

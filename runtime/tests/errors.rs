@@ -8,8 +8,8 @@ use common::systems::{Pendulum, Product, point};
 use common::{Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1};
 use symplectic::{
-    Error, Hamiltonian, Integrator, Method, Quantity, State, Vector, acceleration, hamiltonian,
-    separable,
+    Error, Hamiltonian, Integrator, Method, ProvedFor, Quantity, State, Vector, acceleration,
+    hamiltonian, separable,
 };
 
 type Point = Vector1<f64>;
@@ -22,7 +22,7 @@ fn assert_recovers<M, S, V>(
     start: &State<V>,
 ) -> Error
 where
-    M: Method,
+    M: Method + ProvedFor<S::Class>,
     S: Hamiltonian<V>,
     V: Vector,
 {

@@ -13,8 +13,9 @@ use common::systems::{Driven, Pendulum, Product, point};
 use common::{Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::{
-    Coefficient, Coefficients, Error, General, GeneratingFunction, Hamiltonian, Integrator, Method,
-    Quantity, Scalar, SeparableHamiltonian, State, generating_function, hamiltonian, separable,
+    Class, Coefficient, Coefficients, Error, General, GeneratingFunction, Hamiltonian, Integrator,
+    Method, Orders, ProvedFor, Quantity, Scalar, SeparableHamiltonian, State, generating_function,
+    hamiltonian, separable,
 };
 
 symplectic::tableau! {
@@ -84,7 +85,7 @@ fn defect<M, S, const N: usize>(
     h: f64,
 ) -> Result<f64, Error>
 where
-    M: Method,
+    M: Method + ProvedFor<S::Class>,
     S: Hamiltonian<SVector<Dual, N>>,
 {
     let mut worst = 0.0_f64;
@@ -109,7 +110,7 @@ fn defect_by_differences<M, S, const N: usize>(
     h: f64,
 ) -> Result<f64, Error>
 where
-    M: Method,
+    M: Method + ProvedFor<S::Class>,
     S: Hamiltonian<SVector<f64, N>>,
 {
     const DISTANCE: f64 = 1e-3;
@@ -198,9 +199,12 @@ macro_rules! impostor {
             const STAGES: usize = StoermerVerlet::STAGES;
             const DEFINITION: &'static str = "";
             const COEFFICIENTS: Coefficients = $coefficients;
+            const ORDERS: Orders = StoermerVerlet::ORDERS;
             type General = <StoermerVerlet as Method>::General;
             type Separable = <StoermerVerlet as Method>::Separable;
         }
+
+        impl<C: Class> ProvedFor<C> for $name {}
     };
 }
 
@@ -242,7 +246,7 @@ fn orbit<M, S, const N: usize>(
     h: f64,
 ) -> Result<Orbit<N>, Error>
 where
-    M: Method,
+    M: Method + ProvedFor<S::Class>,
     S: Hamiltonian<SVector<Dual, N>>,
 {
     let mut start = State::new(0.0, constants(q0), constants(p0));
@@ -315,7 +319,10 @@ fn a_sum_with_another_function_does_not() -> Result<(), Error> {
 
 #[test]
 fn a_degenerate_hamiltonian_has_the_function_q0_p1_r() -> Result<(), Error> {
-    fn check<M: Method>(method: M, stability: impl Fn(f64) -> f64) -> Result<(), Error> {
+    fn check<M: Method + ProvedFor<General>>(
+        method: M,
+        stability: impl Fn(f64) -> f64,
+    ) -> Result<(), Error> {
         for h in [0.5, 0.1, -0.3] {
             let (q0, p1) = (Vector1::new(1.5), Vector1::new(0.75));
             let GeneratingFunction { value, p0, q1 } =
@@ -346,7 +353,7 @@ fn a_degenerate_hamiltonian_has_the_function_q0_p1_r() -> Result<(), Error> {
 
 #[test]
 fn the_degenerate_function_tends_to_that_of_the_flow() -> Result<(), Error> {
-    fn errors<M: Method>(method: M) -> Result<Vec<f64>, Error> {
+    fn errors<M: Method + ProvedFor<General>>(method: M) -> Result<Vec<f64>, Error> {
         let (q0, p1) = (Vector1::new(1.5), Vector1::new(0.75));
         let error = |h: f64| {
             let generating = generating_function(method, &Degenerate, 0.0, &q0, &p1, h)?;

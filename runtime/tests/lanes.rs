@@ -6,8 +6,8 @@ use std::fmt::Debug;
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::{
     Compensated, Error, F64x2, F64x4, F64x8, General, Hamiltonian, HamiltonianInLanes, Integrator,
-    Lanes, Method, Plain, Quantity, Scalar, SeparableHamiltonian, Solver, State, Summation, Vector,
-    tableau,
+    Lanes, Method, Plain, ProvedFor, Quantity, Scalar, Separable, SeparableHamiltonian, Solver,
+    State, Summation, Vector, tableau,
 };
 
 tableau! { Gauss1 { basis: polynomial(1), nodes: gauss(1) } }
@@ -70,7 +70,7 @@ fn compare<M, S, V>(
     h: f64,
 ) -> Result<(), Error>
 where
-    M: Method,
+    M: Method + ProvedFor<<S as Hamiltonian<V>>::Class>,
     S: HamiltonianInLanes<V>,
     V: Vector<Scalar = f64> + Debug,
 {
@@ -97,7 +97,7 @@ where
 
 #[test]
 fn lanes_give_the_same_bits() -> Result<(), Error> {
-    fn check<M: Method>(method: M) -> Result<(), Error> {
+    fn check<M: Method + ProvedFor<General>>(method: M) -> Result<(), Error> {
         let kepler = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
         compare(method, || Kepler, &kepler, 0.03)?;
         let (q, p) = (
@@ -258,7 +258,7 @@ fn what_is_not_finite_is_named_with_its_stage() -> Result<(), Error> {
 fn without_momentum_stages<M, S>(method: M, system: S) -> Result<(), Error>
 where
     M: Method,
-    S: HamiltonianInLanes<Vector2<f64>> + Copy,
+    S: HamiltonianInLanes<Vector2<f64>> + Hamiltonian<Vector2<f64>, Class = Separable> + Copy,
 {
     without_momentum_stages_by::<Compensated, M, S>(method, system)?;
     without_momentum_stages_by::<Plain, M, S>(method, system)
@@ -268,7 +268,7 @@ where
 fn without_momentum_stages_by<R: Summation, M, S>(method: M, system: S) -> Result<(), Error>
 where
     M: Method,
-    S: HamiltonianInLanes<Vector2<f64>> + Copy,
+    S: HamiltonianInLanes<Vector2<f64>> + Hamiltonian<Vector2<f64>, Class = Separable> + Copy,
 {
     let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
     let made = || Integrator::<_, _, _, R>::with_summation(method, system, start.clone(), 0.03);
@@ -304,10 +304,13 @@ fn second_order_systems_need_no_momentum_stages() -> Result<(), Error> {
 }
 
 /// Both halves at once, beside one after the other, with these sums.
-fn at_once<R: Summation, M: Method, V>(method: M, start: &State<V>) -> Result<(), Error>
+fn at_once<R: Summation, M: Method + ProvedFor<General>, V>(
+    method: M,
+    start: &State<V>,
+) -> Result<(), Error>
 where
     V: Vector<Scalar = f64> + Debug,
-    Coupled: HamiltonianInLanes<V>,
+    Coupled: HamiltonianInLanes<V> + Hamiltonian<V, Class = General>,
 {
     let made = || Integrator::<_, _, _, R>::with_summation(method, Coupled, start.clone(), 0.05);
     let (mut in_turn, mut at_once) = (made()?.in_lanes(), made()?.at_once_in_lanes());
@@ -336,7 +339,7 @@ where
 
 #[test]
 fn halves_at_once_are_those_in_turn_up_to_rounding() -> Result<(), Error> {
-    fn check<M: Method>(method: M) -> Result<(), Error> {
+    fn check<M: Method + ProvedFor<General>>(method: M) -> Result<(), Error> {
         let q = SVector::from([0.5, -0.3, 0.9]);
         let p = SVector::from([1.0, 0.25, -0.5]);
         let long = |x: SVector<f64, 3>| DVector::from_column_slice(x.as_slice());
@@ -418,7 +421,7 @@ fn evaluations_are_counted_for_every_stage() -> Result<(), Error> {
         mut integrator: Integrator<M, S, V, R, N>,
     ) -> Result<(), Error>
     where
-        M: Method,
+        M: Method + ProvedFor<S::Class>,
         S: Hamiltonian<V>,
         V: Vector,
         R: Summation,
@@ -431,7 +434,7 @@ fn evaluations_are_counted_for_every_stage() -> Result<(), Error> {
         Ok(())
     }
 
-    fn all<M: Method>(method: M, stages: u64) -> Result<(), Error> {
+    fn all<M: Method + ProvedFor<General>>(method: M, stages: u64) -> Result<(), Error> {
         let calls = Cell::new(0);
         let q = SVector::from([0.5, -0.3, 0.9]);
         let start = State::new(0.0, q, SVector::from([1.0, 0.25, -0.5]));

@@ -7,8 +7,8 @@ use std::rc::Rc;
 use symplectic::nalgebra::DVector;
 use symplectic::{
     Bonds, Chain, Compensated, Components, Error, F64x8, Hamiltonian, HamiltonianInLanes,
-    Integrator, MOST_ROW_STAGES, Method, Plain, Scalar, SeparableHamiltonian, StageRows, State,
-    Statistics, Summation, Vector, copy, tableau,
+    Integrator, MOST_ROW_STAGES, Method, Plain, Scalar, Separable, SeparableHamiltonian, StageRows,
+    State, Statistics, Summation, Vector, copy, tableau,
 };
 
 tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
@@ -152,7 +152,7 @@ fn run<M: Method, S, R: Summation>(
     set: impl Fn(&mut Integrator<M, S, DVector<f64>, R>) -> Result<(), Error>,
 ) -> Result<(State<DVector<f64>>, Statistics), Error>
 where
-    S: HamiltonianInLanes<DVector<f64>>,
+    S: HamiltonianInLanes<DVector<f64>> + Hamiltonian<DVector<f64>, Class = Separable>,
 {
     let mut integrator = Integrator::with_summation(method, system, start(n), step_size)?;
     set(&mut integrator)?;
@@ -187,7 +187,7 @@ macro_rules! compare {
 fn stages_along_the_components_are_those_of_the_force() -> Result<(), Error> {
     fn plain<M: Method, S>(made: &mut Integrator<M, S, DVector<f64>, Plain>) -> Result<(), Error>
     where
-        S: HamiltonianInLanes<DVector<f64>>,
+        S: HamiltonianInLanes<DVector<f64>> + Hamiltonian<DVector<f64>, Class = Separable>,
     {
         made.set_tolerance(1e-14)
     }
@@ -267,7 +267,7 @@ fn rows_are_made_where_components_fill_them() -> Result<(), Error> {
 fn steps_may_change_and_have_states_inside() -> Result<(), Error> {
     fn check<M: Method, S, R: Summation>(method: M, system: S, n: usize) -> Result<Vec<f64>, Error>
     where
-        S: HamiltonianInLanes<DVector<f64>>,
+        S: HamiltonianInLanes<DVector<f64>> + Hamiltonian<DVector<f64>, Class = Separable>,
     {
         let integrator = Integrator::<_, _, _, R>::with_summation(method, system, start(n), 0.2)?;
         let mut integrator = integrator.in_second_order_lanes()?;
@@ -377,7 +377,7 @@ fn failure<M: Method, S>(
     iterations: u32,
 ) -> (Error, State<DVector<f64>>)
 where
-    S: HamiltonianInLanes<DVector<f64>>,
+    S: HamiltonianInLanes<DVector<f64>> + Hamiltonian<DVector<f64>, Class = Separable>,
 {
     let mut start = start(n);
     start.p *= 3.0;

@@ -7,8 +7,8 @@ use common::{Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::{
     Analytic, Banded, Dense, Differences, Error, FixedPointThenNewton, General, Hamiltonian,
-    Integrator, Jacobian, Linearized, Method, Newton, Quantity, Scalar, SeparableHamiltonian,
-    State, Vector, separable, tableau,
+    Integrator, Jacobian, Linearized, Method, Newton, ProvedFor, Quantity, Scalar, Separable,
+    SeparableHamiltonian, State, Vector, separable, tableau,
 };
 
 tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
@@ -43,7 +43,7 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
     }
 }
 
-fn oscillator(omega: f64) -> impl Hamiltonian<Vector1<f64>> {
+fn oscillator(omega: f64) -> impl Hamiltonian<Vector1<f64>, Class = Separable> {
     separable::<Vector1<f64>, _, _>(
         |_, p, velocity| *velocity = *p,
         move |_, q, force| *force = q * (-omega * omega),
@@ -52,7 +52,7 @@ fn oscillator(omega: f64) -> impl Hamiltonian<Vector1<f64>> {
 }
 
 /// H = p²/2 + k(|q| − 1)²/2 + q₂, a pendulum on a spring with ω = √k.
-fn spring_pendulum(omega: f64) -> impl Hamiltonian<Vector2<f64>> {
+fn spring_pendulum(omega: f64) -> impl Hamiltonian<Vector2<f64>, Class = Separable> {
     let stiffness = omega * omega;
     separable::<Vector2<f64>, _, _>(
         |_, p, velocity| *velocity = *p,
@@ -74,7 +74,7 @@ fn compare<M, S, V>(
     h: f64,
 ) -> Result<f64, Error>
 where
-    M: Method,
+    M: Method + ProvedFor<S::Class>,
     S: Hamiltonian<V>,
     V: Vector<Scalar = f64>,
 {
@@ -91,7 +91,7 @@ where
 
 #[test]
 fn it_finds_what_the_fixed_point_iteration_finds() -> Result<(), Error> {
-    fn check<M: Method>(method: M) -> Result<(), Error> {
+    fn check<M: Method + ProvedFor<General>>(method: M) -> Result<(), Error> {
         let kepler = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
         let distance = compare(method, || Kepler, &kepler, 0.05)?;
         // Rounding errors of 50 steps, growing as errors on a Kepler orbit do.
@@ -357,7 +357,7 @@ impl<T: Scalar> Hamiltonian<DVector<T>> for Rotors {
 
 #[test]
 fn general_systems_that_are_stiff() -> Result<(), Error> {
-    fn check<M: Method>(method: M, stiffness: f64) -> Result<(), Error> {
+    fn check<M: Method + ProvedFor<General>>(method: M, stiffness: f64) -> Result<(), Error> {
         let start = || State::new(0.0, chain_start().q * 1e-3, DVector::zeros(24));
         let integrator = || Integrator::new(method, Rotors(stiffness), start(), 0.1);
         let mut dense = integrator()?.by_newton();

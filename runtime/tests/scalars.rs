@@ -7,7 +7,8 @@ use common::systems::{Pendulum, Product, point};
 use common::{Midpoint, StoermerVerlet, run};
 use symplectic::nalgebra::{DVector, SVector, Vector1};
 use symplectic::{
-    Error, Hamiltonian, Integrator, Method, Scalar, State, Vector, hamiltonian, separable,
+    Error, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State, Vector, hamiltonian,
+    separable,
 };
 
 #[test]
@@ -46,7 +47,9 @@ fn single_precision_follows_double() -> Result<(), Error> {
 fn dual_numbers_differentiate_the_flow() -> Result<(), Error> {
     fn check<M, S>(method: M, system: impl Fn() -> S) -> Result<(), Error>
     where
-        M: Method,
+        M: Method
+            + ProvedFor<<S as Hamiltonian<Vector1<f64>>>::Class>
+            + ProvedFor<<S as Hamiltonian<Vector1<Dual>>>::Class>,
         S: Hamiltonian<Vector1<f64>> + Hamiltonian<Vector1<Dual>>,
     {
         let q = |q0: f64| Ok(run(method, system(), point(q0, 0.3), 2.0, 50)?.q[0]);

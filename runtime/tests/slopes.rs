@@ -4,7 +4,8 @@ use std::cell::Cell;
 
 use symplectic::nalgebra::SVector;
 use symplectic::{
-    Error, General, Hamiltonian, Integrator, Plain, Quantity, Scalar, State, Statistics, tableau,
+    Error, General, Hamiltonian, Integrator, Method, Plain, ProvedFor, Quantity, Scalar, State,
+    Statistics, tableau,
 };
 
 tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
@@ -52,7 +53,7 @@ impl<T: Scalar, const SHARED: bool> Hamiltonian<Vector1<T>> for Bell<'_, SHARED>
 #[test]
 fn what_is_shared_is_evaluated_once() -> Result<(), Error> {
     type Run = (State<Vector1<f64>>, Statistics, u64);
-    fn run<M: symplectic::Method, const SHARED: bool>(method: M) -> Result<Run, Error> {
+    fn run<M: Method + ProvedFor<General>, const SHARED: bool>(method: M) -> Result<Run, Error> {
         let count = Cell::new(0);
         let start = State::new(0.0, Vector1::new(0.4), Vector1::new(0.7));
         let made = Integrator::new(method, Bell::<SHARED>(&count), start, 0.05)?;
@@ -61,7 +62,7 @@ fn what_is_shared_is_evaluated_once() -> Result<(), Error> {
         at_once.take_steps(500)?;
         Ok((at_once.state().clone(), *at_once.statistics(), count.get()))
     }
-    fn check<M: symplectic::Method>(method: M, share: u64) -> Result<(), Error> {
+    fn check<M: Method + ProvedFor<General>>(method: M, share: u64) -> Result<(), Error> {
         let (shared, alone) = (run::<M, true>(method)?, run::<M, false>(method)?);
         assert_eq!((&shared.0, &shared.1), (&alone.0, &alone.1), "{}", M::NAME);
         assert_eq!(share * shared.2, alone.2, "{}", M::NAME);

@@ -5,8 +5,8 @@
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
 use symplectic::{
-    Class, Compensated, Error, Hamiltonian, HamiltonianInLanes, Integrator, Method, Plain, State,
-    Summation, Vector,
+    Class, Compensated, Error, Hamiltonian, HamiltonianInLanes, Integrator, Method, Plain,
+    ProvedFor, State, Summation, Vector,
 };
 use symplectic_tests::drift::{Sample, ensemble, exponent};
 use symplectic_tests::methods::{Gauss6, Gauss8};
@@ -89,7 +89,12 @@ struct Ensemble<'a, S, V> {
 impl<S: HamiltonianInLanes<V> + Copy, V: Vector<Scalar = f64>> Ensemble<'_, S, V> {
     /// A row for each kind of sums, and one for the step without momentum stages where the Hamiltonian is separable, or for that with
     /// positions and momenta at once where it is not.
-    fn rows<M: Method>(&self, method: M, step_size: f64, steps: &[u64]) -> Result<(), Error> {
+    fn rows<M: Method + ProvedFor<<S as Hamiltonian<V>>::Class>>(
+        &self,
+        method: M,
+        step_size: f64,
+        steps: &[u64],
+    ) -> Result<(), Error> {
         let system = self.system;
         let row = |sums, samples: Vec<Sample>| self.row::<M>(sums, &samples);
         // In lanes they are the same to the last bit, and faster.
@@ -111,7 +116,7 @@ impl<S: HamiltonianInLanes<V> + Copy, V: Vector<Scalar = f64>> Ensemble<'_, S, V
     }
 
     /// A row for the step without momentum stages.
-    fn second_order<M: Method, R: Summation>(
+    fn second_order<M: Method + ProvedFor<<S as Hamiltonian<V>>::Class>, R: Summation>(
         &self,
         method: M,
         sums: &str,

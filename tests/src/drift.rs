@@ -4,7 +4,9 @@
 //! spread grows like the square root of the number of steps (Brouwer's law). A drift is a mean that is many of its own
 //! standard errors away from zero, and that grows with the number of steps itself.
 
-use symplectic::{Error, Hamiltonian, Integrator, Method, Solver, State, Summation, Vector};
+use symplectic::{
+    Error, Hamiltonian, Integrator, Method, ProvedFor, Solver, State, Summation, Vector,
+};
 
 /// The relative energy errors of an ensemble after a number of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +33,7 @@ pub fn ensemble<M, S, V, R, N>(
     steps: &[u64],
 ) -> Result<Vec<Sample>, Error>
 where
-    M: Method,
+    M: Method + ProvedFor<S::Class>,
     S: Hamiltonian<V>,
     V: Vector<Scalar = f64>,
     R: Summation,

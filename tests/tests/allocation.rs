@@ -12,7 +12,7 @@ use nalgebra::DVector;
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use symplectic::{
     Banded, Dense, Differences, Error, FixedPoint, FixedPointThenNewton, Hamiltonian, Integrator,
-    Method, Newton, Solver, State, hamiltonian, separable,
+    Method, Newton, ProvedFor, Solver, State, hamiltonian, separable,
 };
 use symplectic_tests::methods::{Gauss4, Lobatto3, StoermerVerlet};
 
@@ -25,7 +25,11 @@ symplectic::composition! {
 static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
 /// Allocations in a hundred steps and one run to an end.
-fn allocations<M: Method, S: Hamiltonian<DVector<f64>>, N: Solver<DVector<f64>, S>>(
+fn allocations<
+    M: Method + ProvedFor<S::Class>,
+    S: Hamiltonian<DVector<f64>>,
+    N: Solver<DVector<f64>, S>,
+>(
     method: M,
     system: S,
     solver: N,

@@ -2,7 +2,8 @@
 
 use symplectic::nalgebra::{Vector1, Vector2};
 use symplectic::{
-    Error, General, Hamiltonian, Integrator, Method, Quantity, State, Summation, separable,
+    Error, General, Hamiltonian, Integrator, Method, ProvedFor, Quantity, State, Summation,
+    separable,
 };
 use symplectic_tests::counting::{Counting, Counts};
 use symplectic_tests::measure::{integrate, position_error};
@@ -125,7 +126,7 @@ fn different_methods_follow_one_another() -> Result<(), Error> {
         start: &State<V>,
         h: f64,
     ) -> Result<State<V>, Error> {
-        fn one<M: Method, S: Hamiltonian<V>, V: symplectic::Vector>(
+        fn one<M: Method + ProvedFor<S::Class>, S: Hamiltonian<V>, V: symplectic::Vector>(
             method: M,
             system: S,
             start: State<V>,

@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeSet, HashSet};
 
-use symplectic::{Coefficient, Error, Integrator, Method, Scalar};
+use symplectic::{Coefficient, Error, General, Integrator, Method, ProvedFor, Scalar};
 use symplectic_compiler::{Coefficients, Definition, Limits, Properties, Tableau};
 use symplectic_tests::scenes::kepler::{Kepler, start};
 
@@ -295,7 +295,7 @@ fn methods_of_all_tiers_step() -> Result<(), Error> {
     use symplectic::nalgebra::SVector;
     use symplectic::{State, hamiltonian};
 
-    fn area<M: Method>(method: M) -> Result<f64, Error> {
+    fn area<M: Method + ProvedFor<General>>(method: M) -> Result<f64, Error> {
         type Vector = SVector<f64, 1>;
         let step = |q: f64, p: f64| {
             let system = hamiltonian(

@@ -79,6 +79,8 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
         (Class::General, &general_plan),
         (Class::Separable, &separable_plan),
     ];
+    let orders = orders(tableau);
+    let proved = proved(tableau, name);
     let plans = plan::plans(tableau, &numbers, names)?;
     let [general, separable] = [&plans[0].name, &plans[1].name];
     let code = plans.iter().map(|plan| &plan.code);
@@ -101,9 +103,12 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
                 const STAGES: usize = #stages;
                 const DEFINITION: &'static str = #definition;
                 #coefficients
+                #orders
                 type General = #general;
                 type Separable = #separable;
             }
+
+            #proved
 
             #(#code)*
         };
@@ -245,6 +250,26 @@ fn coefficients(
             #(#constants)*
             ::symplectic::Coefficients { a: #a, a_tilde: #a_tilde, b: #b, b_tilde: #b_tilde, c: #c, c_tilde: #c_tilde }
         };
+    }
+}
+
+/// The order for each class of Hamiltonians.
+fn orders(tableau: &Tableau) -> TokenStream {
+    let orders = tableau.orders();
+    let [general, separable, nystrom] = [&orders.general, &orders.separable, &orders.nystrom]
+        .map(|class| literal::count(class.order));
+    quote! {
+        const ORDERS: ::symplectic::Orders =
+            ::symplectic::Orders { general: #general, separable: #separable, nystrom: #nystrom };
+    }
+}
+
+/// The classes of systems on which the method is no worse than on narrower ones.
+fn proved(tableau: &Tableau, name: &Ident) -> TokenStream {
+    if tableau.keeps_its_order_in_general() {
+        quote!(impl<C: ::symplectic::Class> ::symplectic::ProvedFor<C> for #name {})
+    } else {
+        quote!(impl ::symplectic::ProvedFor<::symplectic::Separable> for #name {})
     }
 }
 

@@ -282,9 +282,15 @@ const _: () = {
                 c_tilde: C_TILDE,
             }
         };
+        const ORDERS: ::symplectic::Orders = ::symplectic::Orders {
+            general: 1,
+            separable: 4,
+            nystrom: 4,
+        };
         type General = ::symplectic::Coupled<ForestRuthGeneral>;
         type Separable = ::symplectic::Splitting<ForestRuthSeparable>;
     }
+    impl ::symplectic::ProvedFor<::symplectic::Separable> for ForestRuth {}
     pub struct ForestRuthGeneral;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for ForestRuthGeneral {

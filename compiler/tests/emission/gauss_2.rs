@@ -94,9 +94,15 @@ const _: () = {
                 c_tilde: C,
             }
         };
+        const ORDERS: ::symplectic::Orders = ::symplectic::Orders {
+            general: 4,
+            separable: 4,
+            nystrom: 4,
+        };
         type General = ::symplectic::Coupled<Gauss2General>;
         type Separable = ::symplectic::Coupled<Gauss2Separable>;
     }
+    impl<C: ::symplectic::Class> ::symplectic::ProvedFor<C> for Gauss2 {}
     pub struct Gauss2General;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for Gauss2General {

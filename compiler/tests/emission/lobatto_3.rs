@@ -177,9 +177,15 @@ const _: () = {
                 c_tilde: C_TILDE,
             }
         };
+        const ORDERS: ::symplectic::Orders = ::symplectic::Orders {
+            general: 4,
+            separable: 4,
+            nystrom: 4,
+        };
         type General = ::symplectic::Coupled<Lobatto3General>;
         type Separable = ::symplectic::Coupled<Lobatto3Separable>;
     }
+    impl<C: ::symplectic::Class> ::symplectic::ProvedFor<C> for Lobatto3 {}
     pub struct Lobatto3General;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for Lobatto3General {

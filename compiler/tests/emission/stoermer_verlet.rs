@@ -87,9 +87,15 @@ const _: () = {
                 c_tilde: C_TILDE,
             }
         };
+        const ORDERS: ::symplectic::Orders = ::symplectic::Orders {
+            general: 2,
+            separable: 2,
+            nystrom: 2,
+        };
         type General = ::symplectic::Coupled<StoermerVerletGeneral>;
         type Separable = ::symplectic::Splitting<StoermerVerletSeparable>;
     }
+    impl<C: ::symplectic::Class> ::symplectic::ProvedFor<C> for StoermerVerlet {}
     pub struct StoermerVerletGeneral;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for StoermerVerletGeneral {

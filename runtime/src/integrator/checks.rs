@@ -1,11 +1,12 @@
 //! What is looked at before an integrator is made or changed.
 
+use super::linearity::non_linear_velocity;
 use crate::array::array;
 use crate::kernel::kick_and_drift;
 use crate::stage::is_finite;
 use crate::{
     Class, Components, Error, F64x2, F64x4, F64x8, Hamiltonian, HamiltonianInLanes, Lanes, Layout,
-    MOST_ROW_STAGES, Quantity, Scalar, StageRows, State, Vector, copy,
+    MOST_ROW_STAGES, Method, Quantity, Scalar, StageRows, State, Vector, copy,
 };
 
 pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {
@@ -32,6 +33,27 @@ pub(super) fn check_masses<V: Vector, S: Hamiltonian<V>>(
             component,
             velocity,
             momentum,
+        })
+    })
+}
+
+/// Checks that the velocity is linear in the momentum, for a method that has its order there only.
+pub(super) fn check_quadratic_kinetic<M: Method, V: Vector, S: Hamiltonian<V>>(
+    system: &S,
+    state: &State<V>,
+) -> Result<(), Error> {
+    if !M::NEEDS_QUADRATIC_KINETIC || S::UNIT_MASSES {
+        return Ok(());
+    }
+    let State { time, q, p } = state;
+    non_linear_velocity(system, *time, q, p).map_or(Ok(()), |found| {
+        Err(Error::NotQuadraticKinetic {
+            method: M::NAME,
+            order: M::ORDERS.nystrom,
+            lower_order: M::ORDERS.separable,
+            component: found.component,
+            velocity: found.velocity,
+            linear: found.linear,
         })
     })
 }

@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 use super::contestant::{Contestant, Finish, Observe};
 use super::text;
 use super::{Ladder, Measured};
-use crate::{Error, Hamiltonian, Integrator, Method, Solver, State, Summation, Vector};
+use crate::{Error, Hamiltonian, Integrator, Method, ProvedFor, Solver, State, Summation, Vector};
 
 /// A system with a start, the state at the end, and the methods that are run on it.
 ///
@@ -97,7 +97,7 @@ where
 
     /// Runs a method with the fixed-point iteration where it needs one, and with compensated sums.
     #[must_use]
-    pub fn method<M: Method>(self, method: M) -> Self {
+    pub fn method<M: Method + ProvedFor<S::Class>>(self, method: M) -> Self {
         self.run(M::NAME, move |system, start, step_size| {
             Integrator::new(method, system, start, step_size)
         })
@@ -198,7 +198,7 @@ impl<V: Vector<Scalar = f64>> Reference<V> {
         step_size: f64,
     ) -> Result<Self, Error>
     where
-        M: Method,
+        M: Method + ProvedFor<S::Class>,
         S: Hamiltonian<V>,
     {
         let mut integrator = Integrator::new(method, system, start.clone(), 1.5 * step_size)?;

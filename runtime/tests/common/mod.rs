@@ -4,7 +4,7 @@ pub mod dual;
 pub mod methods;
 pub mod systems;
 
-use symplectic::{Error, Hamiltonian, Integrator, Method, State, Vector};
+use symplectic::{Error, Hamiltonian, Integrator, Method, ProvedFor, State, Vector};
 
 pub use methods::{Midpoint, StoermerVerlet};
 
@@ -17,7 +17,7 @@ pub fn run<M, S, V>(
     steps: u32,
 ) -> Result<State<V>, Error>
 where
-    M: Method,
+    M: Method + ProvedFor<S::Class>,
     S: Hamiltonian<V>,
     V: Vector,
 {

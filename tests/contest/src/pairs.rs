@@ -3,7 +3,9 @@
 mod few;
 mod many;
 
-use symplectic::{Error, Hamiltonian, Integrator, Method, Solver, State, Summation, Vector};
+use symplectic::{
+    Error, Hamiltonian, Integrator, Method, ProvedFor, Solver, State, Summation, Vector,
+};
 
 use crate::baseline::systems;
 use symplectic_tests::measure::largest;
@@ -199,7 +201,7 @@ where
     V: Vector<Scalar = f64>,
 {
     /// A pair for steps of `step_size`, with an integrator that is given its solver.
-    fn pair<M: Method, R: Summation, N: Solver<V, S>>(
+    fn pair<M: Method + ProvedFor<S::Class>, R: Summation, N: Solver<V, S>>(
         &self,
         method: (&'static str, M),
         step_size: f64,

@@ -13,8 +13,8 @@ use divan::Bencher;
 use peers::{End, Equations};
 use symplectic::nalgebra::SVector;
 use symplectic::{
-    Compensated, Error, Hamiltonian, HamiltonianInLanes, Integrator, Method, Plain, Solver, State,
-    Summation, Vector,
+    Compensated, Error, Hamiltonian, HamiltonianInLanes, Integrator, Method, Plain, ProvedFor,
+    Separable, Solver, State, Summation, Vector,
 };
 use symplectic_contest::baseline::gauss::{FirstOrder, Rule, SecondOrder};
 use symplectic_contest::baseline::no_drift::{Double, NoDrift, NoDriftGeneral};
@@ -251,7 +251,7 @@ fn library<M, S, V, R, N>(
     set: impl Fn(Integrator<M, S, V, R>) -> Result<Integrator<M, S, V, R, N>, Error> + 'static,
 ) -> Entry
 where
-    M: Method,
+    M: Method + ProvedFor<S::Class>,
     S: Hamiltonian<V> + Copy + 'static,
     V: Vector<Scalar = f64>,
     R: Summation,
@@ -336,7 +336,10 @@ fn separable<S, B, const N: usize, const M: usize>(
     start: &State<SVector<f64, N>>,
 ) -> Vec<Entry>
 where
-    S: HamiltonianInLanes<SVector<f64, N>> + Copy + 'static,
+    S: HamiltonianInLanes<SVector<f64, N>>
+        + Hamiltonian<SVector<f64, N>, Class = Separable>
+        + Copy
+        + 'static,
     B: systems::Separable<N> + Copy + 'static,
 {
     let &Settings {

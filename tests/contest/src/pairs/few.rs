@@ -2,7 +2,8 @@
 
 use symplectic::nalgebra::SVector;
 use symplectic::{
-    Compensated, Error, HamiltonianInLanes, Integrator, Method, Plain, State, Summation,
+    Compensated, Error, General, Hamiltonian, HamiltonianInLanes, Integrator, Method, Plain,
+    ProvedFor, Separable, State, Summation,
 };
 use wide::{f64x2, f64x4, f64x8};
 
@@ -33,7 +34,10 @@ pub(super) fn separable<S, B, const N: usize>(
     pairs: &mut Vec<Pair>,
     problem: &Problem<S, B, SVector<f64, N>>,
 ) where
-    S: HamiltonianInLanes<SVector<f64, N>> + Copy + 'static,
+    S: HamiltonianInLanes<SVector<f64, N>>
+        + Hamiltonian<SVector<f64, N>, Class = Separable>
+        + Copy
+        + 'static,
     B: systems::Separable<N> + Copy + 'static,
 {
     problem.gauss::<f64x8, _, 8>(pairs, ("Gauss 8", Gauss8), &rule!(Gauss8), 1.0);
@@ -52,7 +56,10 @@ pub(super) fn general<S, B, const N: usize>(
     pairs: &mut Vec<Pair>,
     problem: &Problem<S, B, SVector<f64, N>>,
 ) where
-    S: HamiltonianInLanes<SVector<f64, N>> + Copy + 'static,
+    S: HamiltonianInLanes<SVector<f64, N>>
+        + Hamiltonian<SVector<f64, N>, Class = General>
+        + Copy
+        + 'static,
     B: systems::General<N> + Copy + 'static,
 {
     problem.coupled::<f64x8, _, 8>(pairs, ("Gauss 8", Gauss8), &rule!(Gauss8), 1.0);
@@ -64,7 +71,10 @@ pub(super) fn general<S, B, const N: usize>(
 
 impl<S, B, const N: usize> Problem<S, B, SVector<f64, N>>
 where
-    S: HamiltonianInLanes<SVector<f64, N>> + Copy + 'static,
+    S: HamiltonianInLanes<SVector<f64, N>>
+        + Hamiltonian<SVector<f64, N>, Class = Separable>
+        + Copy
+        + 'static,
     B: systems::Separable<N> + Copy + 'static,
 {
     fn gauss<L: Lanes + 'static, M: Method, const STAGES: usize>(
@@ -152,10 +162,13 @@ where
 
 impl<S, B, const N: usize> Problem<S, B, SVector<f64, N>>
 where
-    S: HamiltonianInLanes<SVector<f64, N>> + Copy + 'static,
+    S: HamiltonianInLanes<SVector<f64, N>>
+        + Hamiltonian<SVector<f64, N>, Class = General>
+        + Copy
+        + 'static,
     B: systems::General<N> + Copy + 'static,
 {
-    fn coupled<L: Lanes + 'static, M: Method, const STAGES: usize>(
+    fn coupled<L: Lanes + 'static, M: Method + ProvedFor<General>, const STAGES: usize>(
         &self,
         pairs: &mut Vec<Pair>,
         method: (&'static str, M),
@@ -186,7 +199,7 @@ where
     }
 
     /// A pair with the stages in lanes, both halves at once where that was chosen.
-    fn coupled_in_lanes<M: Method, R: Summation>(
+    fn coupled_in_lanes<M: Method + ProvedFor<General>, R: Summation>(
         &self,
         method: (&'static str, M),
         step_size: f64,
