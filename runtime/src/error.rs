@@ -288,11 +288,35 @@ pub enum Error {
         before: f64,
     },
 
+    /// An output time is after the end of the integration.
+    #[error("the output time {time} is after the end {end}; leave it out, or integrate to it")]
+    OutputAfterEnd {
+        /// The time given.
+        time: f64,
+        /// End time given.
+        end: f64,
+    },
+
     /// The function of an [`Event`](crate::Event) is not a number.
     #[error("the function whose zeros are events is not a number at time {time}")]
     EventValue {
         /// The time.
         time: f64,
+    },
+
+    /// Time stands still between events: impacts accumulate, or the state is at rest on a wall. The present state is that at
+    /// the last event.
+    #[error(
+        "{count} events at time {time}, the last one of function {index}: impacts accumulate there, or the state is at rest on \
+         a wall; end there, or hold the state on the wall from there on"
+    )]
+    EventsAccumulate {
+        /// The time.
+        time: f64,
+        /// The number of the last event in the list, from 0.
+        index: usize,
+        /// How many events there were at this time.
+        count: u32,
     },
 
     /// A slice is not as long as the vector that is to be made of it.

@@ -1,23 +1,48 @@
 //! Events: where a function of the state changes its sign.
 
-use core::ops::ControlFlow;
+use crate::State;
 
-use crate::dense::Ends;
-use crate::partial::PartialSteps;
-use crate::root::brent;
-use crate::{Error, Hamiltonian, Integrator, Method, Solver, State, Summation, Vector};
+mod list;
+mod locate;
+mod run;
+mod search;
+mod track;
 
-/// A function of the state whose zeros are looked for.
+pub use list::Events;
+
+/// A function g of the state whose zeros are looked for.
 ///
-/// It is looked at the ends of every step and at places between them, equally spaced: a change of sign between
-/// neighbours is an event. The zero is found by Brent's method on the [dense output](Integrator::dense), to rounding; or,
-/// with [`by_steps`](Self::by_steps), by steps of the method itself.
+/// # Which zeros are found
 ///
-/// What can be missed: two zeros, or any even number, between neighbouring places; a zero at which the sign does
-/// not change. Of three zeros between neighbours one is found. More [`samples`](Self::samples) miss less.
+/// A step is looked at in panels, four unless [`samples`](Self::samples) says otherwise: g is evaluated on the
+/// [dense output](crate::Integrator::dense) at the start, the middle and the end of each. A change of sign between
+/// neighbours is an event, found by Brent's method to rounding. Where the sign is the same at all three places but the
+/// parabola through the three values has its extremum in or near the panel, the extremum of g is looked for: if g has
+/// the other sign there, both zeros are events.
 ///
-/// A zero at a place that is looked at is an event when the sign was another one before; so the start is none, and a
-/// function that is zero for a while has one event there.
+/// What can be missed: two zeros in a panel in which g has more than one extremum; two zeros closer than about 1e-8 of
+/// a panel; a zero at which the sign does not change. Of three zeros between neighbours one is found.
+/// More samples miss less.
+///
+/// # The state at an event
+///
+/// It is the last state before the zero, to rounding: g is zero there or still has the sign that it is about to
+/// lose. So the state at a [`wall`](Self::wall) is never behind it.
+///
+/// # A start on zero
+///
+/// Where g is zero at the start of a search, it has the sign that it takes right after it, in the direction of
+/// its derivative along the flow. So the start is no event, and a zero soon after it is found however soon: a ball
+/// thrown up from the floor comes down again within the first step. If the flight is too short to be seen (the
+/// derivative points up, but g is never above zero), the event is at the start itself.
+///
+/// A search from the event that was found last starts on zero too, whatever the rounding of g. So the event is not
+/// found again if the state goes on through it; if the state was reset so that g turns round, the next zero is found.
+/// If g has no derivative there and goes on, as with a ball that was left at rest on the floor, the event is at the start.
+///
+/// After a thousand events at the same time a search ends with
+/// [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), at the state of the last event: impacts accumulate, or the
+/// state is at rest.
 ///
 /// ```
 /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
@@ -44,20 +69,39 @@ use crate::{Error, Hamiltonian, Integrator, Method, Solver, State, Summation, Ve
 #[derive(Clone, Copy, Debug)]
 pub struct Event<G> {
     function: G,
+    kind: Kind,
+}
+
+/// What is an event of a function, and how it is found.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind {
     /// Whether a change to plus is one, and a change to minus.
     directions: [bool; 2],
     samples: u32,
     by_steps: bool,
+    wall: bool,
+}
+
+impl Kind {
+    const fn new(directions: [bool; 2]) -> Self {
+        Self {
+            directions,
+            samples: 8,
+            by_steps: false,
+            wall: false,
+        }
+    }
+
+    /// Whether a change from this sign is an event.
+    fn wants(&self, side: f64) -> bool {
+        self.directions[usize::from(side > 0.0)]
+    }
 }
 
 impl<G> Event<G> {
     const fn new(function: G, directions: [bool; 2]) -> Self {
-        Self {
-            function,
-            directions,
-            samples: 4,
-            by_steps: false,
-        }
+        let kind = Kind::new(directions);
+        Self { function, kind }
     }
 
     /// Where the function changes from minus to plus, in the direction of the steps.
@@ -75,10 +119,47 @@ impl<G> Event<G> {
         Self::new(function, [true, true])
     }
 
-    /// Looks at this many places in every step, its end among them, instead of four; 0 counts as 1.
+    /// A wall, on which the state stays at g ≥ 0: where the function changes from plus to minus, in the direction of the
+    /// steps.
+    ///
+    /// It differs from [`falling`](Self::falling) in two ways. A start at g ≤ 0 is an event at once unless g rises above
+    /// zero. And an integration does not go on behind it: after the event the present state is that at the event, with
+    /// what the handler makes of it. A handler that lets the state go on into the wall gets the same event again, until
+    /// [`Error::EventsAccumulate`](crate::Error::EventsAccumulate).
+    ///
+    /// ```
+    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Event, Integrator, State, acceleration};
+    /// # fn main() -> Result<(), Error> {
+    /// // A ball that loses three tenths of its speed at every impact, for ten of them.
+    /// let ball = acceleration::<Vector1<f64>, _>(|_, _, acceleration| acceleration[0] = -9.8);
+    /// let start = State::new(0.0, Vector1::new(50.0), Vector1::new(0.0));
+    /// let mut integrator = Integrator::new(StoermerVerlet, ball, start, 0.05)?;
+    /// let floor = Event::wall(|state: &State<Vector1<f64>>| state.q[0]);
+    /// let fall = (2.0_f64 * 50.0 / 9.8).sqrt();
+    /// let mut expected = fall;
+    /// for impact in 0..10 {
+    ///     let mut state = integrator.find_event(40.0, &floor)?.expect("an impact");
+    ///     assert!(state.q[0] >= 0.0 && (state.time - expected).abs() < 1e-12);
+    ///     state.p[0] *= -0.7;
+    ///     integrator.set_state(state)?;
+    ///     expected += 2.0 * fall * 0.7_f64.powi(impact + 1);
+    /// }
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub const fn wall(function: G) -> Self {
+        let mut event = Self::falling(function);
+        event.kind.wall = true;
+        event
+    }
+
+    /// Looks at this many places in every step, its end among them, instead of eight, in half as many panels. An odd
+    /// number counts as the next even one; 0 counts as 1, and 1 looks at the end only, for changes of sign.
     #[must_use]
     pub fn samples(mut self, samples: u32) -> Self {
-        self.samples = samples.max(1);
+        self.kind.samples = samples.max(1);
         self
     }
 
@@ -101,192 +182,32 @@ impl<G> Event<G> {
     /// ```
     #[must_use]
     pub const fn by_steps(mut self) -> Self {
-        self.by_steps = true;
+        self.kind.by_steps = true;
         self
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
-    Integrator<M, S, V, R, N>
-{
-    /// [`integrate_to`](Self::integrate_to) that shows `observe` the state at every event, in their order, and ends after
-    /// the step in which `observe` breaks it: with the value that it breaks with, otherwise with `None`.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`integrate_to`](Self::integrate_to) and of [`dense`](Self::dense); [`Error::EventValue`] where the
-    /// function is not a number.
-    pub fn integrate_with_events<G, B, F>(
-        &mut self,
-        end: f64,
-        event: &Event<G>,
-        mut observe: F,
-    ) -> Result<Option<B>, Error>
-    where
-        G: Fn(&State<V>) -> f64,
-        F: FnMut(&State<V>) -> ControlFlow<B>,
-    {
-        let mut search = Search {
-            event,
-            ends: Ends::new(),
-            state: self.state().clone(),
-            before: value(event, self.state())?,
-        };
-        let ended = self.steps_to(end, |integrator, next| {
-            integrator.advance_in_sight(next.size, next.time, &mut |integrator: &Self| {
-                search.step(integrator, &mut observe)
-            })
-        })?;
-        Ok(ended.break_value())
-    }
-
-    /// The state at the first event before `end`; `None`, and the present state at `end`, if there is none.
-    ///
-    /// The present state is that after the step in which the event is.
-    ///
-    /// # Errors
-    ///
-    /// As for [`integrate_with_events`](Self::integrate_with_events).
-    pub fn find_event<G: Fn(&State<V>) -> f64>(
-        &mut self,
-        end: f64,
-        event: &Event<G>,
-    ) -> Result<Option<State<V>>, Error> {
-        self.integrate_with_events(end, event, |state| ControlFlow::Break(state.clone()))
-    }
+/// What [`integrate_through`](crate::Integrator::integrate_through) shows, in the order of time.
+#[derive(Debug)]
+pub enum Moment<'a, V> {
+    /// The state at the next output time.
+    Output(&'a State<V>),
+    /// The state at an event.
+    Event {
+        /// The number of the event in the list, from 0.
+        index: usize,
+        /// The state, which may be changed; its time is kept.
+        state: &'a mut State<V>,
+    },
 }
 
-/// A search for events, step by step.
-struct Search<'e, G, V> {
-    event: &'e Event<G>,
-    ends: Ends<V>,
-    /// The state that is looked at.
-    state: State<V>,
-    /// The value at the last place that was looked at.
-    before: f64,
-}
-
-impl<G: Fn(&State<V>) -> f64, V: Vector> Search<'_, G, V> {
-    /// Shows the events in the last step.
-    fn step<M, S, R, N, B>(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-        observe: &mut impl FnMut(&State<V>) -> ControlFlow<B>,
-    ) -> Result<ControlFlow<B>, Error>
-    where
-        M: Method,
-        S: Hamiltonian<V>,
-        R: Summation,
-        N: Solver<V, S>,
-    {
-        let last = integrator.last_step().ok_or(Error::NoStep)?;
-        let (start, end, samples) = (last.start, last.end, self.event.samples);
-        // Without places inside and without an event nothing is to be interpolated.
-        let mut evaluated = false;
-        let mut before = start;
-        for number in 1..=samples {
-            let (time, new) = if number == samples {
-                (end, value(self.event, integrator.state())?)
-            } else {
-                if !evaluated {
-                    self.ends.evaluate(integrator)?;
-                    evaluated = true;
-                }
-                let time = start + (end - start) * (f64::from(number) / f64::from(samples));
-                (time, self.value_at(integrator, time)?)
-            };
-            let old = core::mem::replace(&mut self.before, new);
-            let changed = old != 0.0 && (new == 0.0 || (new > 0.0) != (old > 0.0));
-            if changed && self.event.directions[usize::from(old > 0.0)] {
-                if !evaluated {
-                    self.ends.evaluate(integrator)?;
-                    evaluated = true;
-                }
-                self.locate(integrator, (before, time))?;
-                let shown = observe(&self.state);
-                if shown.is_break() {
-                    return Ok(shown);
-                }
-            }
-            before = time;
-        }
-        Ok(ControlFlow::Continue(()))
-    }
-
-    /// Makes the state at the event between two times the one that is looked at.
-    fn locate<M, S, R, N>(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-        between: (f64, f64),
-    ) -> Result<(), Error>
-    where
-        M: Method,
-        S: Hamiltonian<V>,
-        R: Summation,
-        N: Solver<V, S>,
-    {
-        let (before, after) = between;
-        // The polynomial has different signs there.
-        let time = brent(between, |time| self.value_at(integrator, time))?.unwrap_or(after);
-        if !self.event.by_steps {
-            return self.look_at(integrator, time);
-        }
-        let mut partial = PartialSteps::like(&self.state.q);
-        let mut value = |time| {
-            partial.take(integrator, time, &mut self.state)?;
-            value(self.event, &self.state)
-        };
-        let mut found = brent(between, &mut value)?;
-        if found.is_none() {
-            // The zero is so near to one of them that it is on the other side of it.
-            let (last, width) = (integrator.last_step().ok_or(Error::NoStep)?, after - before);
-            let (low, high) = (last.start.min(last.end), last.start.max(last.end));
-            let wider = (
-                (before - width).clamp(low, high),
-                (after + width).clamp(low, high),
-            );
-            found = brent(wider, &mut value)?;
-        }
-        value(found.unwrap_or(time)).map(|_| ())
-    }
-
-    fn value_at<M, S, R, N>(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-        time: f64,
-    ) -> Result<f64, Error>
-    where
-        M: Method,
-        S: Hamiltonian<V>,
-        R: Summation,
-        N: Solver<V, S>,
-    {
-        self.look_at(integrator, time)?;
-        value(self.event, &self.state)
-    }
-
-    fn look_at<M, S, R, N>(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-        time: f64,
-    ) -> Result<(), Error>
-    where
-        M: Method,
-        S: Hamiltonian<V>,
-        R: Summation,
-        N: Solver<V, S>,
-    {
-        let State { time: at, q, p } = &mut self.state;
-        *at = time;
-        self.ends.write(integrator, time, q, p)
-    }
-}
-
-/// The value of the function at a state.
-fn value<G: Fn(&State<V>) -> f64, V>(event: &Event<G>, state: &State<V>) -> Result<f64, Error> {
-    let value = (event.function)(state);
-    if value.is_nan() {
-        return Err(Error::EventValue { time: state.time });
-    }
-    Ok(value)
+/// The event that was found last: a search that starts at its time starts on it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LastEvent {
+    time: f64,
+    index: usize,
+    /// The sign that the function had before.
+    side: f64,
+    /// How many events have been found at this time.
+    count: u32,
 }

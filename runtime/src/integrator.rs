@@ -6,6 +6,7 @@ use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
 use crate::dense::LastStep;
+use crate::event::LastEvent;
 use crate::interpolation::Line;
 use crate::time::{Clock, uniform};
 use crate::{
@@ -81,6 +82,7 @@ pub struct Integrator<
     step_size: f64,
     stopping: Stopping,
     retry: Retry,
+    last_event: Option<LastEvent>,
     method: PhantomData<(M, R, N)>,
 }
 
@@ -277,6 +279,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             step_size,
             stopping: Stopping::DEFAULT,
             retry: Retry::default(),
+            last_event: None,
             method: PhantomData,
         })
     }
@@ -290,6 +293,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             step_size: self.step_size,
             stopping: self.stopping,
             retry: self.retry,
+            last_event: self.last_event,
             method: PhantomData,
         }
     }
@@ -514,6 +518,28 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         self.course.set_state(state);
         self.restart_clock();
         Ok(())
+    }
+
+    /// [`set_state`](Self::set_state) without an allocation.
+    pub(crate) fn copy_state(&mut self, state: &State<V>) -> Result<(), Error> {
+        check_state(
+            state.time,
+            &state.q,
+            &state.p,
+            self.course.state.q.dimension(),
+        )?;
+        self.course.copy_state(state);
+        self.restart_clock();
+        Ok(())
+    }
+
+    /// The event that was found last.
+    pub(crate) const fn last_event(&self) -> Option<LastEvent> {
+        self.last_event
+    }
+
+    pub(crate) const fn set_last_event(&mut self, event: Option<LastEvent>) {
+        self.last_event = event;
     }
 
     /// The present state, given away.

@@ -19,7 +19,7 @@
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`] |
 //! | Running it | [`State`], [`Integrator`], [`Error`], [`Retry`], [`Statistics`], [`Progress`], [`Invariant`] |
 //! | How coupled stages are found | [`Solver`]: [`FixedPoint`], [`InLanes`], [`AtOnceInLanes`], [`SecondOrderInLanes`], [`Newton`], [`FixedPointThenNewton`] |
-//! | Between the steps | [`DenseOutput`], [`Interpolation`], [`Event`] |
+//! | Between the steps | [`DenseOutput`], [`Interpolation`], [`Event`], [`Events`], [`Moment`] |
 //! | What generates a step | [`generating_function`], of Type II |
 //! | Which method to take | the module `report` |
 //! | The method, as the macro emits it | [`Method`], [`StagePlan`], [`Composition`], [`Stages`], [`Coefficient`], [`combine`], [`relax`] |
@@ -152,7 +152,7 @@ pub use composition::{Composition, CompositionMemory, Substep, Substeps};
 pub use coupled::Coupled;
 pub use dense::DenseOutput;
 pub use error::{Error, Quantity};
-pub use event::Event;
+pub use event::{Event, Events, Moment};
 pub use explicit::Explicit;
 pub use fixed_point::FixedPoint;
 #[cfg(feature = "alloc")]

@@ -1,10 +1,12 @@
-//! Zeros of a function of time.
+//! Zeros and minima of a function of time.
 
-/// A zero of a function between two times at which its signs differ, by Brent's method: inverse quadratic interpolation and
-/// secants where they are good, bisection where they are not (Brent, *Algorithms for Minimization without Derivatives*,
-/// 1973, ch. 4). Found to two units in the last place of the time; `None` where the signs do not
-/// differ.
-pub(crate) fn brent<E>(
+/// The last time before a zero of a function between two times at which its signs differ, by Brent's method: inverse
+/// quadratic interpolation and secants where they are good, bisection where they are not (Brent, *Algorithms for
+/// Minimization without Derivatives*, 1973, ch. 4).
+///
+/// There the function is zero or has the sign that it has at the first of the two times, and it changes within two units in
+/// the last place of the time; `None` where the signs do not differ.
+pub(crate) fn before_zero<E>(
     (mut a, mut b): (f64, f64),
     mut function: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<Option<f64>, E> {
@@ -17,6 +19,12 @@ pub(crate) fn brent<E>(
     if (at_a > 0.0) == (at_b > 0.0) {
         return Ok(None);
     }
+    let first_is_positive = at_a > 0.0;
+    // b and c are on different sides of the zero.
+    let side_of_first = |b: f64, at_b: f64, c: f64| {
+        let first = at_b == 0.0 || (at_b > 0.0) == first_is_positive;
+        Ok(Some(if first { b } else { c }))
+    };
     let (mut step, mut before) = (b - a, b - a);
     loop {
         if at_c.abs() < at_b.abs() {
@@ -26,7 +34,7 @@ pub(crate) fn brent<E>(
         let tolerance = f64::EPSILON * b.abs();
         let half = 0.5 * (c - b);
         if at_b == 0.0 || half.abs() <= tolerance {
-            return Ok(Some(b));
+            return side_of_first(b, at_b, c);
         }
         if before.abs() < tolerance || at_a.abs() <= at_b.abs() {
             (step, before) = (half, half);
@@ -60,7 +68,7 @@ pub(crate) fn brent<E>(
         // Where b is zero, or so near that the tolerance underflows.
         b = if moved == b { b + half } else { moved };
         if b == a {
-            return Ok(Some(b));
+            return side_of_first(b, at_b, c);
         }
         at_b = function(b)?;
         if (at_b > 0.0) == (at_c > 0.0) {
@@ -70,13 +78,74 @@ pub(crate) fn brent<E>(
     }
 }
 
+/// A time between two others at which a function is negative, looked for on the way to a minimum, by Brent's method: golden
+/// sections, and parabolas where they are good (ch. 5 of his book). `start` is a guess at the minimum.
+///
+/// The minimum is found to about 1e-8 of the distance of the times; `None` where the function is not negative there.
+pub(crate) fn negative_near_minimum<E>(
+    (from, to): (f64, f64),
+    start: f64,
+    mut function: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<Option<f64>, E> {
+    const GOLDEN: f64 = 0.381_966_011_250_105_1;
+    let (mut low, mut high) = (from.min(to), from.max(to));
+    let tolerance = 1e-8 * (high - low) + f64::EPSILON * low.abs().max(high.abs());
+    // x is the best place, w the second best, v the one before w.
+    let mut x = start.clamp(low, high);
+    let mut at_x = function(x)?;
+    let (mut w, mut v, mut at_w, mut at_v) = (x, x, at_x, at_x);
+    let (mut step, mut before) = (0.0_f64, 0.0_f64);
+    for _ in 0..MOST_STEPS_TO_MINIMUM {
+        if at_x < 0.0 {
+            return Ok(Some(x));
+        }
+        let middle = 0.5 * (low + high);
+        if (x - middle).abs() + 0.5 * (high - low) <= 2.0 * tolerance {
+            break;
+        }
+        let (r, q) = ((x - w) * (at_x - at_v), (x - v) * (at_x - at_w));
+        let (numerator, denominator) = ((x - v) * q - (x - w) * r, 2.0 * (q - r));
+        let parabola = -numerator / denominator;
+        let good = parabola.abs() < 0.5 * before.abs() && low < x + parabola && x + parabola < high;
+        if good {
+            (before, step) = (step, parabola);
+        } else {
+            before = if x < middle { high - x } else { low - x };
+            step = GOLDEN * before;
+        }
+        let u = x + if step.abs() >= tolerance {
+            step
+        } else {
+            tolerance.copysign(step)
+        };
+        let at_u = function(u)?;
+        if at_u <= at_x {
+            *(if u < x { &mut high } else { &mut low }) = x;
+            (v, w, x) = (w, x, u);
+            (at_v, at_w, at_x) = (at_w, at_x, at_u);
+        } else {
+            *(if u < x { &mut low } else { &mut high }) = u;
+            if at_u <= at_w || w == x {
+                (v, w) = (w, u);
+                (at_v, at_w) = (at_w, at_u);
+            } else if at_u <= at_v || v == x || v == w {
+                (v, at_v) = (u, at_u);
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// Golden sections alone need 40.
+const MOST_STEPS_TO_MINIMUM: u32 = 100;
+
 #[cfg(test)]
 mod tests {
-    use super::brent;
+    use super::{before_zero, negative_near_minimum};
 
     fn zero(between: (f64, f64), function: impl Fn(f64) -> f64) -> (f64, u32) {
         let mut count = 0;
-        let found = brent(between, |t| {
+        let found = before_zero(between, |t| {
             count += 1;
             Ok::<f64, ()>(function(t))
         });
@@ -112,6 +181,42 @@ mod tests {
         assert!(root.abs() < 1e-6 && count < 1500, "{root} {count}");
         let (root, count) = zero((-1.0, 4.0), |t| t * (1.0 + t * t));
         assert!(root.abs() < 1e-15 && count < 50, "{root} {count}");
-        assert_eq!(brent((1.0, 2.0), Ok::<f64, ()>), Ok(None));
+        assert_eq!(before_zero((1.0, 2.0), Ok::<f64, ()>), Ok(None));
+    }
+
+    /// The function has still its first sign there, whichever end is the later one.
+    #[test]
+    fn the_side_is_that_before_the_zero() {
+        for k in 1..1000 {
+            let place = 1.0 + f64::from(k) * 1e-3 * core::f64::consts::FRAC_1_PI;
+            let function = |t: f64| (t - place) * (1.0 + t * t) + 1e-9 * (t - place).powi(2);
+            for between in [(1.0, 2.0), (2.0, 1.0)] {
+                let (found, _) = zero(between, function);
+                assert!(function(found) * function(between.0) >= 0.0);
+                assert!((found - place).abs() <= 4.0 * f64::EPSILON * place);
+            }
+        }
+    }
+
+    #[test]
+    fn minima_below_zero_are_found() {
+        let depths = [1e-2, 1e-6, 1e-12];
+        for depth in depths {
+            for bottom in [0.01, 0.3, 0.9999] {
+                let shapes: [fn(f64) -> f64; 3] = [|x| x * x, |x| x.abs(), |x| x * x * (2.0 + x)];
+                for shape in shapes {
+                    let mut count = 0;
+                    let mut function = |t: f64| {
+                        count += 1;
+                        Ok::<f64, ()>(shape(t - bottom) - depth)
+                    };
+                    let found = negative_near_minimum((1.0, 0.0), 0.5, &mut function);
+                    let found = found.expect("no error").expect("a minimum below zero");
+                    assert!(shape(found - bottom) < depth && count < 80, "{count}");
+                }
+            }
+        }
+        let above = negative_near_minimum((0.0, 1.0), 0.5, |t| Ok::<f64, ()>(t * t + 1e-9));
+        assert_eq!(above, Ok(None));
     }
 }

@@ -6,7 +6,7 @@ use crate::stage::is_finite;
 use crate::vector::{SHORT, is_in_place};
 use crate::{
     Failure, Hamiltonian, Kept, Outcome, Plan, Solver, StageStorage, State, Statistics, Step,
-    Stopping, Summation, Vector, Work,
+    Stopping, Summation, Vector, Work, copy,
 };
 
 /// What steps change: the state, and what a step leaves behind for the next one.
@@ -77,6 +77,17 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
     pub(super) fn set_state(&mut self, state: State<V>) {
         self.state = state;
         self.low = (self.state.q.zeros_like(), self.state.q.zeros_like());
+        self.kept = Kept::default();
+    }
+
+    /// The same from another state of the same dimension, copied.
+    pub(super) fn copy_state(&mut self, state: &State<V>) {
+        self.state.time = state.time;
+        copy(&mut self.state.q, &state.q);
+        copy(&mut self.state.p, &state.p);
+        for low in [&mut self.low.0, &mut self.low.1] {
+            low.as_mut_slice().fill(num_traits::Zero::zero());
+        }
         self.kept = Kept::default();
     }
 

@@ -1,0 +1,232 @@
+//! Where in a panel the events of a function are.
+
+use super::list::EventList;
+use super::search::Search;
+use super::track::{Crossing, Track};
+use crate::partial::PartialSteps;
+use crate::root::{before_zero, negative_near_minimum};
+use crate::{Error, Hamiltonian, Integrator, Method, Scalar, Solver, Summation, Vector};
+
+/// Halvings of a panel in which the side to which a function leaves zero is looked for: down to rounding.
+const HALVINGS: u32 = 60;
+
+/// The part of a step over which a derivative along the flow is taken.
+const SMALL: f64 = 1.0 / 16_384.0;
+
+impl<E, M, S, V, N> Search<'_, E, M, S, V, N>
+where
+    E: EventList<V> + ?Sized,
+    M: Method,
+    S: Hamiltonian<V>,
+    V: Vector,
+    N: Solver<V, S>,
+{
+    /// Finds the events of a function in the panel with the start `start`, the middle and the end `ahead`, and goes on to its
+    /// end.
+    pub(super) fn detect<R: Summation>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        index: usize,
+        start: f64,
+        ahead: [Option<f64>; 2],
+    ) -> Result<(), Error> {
+        let at_start = self.tracks.as_ref()[index];
+        let mut track = at_start;
+        let mut changed = false;
+        let mut from = start;
+        for (to, value) in ahead.into_iter().zip(track.ahead) {
+            let Some(to) = to else { continue };
+            if track.changes(value) {
+                changed = true;
+                self.push(integrator, index, &mut track, (from, to))?;
+            }
+            track.go_on(value);
+            from = to;
+        }
+        if let (false, [Some(_), Some(end)]) = (changed || at_start.side == 0.0, ahead) {
+            self.look_for_two(integrator, index, at_start, &mut track, (start, end))?;
+        }
+        self.tracks.as_mut()[index] = track;
+        Ok(())
+    }
+
+    /// Finds two zeros between places at which the sign is the same.
+    fn look_for_two<R: Summation>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        index: usize,
+        at_start: Track,
+        track: &mut Track,
+        (start, end): (f64, f64),
+    ) -> Result<(), Error> {
+        let Some(fraction) = at_start.extremum() else {
+            return Ok(());
+        };
+        let guess = start + (end - start) * fraction;
+        let beyond = negative_near_minimum((start, end), guess, |time| {
+            let value = self.value_at(integrator, index, time, false)?;
+            Ok(at_start.side * value)
+        })?;
+        let Some(beyond) = beyond else { return Ok(()) };
+        let mut pair = at_start;
+        self.push(integrator, index, &mut pair, (start, beyond))?;
+        pair.go_on(-at_start.side);
+        self.push(integrator, index, &mut pair, (beyond, end))?;
+        track.pending = pair.pending;
+        Ok(())
+    }
+
+    /// Takes note of the event at a change of sign, if it is one that is asked for.
+    fn push<R: Summation>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        index: usize,
+        track: &mut Track,
+        between: (f64, f64),
+    ) -> Result<(), Error> {
+        let kind = self.events.kind(index);
+        if kind.wants(track.side) {
+            let time = self.locate(integrator, index, track, between, kind.by_steps)?;
+            let side = track.side;
+            track.push(Crossing { time, side });
+        }
+        Ok(())
+    }
+
+    /// The last time before a change of sign.
+    fn locate<R: Summation>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        index: usize,
+        track: &Track,
+        (from, to): (f64, f64),
+        by_steps: bool,
+    ) -> Result<f64, Error> {
+        let mut start = from;
+        if track.on_zero {
+            match self.departure(integrator, index, track.side, (from, to), by_steps)? {
+                Some(place) => start = place,
+                None => return Ok(from),
+            }
+        }
+        let mut zero = |between, by_steps| {
+            before_zero(between, |time| {
+                self.value_at(integrator, index, time, by_steps)
+            })
+        };
+        if let Some(time) = zero((start, to), by_steps)? {
+            return Ok(time);
+        }
+        if !by_steps {
+            // The polynomial has different signs there.
+            return Ok(to);
+        }
+        // The zero is so near to one of them that it is on the other side of it.
+        let (last, width) = (integrator.last_step().ok_or(Error::NoStep)?, to - from);
+        let (low, high) = (last.start.min(last.end), last.start.max(last.end));
+        let wider = (
+            (from - width).clamp(low, high),
+            (to + width).clamp(low, high),
+        );
+        if let Some(time) = zero(wider, true)? {
+            return Ok(time);
+        }
+        let time = zero((start, to), false)?.unwrap_or(to);
+        Ok(zero((last.start, time), true)?.unwrap_or(time))
+    }
+
+    /// A place at which a function that starts on zero has the sign `side`: the last one of those halfway to the start, a
+    /// quarter of the way, and so on.
+    fn departure<R: Summation>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        index: usize,
+        side: f64,
+        (from, to): (f64, f64),
+        by_steps: bool,
+    ) -> Result<Option<f64>, Error> {
+        let mut width = to - from;
+        for _ in 0..HALVINGS {
+            width *= 0.5;
+            let place = from + width;
+            if place == from {
+                break;
+            }
+            if side * self.value_at(integrator, index, place, by_steps)? > 0.0 {
+                return Ok(Some(place));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The value of a function inside the last step.
+    fn value_at<R: Summation>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        index: usize,
+        time: f64,
+        by_steps: bool,
+    ) -> Result<f64, Error> {
+        self.look_at(integrator, time, by_steps)?;
+        self.value(index)
+    }
+
+    /// Makes the state at a time of the last step the one that is looked at.
+    pub(super) fn look_at<R: Summation>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        time: f64,
+        by_steps: bool,
+    ) -> Result<(), Error> {
+        if by_steps {
+            let partial = self
+                .partial
+                .get_or_insert_with(|| PartialSteps::like(&integrator.state().q));
+            return partial.take(integrator, time, &mut self.state);
+        }
+        if !self.evaluated {
+            self.ends.evaluate(integrator)?;
+            self.evaluated = true;
+        }
+        self.state.time = time;
+        let state = &mut self.state;
+        self.ends.write(integrator, time, &mut state.q, &mut state.p)
+    }
+
+    /// The change of a function along the flow through the present state, over a small part of `step`; 0 where it is not
+    /// known.
+    pub(super) fn slope<R: Summation>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        index: usize,
+        step: f64,
+    ) -> f64 {
+        let state = integrator.state();
+        let (velocity, force) = self
+            .slopes
+            .get_or_insert_with(|| (state.q.zeros_like(), state.p.zeros_like()));
+        let time = V::Scalar::from_f64(state.time);
+        let system = integrator.system();
+        system.velocity(time, &state.q, &state.p, velocity);
+        system.force(time, &state.q, &state.p, force);
+        let [before, after] = [-SMALL * step, SMALL * step].map(|size| {
+            self.state.time = state.time + size;
+            add(&mut self.state.q, &state.q, size, velocity);
+            add(&mut self.state.p, &state.p, size, force);
+            self.events.value(index, &self.state)
+        });
+        let change = after - before;
+        // Of an extremum on the way, or undefined on one side.
+        let known = change.abs() > 1e-9 * (after.abs() + before.abs());
+        if known { change } else { 0.0 }
+    }
+}
+
+/// `out = start + size · slope`
+fn add<V: Vector>(out: &mut V, start: &V, size: f64, slope: &V) {
+    let size = V::Scalar::from_f64(size);
+    let terms = start.as_slice().iter().zip(slope.as_slice());
+    for (out, (&start, &slope)) in out.as_mut_slice().iter_mut().zip(terms) {
+        *out = start + size * slope;
+    }
+}

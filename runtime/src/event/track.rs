@@ -1,0 +1,71 @@
+//! What a search knows about one event function.
+
+/// The sign of a function on its way, and its events in the present panel.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Track {
+    /// Its sign at the last place; 0 where it is not known.
+    pub(super) side: f64,
+    /// Whether its value there is zero to rounding, so that the sign is that right after it.
+    pub(super) on_zero: bool,
+    /// Its value there.
+    pub(super) value: f64,
+    /// Its values in the middle and at the end of the panel.
+    pub(super) ahead: [f64; 2],
+    /// Events in the panel that are not shown yet, in the order of time.
+    pub(super) pending: [Option<Crossing>; 2],
+    /// The sign before the event from which the search starts; 0 if it does not start from one.
+    pub(super) fired: f64,
+}
+
+/// A change of sign.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Crossing {
+    pub(super) time: f64,
+    /// The sign before it.
+    pub(super) side: f64,
+}
+
+impl Track {
+    /// Whether the sign changes on the way to a place with this value.
+    pub(super) fn changes(&self, value: f64) -> bool {
+        let zero = value == 0.0 && !self.on_zero;
+        self.side != 0.0 && (zero || self.side * sign(value) < 0.0)
+    }
+
+    /// Goes on to a place with this value.
+    pub(super) fn go_on(&mut self, value: f64) {
+        if value != 0.0 || !self.on_zero {
+            (self.side, self.on_zero) = (sign(value), false);
+        }
+        self.value = value;
+    }
+
+    /// Takes note of an event.
+    pub(super) fn push(&mut self, crossing: Crossing) {
+        let [first, second] = &mut self.pending;
+        *if first.is_none() { first } else { second } = Some(crossing);
+    }
+
+    /// Takes the first event off the list.
+    pub(super) fn pop(&mut self) -> Option<Crossing> {
+        let [first, second] = self.pending;
+        self.pending = [second, None];
+        first
+    }
+
+    /// Where the extremum of the parabola through the values at the ends and in the middle of the panel is, as a fraction of
+    /// it, if the function comes nearer to zero there and it is in the panel or near it.
+    pub(super) fn extremum(&self) -> Option<f64> {
+        let [middle, end] = self.ahead.map(|value| self.side * value);
+        let start = (self.side * self.value).max(0.0);
+        let curvature = start - 2.0 * middle + end;
+        let fraction = (3.0 * start - 4.0 * middle + end) / (4.0 * curvature);
+        let near = curvature > 0.0 && -0.25 < fraction && fraction < 1.25;
+        near.then_some(fraction.clamp(0.0, 1.0))
+    }
+}
+
+/// 1, −1 or 0.
+pub(super) fn sign(value: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value.signum() }
+}
