@@ -304,18 +304,18 @@ pub enum Error {
         time: f64,
     },
 
-    /// Time stands still between events: impacts accumulate, or the state is at rest on a wall. The present state is that at
-    /// the last event.
+    /// Events follow each other so soon that time or the state cannot resolve it: impacts accumulate, or the state is at
+    /// rest on a wall. The present state is that at the last event.
     #[error(
-        "{count} events at time {time}, the last one of function {index}: impacts accumulate there, or the state is at rest on \
-         a wall; end there, or hold the state on the wall from there on"
+        "events accumulate at time {time}: function {index} is zero and cannot be seen to leave it, after {count} events at \
+         this time; end there, or hold the state on the wall from there on"
     )]
     EventsAccumulate {
         /// The time.
         time: f64,
-        /// The number of the last event in the list, from 0.
+        /// The number of the event in the list, from 0.
         index: usize,
-        /// How many events there were at this time.
+        /// How many events have been found at this time, of all functions.
         count: u32,
     },
 

@@ -16,13 +16,14 @@ pub use list::Events;
 ///
 /// A step is looked at in panels, four unless [`samples`](Self::samples) says otherwise: g is evaluated on the
 /// [dense output](crate::Integrator::dense) at the start, the middle and the end of each. A change of sign between
-/// neighbours is an event, found by Brent's method to rounding. Where the sign is the same at all three places but the
-/// parabola through the three values has its extremum in or near the panel, the extremum of g is looked for: if g has
-/// the other sign there, both zeros are events.
+/// neighbours is an event, found by Brent's method to rounding. Where all three signs are the same, and the three values
+/// and the slope at the end with the smallest one say that g has an extremum nearer to zero, the extremum is looked for:
+/// if it is beyond zero, the zeros on both sides of it are events. So no zero is missed in a panel in which g has
+/// at most one extremum.
 ///
-/// What can be missed: two zeros in a panel in which g has more than one extremum; two zeros closer than about 1e-8 of
-/// a panel; a zero at which the sign does not change. Of three zeros between neighbours one is found.
-/// More samples miss less.
+/// What can be missed: two zeros, or any even number, in a panel in which g has several extrema; two zeros
+/// closer than about 1e-5 of a panel; a zero at which the sign does not change. Of three zeros between neighbours
+/// one is found. More samples miss less.
 ///
 /// # The state at an event
 ///
@@ -31,18 +32,20 @@ pub use list::Events;
 ///
 /// # A start on zero
 ///
-/// Where g is zero at the start of a search, it has the sign that it takes right after it, in the direction of
-/// its derivative along the flow. So the start is no event, and a zero soon after it is found however soon: a ball
-/// thrown up from the floor comes down again within the first step. If the flight is too short to be seen (the
-/// derivative points up, but g is never above zero), the event is at the start itself.
+/// Where g is zero at the start of a search, it has the sign that it takes right after it, by its derivative along the flow.
+/// So the start is no event, and a zero after it is found however soon: a ball thrown up from the floor comes down
+/// again, perhaps within the first step.
 ///
-/// A search from the event that was found last starts on zero too, whatever the rounding of g. So the event is not
-/// found again if the state goes on through it; if the state was reset so that g turns round, the next zero is found.
-/// If g has no derivative there and goes on, as with a ball that was left at rest on the floor, the event is at the start.
+/// A search from the event that was found last (after [`set_state`](crate::Integrator::set_state) with its state, changed or
+/// not) starts on zero too, whatever g is by rounding. If the state was reset so that g turns round, the next zero is
+/// found; if g goes on through zero, the event is not found again. Where the derivative is zero, g is to turn round.
 ///
-/// After a thousand events at the same time a search ends with
-/// [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), at the state of the last event: impacts accumulate, or the
-/// state is at rest.
+/// # Impacts that accumulate
+///
+/// If g is to turn round, but is never seen to: because the flight is shorter than time can resolve or stays within the
+/// rounding of g, or because the state is at rest on the zero: the search ends with
+/// [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), at the state of the last event. So does a search that has found a
+/// thousand events at the same time.
 ///
 /// ```
 /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }

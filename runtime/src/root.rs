@@ -79,19 +79,18 @@ pub(crate) fn before_zero<E>(
 }
 
 /// A time between two others at which a function is negative, looked for on the way to a minimum, by Brent's method: golden
-/// sections, and parabolas where they are good (ch. 5 of his book). `start` is a guess at the minimum.
+/// sections, and parabolas where they are good (ch. 5 of his book).
 ///
 /// The minimum is found to about 1e-8 of the distance of the times; `None` where the function is not negative there.
 pub(crate) fn negative_near_minimum<E>(
     (from, to): (f64, f64),
-    start: f64,
     mut function: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<Option<f64>, E> {
     const GOLDEN: f64 = 0.381_966_011_250_105_1;
     let (mut low, mut high) = (from.min(to), from.max(to));
     let tolerance = 1e-8 * (high - low) + f64::EPSILON * low.abs().max(high.abs());
     // x is the best place, w the second best, v the one before w.
-    let mut x = start.clamp(low, high);
+    let mut x = low + GOLDEN * (high - low);
     let mut at_x = function(x)?;
     let (mut w, mut v, mut at_w, mut at_v) = (x, x, at_x, at_x);
     let (mut step, mut before) = (0.0_f64, 0.0_f64);
@@ -210,13 +209,13 @@ mod tests {
                         count += 1;
                         Ok::<f64, ()>(shape(t - bottom) - depth)
                     };
-                    let found = negative_near_minimum((1.0, 0.0), 0.5, &mut function);
+                    let found = negative_near_minimum((1.0, 0.0), &mut function);
                     let found = found.expect("no error").expect("a minimum below zero");
                     assert!(shape(found - bottom) < depth && count < 80, "{count}");
                 }
             }
         }
-        let above = negative_near_minimum((0.0, 1.0), 0.5, |t| Ok::<f64, ()>(t * t + 1e-9));
+        let above = negative_near_minimum((0.0, 1.0), |t| Ok::<f64, ()>(t * t + 1e-9));
         assert_eq!(above, Ok(None));
     }
 }

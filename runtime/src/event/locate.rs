@@ -1,7 +1,7 @@
 //! Where in a panel the events of a function are.
 
 use super::list::EventList;
-use super::search::Search;
+use super::search::{Search, copy_state};
 use super::track::{Crossing, Track};
 use crate::partial::PartialSteps;
 use crate::root::{before_zero, negative_near_minimum};
@@ -9,6 +9,9 @@ use crate::{Error, Hamiltonian, Integrator, Method, Scalar, Solver, Summation, V
 
 /// Halvings of a panel in which the side to which a function leaves zero is looked for: down to rounding.
 const HALVINGS: u32 = 60;
+
+/// How far beside the end of a panel its slope is looked at, as a part of the panel.
+const BESIDE: f64 = 1.0 / 65_536.0;
 
 /// The part of a step over which a derivative along the flow is taken.
 const SMALL: f64 = 1.0 / 16_384.0;
@@ -43,30 +46,46 @@ where
             track.go_on(value);
             from = to;
         }
-        if let (false, [Some(_), Some(end)]) = (changed || at_start.side == 0.0, ahead) {
-            self.look_for_two(integrator, index, at_start, &mut track, (start, end))?;
+        if let (false, [Some(middle), Some(end)]) = (changed || track.side == 0.0, ahead) {
+            let places = [start, middle, end];
+            self.look_for_two(integrator, index, at_start, &mut track, places)?;
         }
         self.tracks.as_mut()[index] = track;
         Ok(())
     }
 
-    /// Finds two zeros between places at which the sign is the same.
+    /// Finds two zeros between places at which the sign is the same: on both sides of an extremum beyond zero.
     fn look_for_two<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
         index: usize,
         at_start: Track,
         track: &mut Track,
-        (start, end): (f64, f64),
+        [start, middle, end]: [f64; 3],
     ) -> Result<(), Error> {
-        let Some(fraction) = at_start.extremum() else {
+        let side = at_start.side;
+        let first = side * at_start.value;
+        let [second, third] = track.ahead.map(|value| side * value);
+        if first == second && second == third {
             return Ok(());
+        }
+        let mut value = |time| Ok(side * self.value_at(integrator, index, time, false)?);
+        // One extremum is where the smallest of the three values is, or beside it.
+        let between = if second <= third && second <= first {
+            (start, end)
+        } else {
+            let (near, at_near, far) = if second <= third {
+                (start, first, end)
+            } else {
+                (end, third, start)
+            };
+            let beside = near + (far - near) * BESIDE;
+            if at_start.on_zero && near == start || value(beside)? >= at_near {
+                return Ok(());
+            }
+            (near, middle)
         };
-        let guess = start + (end - start) * fraction;
-        let beyond = negative_near_minimum((start, end), guess, |time| {
-            let value = self.value_at(integrator, index, time, false)?;
-            Ok(at_start.side * value)
-        })?;
+        let beyond = negative_near_minimum(between, &mut value)?;
         let Some(beyond) = beyond else { return Ok(()) };
         let mut pair = at_start;
         self.push(integrator, index, &mut pair, (start, beyond))?;
@@ -86,14 +105,18 @@ where
     ) -> Result<(), Error> {
         let kind = self.events.kind(index);
         if kind.wants(track.side) {
-            let time = self.locate(integrator, index, track, between, kind.by_steps)?;
-            let side = track.side;
-            track.push(Crossing { time, side });
+            let found = self.locate(integrator, index, track, between, kind.by_steps)?;
+            let time = found.unwrap_or(between.0);
+            track.push(Crossing {
+                time,
+                side: track.side,
+                unseen: track.stays && time == between.0,
+            });
         }
         Ok(())
     }
 
-    /// The last time before a change of sign.
+    /// The last time before a change of sign; none if that is at the start, on zero.
     fn locate<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -101,12 +124,12 @@ where
         track: &Track,
         (from, to): (f64, f64),
         by_steps: bool,
-    ) -> Result<f64, Error> {
+    ) -> Result<Option<f64>, Error> {
         let mut start = from;
         if track.on_zero {
-            match self.departure(integrator, index, track.side, (from, to), by_steps)? {
+            match self.departure(integrator, index, track, (from, to), by_steps)? {
                 Some(place) => start = place,
-                None => return Ok(from),
+                None => return Ok(None),
             }
         }
         let mut zero = |between, by_steps| {
@@ -114,12 +137,9 @@ where
                 self.value_at(integrator, index, time, by_steps)
             })
         };
-        if let Some(time) = zero((start, to), by_steps)? {
-            return Ok(time);
-        }
-        if !by_steps {
-            // The polynomial has different signs there.
-            return Ok(to);
+        let found = zero((start, to), by_steps)?;
+        if found.is_some() || !by_steps {
+            return Ok(Some(found.unwrap_or(to)));
         }
         // The zero is so near to one of them that it is on the other side of it.
         let (last, width) = (integrator.last_step().ok_or(Error::NoStep)?, to - from);
@@ -128,20 +148,21 @@ where
             (from - width).clamp(low, high),
             (to + width).clamp(low, high),
         );
-        if let Some(time) = zero(wider, true)? {
-            return Ok(time);
+        let found = zero(wider, true)?;
+        if found.is_some() {
+            return Ok(found);
         }
         let time = zero((start, to), false)?.unwrap_or(to);
-        Ok(zero((last.start, time), true)?.unwrap_or(time))
+        Ok(zero((last.start, time), true)?.or(Some(time)))
     }
 
-    /// A place at which a function that starts on zero has the sign `side`: the last one of those halfway to the start, a
-    /// quarter of the way, and so on.
+    /// A place at which a function that starts on zero has its sign, beyond rounding: the last one of those halfway to the
+    /// start, a quarter of the way, and so on.
     fn departure<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
         index: usize,
-        side: f64,
+        track: &Track,
         (from, to): (f64, f64),
         by_steps: bool,
     ) -> Result<Option<f64>, Error> {
@@ -152,7 +173,8 @@ where
             if place == from {
                 break;
             }
-            if side * self.value_at(integrator, index, place, by_steps)? > 0.0 {
+            let value = self.value_at(integrator, index, place, by_steps)?;
+            if track.side * value > track.rounding {
                 return Ok(Some(place));
             }
         }
@@ -190,7 +212,8 @@ where
         }
         self.state.time = time;
         let state = &mut self.state;
-        self.ends.write(integrator, time, &mut state.q, &mut state.p)
+        self.ends
+            .write(integrator, time, &mut state.q, &mut state.p)
     }
 
     /// The change of a function along the flow through the present state, over a small part of `step`; 0 where it is not
@@ -219,6 +242,40 @@ where
         // Of an extremum on the way, or undefined on one side.
         let known = change.abs() > 1e-9 * (after.abs() + before.abs());
         if known { change } else { 0.0 }
+    }
+
+    /// The change of a function at the present state when the state changes by rounding.
+    pub(super) fn rounding<R: Summation>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        index: usize,
+        value: f64,
+    ) -> f64 {
+        let changes = (0..4).map(|pattern| {
+            copy_state(&mut self.state, integrator.state());
+            let size = 4.0 * V::Scalar::EPSILON;
+            perturb(&mut self.state.q, pattern, size);
+            perturb(&mut self.state.p, pattern, size);
+            (self.events.value(index, &self.state) - value).abs()
+        });
+        changes.fold(0.0, f64::max)
+    }
+}
+
+/// Multiplies components by 1 ± `size`, with signs by the number of a pattern.
+fn perturb<V: Vector>(vector: &mut V, pattern: u32, size: f64) {
+    for (k, component) in vector.as_mut_slice().iter_mut().enumerate() {
+        // Equal signs, alternating signs, and two patterns without a period.
+        let k = k as u32;
+        let bits = [
+            0,
+            k,
+            k.wrapping_mul(0x9e37_79b9) >> 31,
+            k.wrapping_mul(0x85eb_ca6b) >> 30,
+        ];
+        let odd = bits[pattern as usize % bits.len()] % 2 == 1;
+        let size = V::Scalar::from_f64(if odd { -size } else { size });
+        *component += *component * size;
     }
 }
 

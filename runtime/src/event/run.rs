@@ -133,7 +133,11 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
                 return Ok(None);
             };
             if !matches!(stop, Stop::Broken(_, false)) {
-                self.copy_state(&search.shown)?;
+                let changed = self.copy_state(&search.shown);
+                if changed.is_err() {
+                    self.copy_state(&search.state)?;
+                }
+                changed?;
             }
             match stop {
                 Stop::Broken(value, _) => return Ok(Some(value)),

@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use super::list::EventList;
-use super::track::{Crossing, sign};
+use super::track::{Crossing, Track, sign};
 use super::{LastEvent, Moment};
 use crate::dense::Ends;
 use crate::partial::PartialSteps;
@@ -80,7 +80,10 @@ where
             tracks,
             times,
             forward,
-            samples: (0..count).map(|k| events.kind(k).samples).max().unwrap_or(1),
+            samples: (0..count)
+                .map(|k| events.kind(k).samples)
+                .max()
+                .unwrap_or(1),
             ends: Ends::new(),
             evaluated: false,
             partial: None,
@@ -100,27 +103,43 @@ where
         for index in 0..self.tracks.as_ref().len() {
             copy_state(&mut self.state, integrator.state());
             let value = self.value(index)?;
-            let fired = core::mem::take(&mut self.tracks.as_mut()[index].fired);
-            let side = if self.events.kind(index).wall {
-                1.0
-            } else if value != 0.0 && fired == 0.0 {
-                sign(value)
-            } else {
-                let slope = self.slope(integrator, index, step);
-                if value.abs() > slope.abs() {
-                    sign(value)
-                } else if slope != 0.0 {
-                    sign(slope)
-                } else {
-                    fired
-                }
-            };
-            let track = &mut self.tracks.as_mut()[index];
-            track.pending = [None; 2];
-            (track.side, track.value) = (side, value);
-            track.on_zero = side != 0.0 && side * value <= 0.0;
+            let track = self.start_of(integrator, index, value, step);
+            self.tracks.as_mut()[index] = track;
         }
         Ok(())
+    }
+
+    /// What is known about a function at the start, where it has a value.
+    fn start_of<R: Summation>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        index: usize,
+        value: f64,
+        step: f64,
+    ) -> Track {
+        let fired = self.tracks.as_ref()[index].fired;
+        let mut track = Track {
+            side: sign(value),
+            value,
+            ..Track::default()
+        };
+        let wall = self.events.kind(index).wall;
+        if wall {
+            track.side = 1.0;
+        }
+        if fired != 0.0 {
+            track.rounding = self.rounding(integrator, index, value);
+        } else if value * track.side > 0.0 {
+            return track;
+        }
+        let slope = self.slope(integrator, index, step);
+        let near = value.abs() <= track.rounding.max(slope.abs());
+        if !wall && near {
+            track.side = if slope == 0.0 { fired } else { sign(slope) };
+        }
+        track.on_zero = track.side != 0.0 && track.side * value <= track.rounding;
+        track.stays = near && track.side != 0.0 && track.side * slope >= 0.0;
+        track
     }
 
     /// Shows what is in the last step.
@@ -226,24 +245,24 @@ where
         while let Some((index, next)) = self.next()
             && next.time == time
         {
+            let before = self.last.filter(|last| last.time == time);
+            let count = before.map_or(0, |last| last.count);
+            if next.unseen || count == MOST_AT_ONE_TIME {
+                return ControlFlow::Break(Stop::Failed(Error::EventsAccumulate {
+                    time,
+                    index,
+                    count,
+                }));
+            }
             let track = &mut self.tracks.as_mut()[index];
             track.pop();
             track.fired = next.side;
-            let last = self.last.filter(|last| last.time == time);
-            let count = last.map_or(0, |last| last.count) + 1;
             self.last = Some(LastEvent {
                 time,
                 index,
                 side: next.side,
-                count,
+                count: count + 1,
             });
-            if count > MOST_AT_ONE_TIME {
-                return ControlFlow::Break(Stop::Failed(Error::EventsAccumulate {
-                    time,
-                    index,
-                    count: MOST_AT_ONE_TIME,
-                }));
-            }
             let state = &mut self.shown;
             let handled = handle(Moment::Event { index, state });
             self.shown.time = time;
@@ -306,7 +325,7 @@ where
     }
 }
 
-fn copy_state<V: Vector>(out: &mut State<V>, from: &State<V>) {
+pub(super) fn copy_state<V: Vector>(out: &mut State<V>, from: &State<V>) {
     out.time = from.time;
     copy(&mut out.q, &from.q);
     copy(&mut out.p, &from.p);

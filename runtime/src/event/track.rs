@@ -7,6 +7,10 @@ pub struct Track {
     pub(super) side: f64,
     /// Whether its value there is zero to rounding, so that the sign is that right after it.
     pub(super) on_zero: bool,
+    /// What its values differ from zero by rounding at the start of the search.
+    pub(super) rounding: f64,
+    /// Whether it is zero at the start of the search and does not go to the other side there, by its derivative.
+    pub(super) stays: bool,
     /// Its value there.
     pub(super) value: f64,
     /// Its values in the middle and at the end of the panel.
@@ -23,6 +27,8 @@ pub(super) struct Crossing {
     pub(super) time: f64,
     /// The sign before it.
     pub(super) side: f64,
+    /// Whether the function is to have that sign after the start of the search, and cannot be seen to have it.
+    pub(super) unseen: bool,
 }
 
 impl Track {
@@ -35,7 +41,7 @@ impl Track {
     /// Goes on to a place with this value.
     pub(super) fn go_on(&mut self, value: f64) {
         if value != 0.0 || !self.on_zero {
-            (self.side, self.on_zero) = (sign(value), false);
+            (self.side, self.on_zero, self.stays) = (sign(value), false, false);
         }
         self.value = value;
     }
@@ -51,17 +57,6 @@ impl Track {
         let [first, second] = self.pending;
         self.pending = [second, None];
         first
-    }
-
-    /// Where the extremum of the parabola through the values at the ends and in the middle of the panel is, as a fraction of
-    /// it, if the function comes nearer to zero there and it is in the panel or near it.
-    pub(super) fn extremum(&self) -> Option<f64> {
-        let [middle, end] = self.ahead.map(|value| self.side * value);
-        let start = (self.side * self.value).max(0.0);
-        let curvature = start - 2.0 * middle + end;
-        let fraction = (3.0 * start - 4.0 * middle + end) / (4.0 * curvature);
-        let near = curvature > 0.0 && -0.25 < fraction && fraction < 1.25;
-        near.then_some(fraction.clamp(0.0, 1.0))
     }
 }
 
