@@ -4,7 +4,7 @@ use crate::diagnosis::{Attempt, FirstFault};
 use crate::integrator::PlanOf;
 use crate::{
     Error, Hamiltonian, Integrator, Kept, Method, Outcome, Plan, Solver, StageStorage, State, Step,
-    Summation, Vector,
+    Summation, Vector, copy,
 };
 
 /// What steps need that an integrator takes beside its own ones.
@@ -33,8 +33,8 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S
         let ((q, q_low), (p, p_low)) = (last.positions.start, last.momenta.start);
         state.time = time;
         if time == last.start {
-            state.q.clone_from(q);
-            state.p.clone_from(p);
+            copy(&mut state.q, q);
+            copy(&mut state.p, p);
             return Ok(());
         }
         let step = Step {

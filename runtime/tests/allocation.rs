@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 
 use common::systems::Pendulum;
 use common::{Midpoint, StoermerVerlet};
-use symplectic::{Bonds, Chain, Error, Event, Integrator, Method, Scalar, State, Vector};
+use symplectic::{Bonds, Chain, Error, Event, Integrator, Method, Moment, Scalar, State, Vector};
 
 thread_local! {
     static COUNT: Cell<u64> = const { Cell::new(0) };
@@ -106,6 +106,40 @@ fn looking_into_steps_makes_no_vectors() -> Result<(), Error> {
         let (count, outcome) = made(|| dense.write(dense.span().0, &mut q, &mut p));
         assert_eq!(count, 0);
         outcome
+    }
+    check(StoermerVerlet)?;
+    check(Midpoint)
+}
+
+/// Nor do events of a list, with output between them, found by steps, and with states that are reset.
+#[test]
+fn resets_at_events_make_no_vectors() -> Result<(), Error> {
+    fn check<M: Method>(method: M) -> Result<(), Error> {
+        let start = State::new(0.0, Counted::new(vec![1.0; 5]), Counted::new(vec![0.0; 5]));
+        let mut integrator = Integrator::new(method, Pendulum::default(), start, 0.1)?;
+        let first = |state: &State<Counted<f64>>| state.q.0[0];
+        let events = (Event::wall(first), Event::crossing(first).by_steps());
+        let mut run = |duration: f64| {
+            let start = integrator.state().time;
+            let times: Vec<f64> = (1..=100)
+                .map(|k| start + duration * f64::from(k) / 100.0)
+                .collect();
+            let mut impacts = 0;
+            let (count, ended) = made(|| {
+                integrator.integrate_through(start + duration, &times, &events, |moment| {
+                    if let Moment::Event { index: 0, state } = moment {
+                        impacts += 1;
+                        state.p.0.iter_mut().for_each(|p| *p = -*p);
+                    }
+                    ControlFlow::<()>::Continue(())
+                })
+            });
+            ended.map(|_| (count, impacts))
+        };
+        let (short, long) = (run(10.0)?, run(100.0)?);
+        assert_eq!(short.0, long.0, "{}", M::NAME);
+        assert!(long.1 > 5 * short.1 && short.1 > 1);
+        Ok(())
     }
     check(StoermerVerlet)?;
     check(Midpoint)
