@@ -307,8 +307,8 @@ pub enum Error {
     /// Events follow each other so soon that time or the state cannot resolve it: impacts accumulate, or the state is at
     /// rest on a wall. The present state is that at the last event.
     #[error(
-        "events accumulate at time {time}: function {index} is zero and cannot be seen to leave it, after {count} events at \
-         this time; end there, or hold the state on the wall from there on"
+        "events accumulate at time {time}: function {index} is zero there and cannot be seen to turn round, after {count} events \
+         at this time; end there, or hold the state on the wall from there on"
     )]
     EventsAccumulate {
         /// The time.

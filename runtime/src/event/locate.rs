@@ -105,13 +105,16 @@ where
     ) -> Result<(), Error> {
         let kind = self.events.kind(index);
         if kind.wants(track.side) {
+            let side = track.side;
             let found = self.locate(integrator, index, track, between, kind.by_steps)?;
             let time = found.unwrap_or(between.0);
-            track.push(Crossing {
-                time,
-                side: track.side,
-                unseen: track.stays && time == between.0,
-            });
+            let unseen = track.stays && {
+                self.look_at(integrator, time, kind.by_steps)?;
+                copy_state(&mut self.shown, &self.state);
+                let step = between.1 - between.0;
+                time == between.0 || side * self.slope(integrator, index, step) >= 0.0
+            };
+            track.push(Crossing { time, side, unseen });
         }
         Ok(())
     }
@@ -216,15 +219,15 @@ where
             .write(integrator, time, &mut state.q, &mut state.p)
     }
 
-    /// The change of a function along the flow through the present state, over a small part of `step`; 0 where it is not
-    /// known.
+    /// The change of a function along the flow through the state that is to be shown, over a small part of `step`; 0
+    /// where it is not known.
     pub(super) fn slope<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
         index: usize,
         step: f64,
     ) -> f64 {
-        let state = integrator.state();
+        let state = &self.shown;
         let (velocity, force) = self
             .slopes
             .get_or_insert_with(|| (state.q.zeros_like(), state.p.zeros_like()));

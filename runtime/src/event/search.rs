@@ -36,7 +36,7 @@ where
     pub(super) slopes: Option<(V, V)>,
     /// The state that is looked at.
     pub(super) state: State<V>,
-    /// The state that is shown, and what is made of it.
+    /// The state that is shown at an event, and what is made of it.
     pub(super) shown: State<V>,
     pub(super) last: Option<LastEvent>,
 }
@@ -100,6 +100,7 @@ where
         integrator: &Integrator<M, S, V, R, N>,
         step: f64,
     ) -> Result<(), Error> {
+        copy_state(&mut self.shown, integrator.state());
         for index in 0..self.tracks.as_ref().len() {
             copy_state(&mut self.state, integrator.state());
             let value = self.value(index)?;

@@ -27,7 +27,7 @@ pub(super) struct Crossing {
     pub(super) time: f64,
     /// The sign before it.
     pub(super) side: f64,
-    /// Whether the function is to have that sign after the start of the search, and cannot be seen to have it.
+    /// Whether it comes so soon after a start on zero that the function cannot be seen to turn round before it.
     pub(super) unseen: bool,
 }
 
