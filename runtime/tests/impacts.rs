@@ -14,6 +14,7 @@ tableau! {
 
 type Ball = State<Vector1<f64>>;
 type Point = State<Vector2<f64>>;
+type Floor = fn(&Point) -> f64;
 
 const GRAVITY: f64 = 9.8;
 
@@ -29,13 +30,16 @@ fn height(ball: &Ball) -> f64 {
     ball.q[0]
 }
 
+/// The times of impacts, how they ended, and the last state.
+type Bounces = (Vec<f64>, Result<(), Error>, Ball);
+
 /// The impacts of a ball that falls from a height and keeps a part of its speed, until there are no more.
 fn bounces(
     event: &Event<fn(&Ball) -> f64>,
     start: Ball,
     kept: f64,
     step_size: f64,
-) -> Result<(Vec<f64>, Result<(), Error>, Ball), Error> {
+) -> Result<Bounces, Error> {
     let mut integrator = Integrator::new(StoermerVerlet, falling_ball(), start, step_size)?;
     let mut times = Vec::new();
     let ended = loop {
@@ -328,7 +332,7 @@ fn events_that_go_on_are_not_found_again() -> Result<(), Error> {
 /// Curved floors, functions with rounding of their own: every run ends, and never below the floor.
 #[test]
 fn accumulating_impacts_end_on_any_floor() -> Result<(), Error> {
-    let floors: [(fn(&Point) -> f64, [f64; 2]); 4] = [
+    let floors: [(Floor, [f64; 2]); 4] = [
         (|point| point.q[1] - 100.0, [0.0, 120.0]),
         (|point| 10.0 - point.q.norm(), [1.0, 0.0]),
         (|point| point.q[1] - 0.3 * point.q[0].sin(), [0.3, 3.0]),
@@ -371,7 +375,7 @@ fn accumulating_impacts_end_on_any_floor() -> Result<(), Error> {
     Ok(())
 }
 
-fn gradient(function: fn(&Point) -> f64, state: &Point) -> Vector2<f64> {
+fn gradient(function: Floor, state: &Point) -> Vector2<f64> {
     let slope = |way: Vector2<f64>| {
         let at = |q| function(&State { q, ..state.clone() });
         at(state.q + way) - at(state.q - way)
@@ -387,7 +391,7 @@ fn several_walls_at_once() -> Result<(), Error> {
     // At the walls −1 and 1 both at the time 2/3, in the middle both at 5/3, and so on.
     let start: Point = State::from_arrays(0.0, [-1.0 / 3.0, 1.0 / 3.0], [-1.0, 1.0]);
     let mut integrator = Integrator::new(StoermerVerlet, free, start, 10.0)?;
-    let walls: [Event<fn(&Point) -> f64>; 3] = [
+    let walls: [Event<Floor>; 3] = [
         Event::wall(|point| point.q[0] + 1.0),
         Event::wall(|point| 1.0 - point.q[1]),
         Event::wall(|point| point.q[1] - point.q[0]),

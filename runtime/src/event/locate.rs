@@ -46,7 +46,7 @@ where
             track.go_on(value);
             from = to;
         }
-        if let (false, [Some(middle), Some(end)]) = (changed || track.side == 0.0, ahead) {
+        if let (false, [Some(middle), Some(end)]) = (changed || at_start.side == 0.0, ahead) {
             let places = [start, middle, end];
             self.look_for_two(integrator, index, at_start, &mut track, places)?;
         }
@@ -80,7 +80,7 @@ where
                 (end, third, start)
             };
             let beside = near + (far - near) * BESIDE;
-            if at_start.on_zero && near == start || value(beside)? >= at_near {
+            if (at_start.on_zero && near == start) || value(beside)? >= at_near {
                 return Ok(());
             }
             (near, middle)
