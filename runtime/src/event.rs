@@ -19,10 +19,10 @@ pub use list::Events;
 /// neighbours is an event, found by Brent's method to rounding. Where all three signs are the same, and the three values
 /// and the slope at the end with the smallest one say that g has an extremum nearer to zero, the extremum is looked for:
 /// if it is beyond zero, the zeros on both sides of it are events. So no zero is missed in a panel in which g has
-/// at most one extremum.
+/// at most one extremum, not further from the three values than four times their largest difference.
 ///
-/// What can be missed: two zeros, or any even number, in a panel in which g has several extrema; two zeros
-/// closer than about 1e-5 of a panel; a zero at which the sign does not change. Of three zeros between neighbours
+/// What can be missed: two zeros, or any even number, in a panel in which g has several extrema or a sharp one; two
+/// zeros closer than about 1e-5 of a panel; a zero at which the sign does not change. Of three zeros between neighbours
 /// one is found. More samples miss less.
 ///
 /// # The state at an event

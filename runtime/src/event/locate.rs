@@ -13,6 +13,9 @@ const HALVINGS: u32 = 60;
 /// How far beside the end of a panel its slope is looked at, as a part of the panel.
 const BESIDE: f64 = 1.0 / 65_536.0;
 
+/// How far an extremum is from the values in a panel, at most, in units of their largest difference.
+const DEEPEST: f64 = 4.0;
+
 /// The part of a step over which a derivative along the flow is taken.
 const SMALL: f64 = 1.0 / 16_384.0;
 
@@ -66,7 +69,8 @@ where
         let side = at_start.side;
         let first = side * at_start.value;
         let [second, third] = track.ahead.map(|value| side * value);
-        if first == second && second == third {
+        let smallest = first.min(second).min(third);
+        if smallest >= DEEPEST * (first.max(second).max(third) - smallest) {
             return Ok(());
         }
         let mut value = |time| Ok(side * self.value_at(integrator, index, time, false)?);

@@ -5,8 +5,12 @@
 
 #![no_std]
 
+use core::ops::ControlFlow;
+
 use symplectic::nalgebra::{SVector, Vector1};
-use symplectic::{Bonds, Chain, Error, Integrator, Method, Scalar, SeparableHamiltonian, State};
+use symplectic::{
+    Bonds, Chain, Error, Event, Integrator, Method, Moment, Scalar, SeparableHamiltonian, State,
+};
 
 symplectic::tableau! {
     /// Explicit for separable systems, order 2.
@@ -58,6 +62,27 @@ pub fn energy_error<M: Method>(method: M, angle: f64, step_size: f64) -> Result<
         }
     }
     Ok(largest)
+}
+
+/// How often a pendulum between two walls at ±`angle` touches them until the time 100.
+///
+/// # Errors
+/// Those of a step.
+pub fn impacts(angle: f64) -> Result<u32, Error> {
+    let start = State::new(0.0, Vector1::new(0.0), Vector1::new(1.0));
+    let mut integrator = Integrator::new(Gauss4, Pendulum, start, 0.25)?;
+    let walls = [-1.0, 1.0].map(|side| {
+        Event::wall(move |state: &State<Vector1<f64>>| angle - side * state.q[0]).by_steps()
+    });
+    let mut count = 0;
+    integrator.integrate_through(100.0, &[50.0], &walls, |moment| {
+        if let Moment::Event { state, .. } = moment {
+            state.p = -state.p;
+            count += 1;
+        }
+        ControlFlow::<()>::Continue(())
+    })?;
+    Ok(count)
 }
 
 /// Toda's bonds: `V(d) = exp(d) − d`.

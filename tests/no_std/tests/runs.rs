@@ -1,7 +1,9 @@
 //! It runs, and as well as with the standard library.
 
 use symplectic::Error;
-use symplectic_no_std::{Gauss4, StoermerVerlet, TripleJump, energy_error, momentum_of_a_ring};
+use symplectic_no_std::{
+    Gauss4, StoermerVerlet, TripleJump, energy_error, impacts, momentum_of_a_ring,
+};
 
 #[test]
 fn a_pendulum_keeps_its_energy() -> Result<(), Error> {
@@ -16,6 +18,16 @@ fn a_pendulum_keeps_its_energy() -> Result<(), Error> {
         energy_error(Gauss4, 1.0, f64::NAN),
         Err(Error::StepSize { .. })
     ));
+    Ok(())
+}
+
+#[test]
+fn a_pendulum_between_walls_turns_at_them() -> Result<(), Error> {
+    // It swings to 1.047 without them; small angles take the time 2 arcsin(angle) from wall to wall at the speed 1.
+    assert_eq!(impacts(1.1)?, 0);
+    let angle = 0.01_f64;
+    let expected = (100.0 + angle.asin()) / (2.0 * angle.asin());
+    assert_eq!(impacts(angle)?, expected.floor() as u32);
     Ok(())
 }
 
