@@ -199,8 +199,9 @@ mod tests {
 
     #[test]
     fn minima_below_zero_are_found() {
+        type Shape = fn(f64) -> f64;
         // The minimum is found to 1e-8, so a sharp one has to be deeper than a round one.
-        let shapes: [(fn(f64) -> f64, f64); 3] = [
+        let shapes: [(Shape, f64); 3] = [
             (|x| x * x, 1e-14),
             (|x| x.abs(), 1e-7),
             (|x| x * x * (2.0 + x), 1e-14),
