@@ -47,10 +47,7 @@ pub fn check(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Er
 }
 
 fn check_toml(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Error> {
-    let file = Input {
-        name: file_name,
-        text,
-    };
+    let file = Input::of_file(file_name, text);
     let document = export::toml::Document::parse(file, limits)?;
     let tableau = document.derive(file, limits)?;
     let Some(digits) = document.digits() else {

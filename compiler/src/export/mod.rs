@@ -6,14 +6,11 @@
 //! | JSON | [`json::write`] | [`json::read`] | short exact forms, decimals, doubles, the properties |
 //! | TOML | [`toml::write`] | [`toml::read`] | all exact data, decimals, the properties |
 
-use std::io::Read;
-use std::path::Path;
-
 use crate::coefficients::Coefficients;
-use crate::error::{Error, ErrorKind};
 use crate::pair::Staircase;
 use crate::tableau::{Tableau, over_algebra};
 
+mod encoding;
 mod entries;
 mod facts;
 pub mod json;
@@ -22,6 +19,7 @@ mod origin;
 pub mod text;
 pub mod toml;
 
+pub use encoding::{read_text, without_mark};
 pub(crate) use entries::{compare, first_line};
 
 /// The significant digits of decimals in JSON and TOML, unless another number is asked for.
@@ -47,33 +45,4 @@ fn written<T>(tableau: &Tableau, mut coefficients: Coefficients<T>) -> Coefficie
         (coefficients.a, coefficients.a_tilde) = (Vec::new(), Vec::new());
     }
     coefficients
-}
-
-/// The largest table file that is read, in bytes; one of 36 stages has about 1 MB.
-const MAX_FILE: u64 = 64 << 20;
-
-/// The text of a table file.
-///
-/// # Errors
-/// [`ErrorKind::Document`] where the file cannot be read, is too large or is no UTF-8 text.
-pub fn read_text(path: &Path) -> Result<String, Error> {
-    let bad = |message: String| Error::from(ErrorKind::Document { message });
-    let name = path.display();
-    let unreadable = |error: std::io::Error| bad(format!("cannot read `{name}`: {error}"));
-    let mut bytes = Vec::new();
-    let file = std::fs::File::open(path).map_err(unreadable)?;
-    file.take(MAX_FILE + 1)
-        .read_to_end(&mut bytes)
-        .map_err(unreadable)?;
-    if bytes.len() as u64 > MAX_FILE {
-        return Err(bad(format!(
-            "`{name}` is longer than {MAX_FILE} bytes, so it is no table file"
-        )));
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        bad(format!(
-            "`{name}` is no UTF-8 text: the byte at offset {valid} is wrong"
-        ))
-    })
 }

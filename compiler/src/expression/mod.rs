@@ -21,6 +21,7 @@ use std::ops::Range;
 use num_rational::BigRational;
 
 use crate::error::{Error, ErrorKind, Place};
+use crate::export::without_mark;
 
 pub use parser::{Row, parse_list, parse_matrix};
 
@@ -119,7 +120,13 @@ pub struct Input<'a> {
     pub text: &'a str,
 }
 
-impl Input<'_> {
+impl<'a> Input<'a> {
+    /// The text of a file, without the byte-order mark that may stand at its start.
+    pub(crate) fn of_file(name: &'a str, text: &'a str) -> Self {
+        let text = without_mark(text);
+        Input { name, text }
+    }
+
     /// A part of the text.
     pub fn place(&self, span: Range<usize>) -> Place {
         Place {

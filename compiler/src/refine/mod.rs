@@ -61,10 +61,7 @@ pub struct Refinement {
 /// claimed order: they do not sum to 1, are too few, or no solution is near them, and how far the nearest one is that
 /// was found. Each with its place in the file.
 pub fn refine(file_name: &str, text: &str) -> Result<Refinement, Error> {
-    file::refine(crate::expression::Input {
-        name: file_name,
-        text,
-    })
+    file::refine(crate::expression::Input::of_file(file_name, text))
 }
 
 impl Refinement {

@@ -121,9 +121,10 @@ impl Arguments {
             (Key::Exchange, &exchange),
             (Key::Adjoint, &adjoint),
         ];
+        // A text may be that of a file: `--weights "$(cat weights.txt)"`.
         let given = parts
             .into_iter()
-            .filter_map(|(key, text)| Some((key, text.as_deref()?)));
+            .filter_map(|(key, text)| Some((key, export::without_mark(text.as_deref()?))));
         Definition::new(given)
     }
 }

@@ -45,10 +45,7 @@ use crate::tableau::Tableau;
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
 pub fn read(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Error> {
-    let file = Input {
-        name: file_name,
-        text,
-    };
+    let file = Input::of_file(file_name, text);
     let document = Document::parse(file)?;
     let found = document.entries(file, limits)?;
     let tableau = document.origin(file)?.derive(file, limits)?;

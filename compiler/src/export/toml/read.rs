@@ -40,10 +40,7 @@ use crate::tableau::{Exact, Tableau};
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
 pub fn read(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Error> {
-    let file = Input {
-        name: file_name,
-        text,
-    };
+    let file = Input::of_file(file_name, text);
     let document = Document::parse(file, limits)?;
     let functions = document.derived.as_ref().and_then(|derived| {
         let exact = derived.exact.as_ref()?;
