@@ -83,7 +83,7 @@ impl Real {
         loop {
             let working = bits + guard;
             if let Some(interval) = self.evaluate(working)
-                && interval.width_bits() <= i64::from(working) - i64::from(bits)
+                && interval.width_bits() <= -i64::from(bits)
             {
                 return interval;
             }
