@@ -132,6 +132,20 @@ pub enum ErrorKind {
         /// The bound.
         limit: usize,
     },
+    /// A constant that is not rational and too large or too small, which takes as many binary places.
+    #[error(
+        "{constant} is too {}: it, or a part of it, is about 2^{logarithm}, and constants that are not rational lie between 2^-{limit} and 2^{limit}; {}",
+        if *logarithm > 0 { "large" } else { "small" },
+        if *logarithm > 0 { "look at its exponents" } else { "write 0 if that is meant" }
+    )]
+    Magnitude {
+        /// The constant.
+        constant: String,
+        /// The binary logarithm of the part.
+        logarithm: i64,
+        /// The bound.
+        limit: i64,
+    },
     /// More stages than the limit.
     #[error(
         "{stages} stages exceed the limit of {limit}, beyond which a derivation may run for very long; raise it with `--max-stages {stages}` (in the macro `max_stages: {stages}`)"

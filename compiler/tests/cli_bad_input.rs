@@ -195,6 +195,25 @@ fn bad_expressions_are_refused_with_a_caret() {
 }
 
 #[test]
+fn tiny_constants_are_refused_like_huge_ones() {
+    let cases: [&[&str]; 4] = [
+        &["--basis=1", "--nodes=exp(-99999999999)"],
+        &["--basis=1", "--nodes=exp(99999999999)"],
+        &["--kick=e^-1000000,1-e^-1000000", "--drift=1,0"],
+        &["--kick=e^1000000,1-e^1000000", "--drift=1,0"],
+    ];
+    for arguments in cases {
+        let (status, errors) = failure(&[&["derive"], arguments].concat());
+        assert_eq!(status, Some(2), "{errors}");
+        let between = "constants that are not rational lie between 2^-4096 and 2^4096";
+        assert!(
+            errors.starts_with("error: exp(") && errors.contains(between),
+            "{errors}"
+        );
+    }
+}
+
+#[test]
 fn a_limit_can_be_raised_and_lowered() {
     // Beyond the limit there is another complaint, without the work of 33 stages.
     let (status, errors) = failure(&[

@@ -8,10 +8,9 @@ use std::sync::{Arc, OnceLock};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
+use super::magnitude::{Magnitude, magnitude};
 use super::root::AlgebraicRoot;
-use super::size::{
-    check, check_magnitude, check_rational, magnitude, magnitude_of_rational, size, words,
-};
+use super::size::{check, check_rational, size, words};
 use super::{MAX_HEIGHT, MAX_SIGN_BITS, MAX_SIZE};
 use crate::error::ErrorKind;
 use crate::expression::shown;
@@ -24,7 +23,7 @@ use crate::expression::shown;
 ///
 /// Every operation gives an [`ErrorKind::ExpressionSize`] where its result would exceed a limit of
 /// [`crate::symbolic`], and an [`ErrorKind::Undecided`] where it depends on whether a constant is zero,
-/// which could not be found out.
+/// which could not be found out, and an [`ErrorKind::Magnitude`] where it would be too large or too small.
 #[derive(Clone)]
 pub struct Constant(Arc<Node>);
 
@@ -32,8 +31,7 @@ struct Node {
     tree: Tree,
     size: usize,
     height: usize,
-    /// |x| ≤ 2^magnitude.
-    magnitude: i64,
+    magnitude: Magnitude,
     /// The sign and a lower bound of log₂|x|, once found by refinement.
     separation: OnceLock<Option<(Ordering, i64)>>,
 }
@@ -76,16 +74,15 @@ impl Constant {
         let height = below + 1;
         check("the height of a constant", height, MAX_HEIGHT)?;
         let magnitude = magnitude(&tree)?;
-        if !matches!(tree, Tree::Rational(_)) {
-            check_magnitude(magnitude)?;
-        }
-        Ok(Constant(Arc::new(Node {
+        let constant = Constant(Arc::new(Node {
             tree,
             size,
             height,
             magnitude,
             separation: OnceLock::new(),
-        })))
+        }));
+        constant.check_magnitude()?;
+        Ok(constant)
     }
 
     /// A rational number.
@@ -105,7 +102,7 @@ impl Constant {
         Constant(Arc::new(Node {
             size: 1 + words(&value),
             height: 1,
-            magnitude: magnitude_of_rational(&value),
+            magnitude: Magnitude::of_rational(&value),
             tree: Tree::Rational(value),
             separation: OnceLock::new(),
         }))
@@ -127,7 +124,10 @@ impl Constant {
             tree: Tree::Pi,
             size: 1,
             height: 1,
-            magnitude: 2,
+            magnitude: Magnitude {
+                least: Some(1),
+                most: 2,
+            },
             separation: OnceLock::new(),
         }))
     }
@@ -149,6 +149,11 @@ impl Constant {
 
     /// A number `n` with `|x| ≤ 2ⁿ`, known without an enclosure.
     pub fn magnitude(&self) -> i64 {
+        self.0.magnitude.most
+    }
+
+    /// The bounds of the binary logarithm that the form tells.
+    pub(super) fn bounds(&self) -> Magnitude {
         self.0.magnitude
     }
 

@@ -12,6 +12,7 @@ mod display;
 mod enclosure;
 mod frequency;
 mod function;
+mod magnitude;
 mod operations;
 mod read;
 mod root;
@@ -28,7 +29,8 @@ pub use function::{Function, Term, Wave};
 pub const FUNCTIONS: [&str; 10] = [
     "sqrt", "cbrt", "sin", "cos", "tan", "exp", "ln", "cosh", "sinh", "root",
 ];
-/// The largest binary logarithm of a constant that is not rational, and of an argument of a function.
+/// The largest binary logarithm of a constant that is not rational, of its inverse, and of an argument of a function.
+/// Enclosures need about as many binary places.
 pub const MAX_MAGNITUDE: i64 = 4096;
 /// The largest size of a constant: its operations, of which a transcendental one counts 8, and the
 /// words of its rationals.

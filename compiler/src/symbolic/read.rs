@@ -349,7 +349,11 @@ mod tests {
                 "column 3: the exponent 1/2 where a whole number from -400 to 400",
             ),
             ("0^-1", "column 1: division by zero"),
-            ("exp(10^9)", "column 1: this is too large"),
+            ("exp(10^9)", "column 1: exp(1000000000) is too large"),
+            (
+                "t + exp(-10^9)",
+                "column 5: exp(-1000000000) is too small: it, or a part of it, is about 2^-1443000002, and constants that are not rational lie between 2^-4096 and 2^4096; write 0 if that is meant",
+            ),
             (
                 "t^400",
                 "column 1: this is too large: the degree 400 exceeds the limit 256",

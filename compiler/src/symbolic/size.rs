@@ -1,10 +1,8 @@
 //! How large constants are: what bounds the work on them.
 
-use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{ToPrimitive, Zero};
 
-use super::{Constant, MAX_FRACTION_BITS, MAX_MAGNITUDE, MAX_POWER, Tree};
+use super::{Constant, MAX_FRACTION_BITS, Tree};
 use crate::error::ErrorKind;
 use crate::expression::MAX_BITS;
 
@@ -26,15 +24,6 @@ pub(super) fn check_bits(bits: usize, whole: bool) -> Result<(), ErrorKind> {
 pub(super) fn check_rational(value: &BigRational) -> Result<(), ErrorKind> {
     let bits = value.numer().bits().max(value.denom().bits());
     check_bits(bits as usize, value.is_integer())
-}
-
-/// An error if a number that is not rational may be too large.
-pub(super) fn check_magnitude(magnitude: i64) -> Result<(), ErrorKind> {
-    check(
-        "the binary logarithm of a constant",
-        usize::try_from(magnitude).unwrap_or(0),
-        MAX_MAGNITUDE as usize,
-    )
 }
 
 /// The words of a rational.
@@ -76,98 +65,4 @@ fn above<'a>(size: usize, parts: impl Iterator<Item = &'a Constant>) -> (usize, 
     parts.fold((size, 0), |(size, height), part| {
         (size.saturating_add(part.size()), height.max(part.height()))
     })
-}
-
-pub(super) fn magnitude_of_rational(value: &BigRational) -> i64 {
-    if value.is_zero() {
-        return -i64::from(u32::MAX);
-    }
-    value.numer().bits() as i64 - value.denom().bits() as i64 + 1
-}
-
-/// A number `n` with `|x| ≤ 2ⁿ`, from those of the parts.
-pub(super) fn magnitude(tree: &Tree) -> Result<i64, ErrorKind> {
-    let length = |n: u64| 64 - i64::from(n.leading_zeros());
-    Ok(match tree {
-        Tree::Rational(value) => magnitude_of_rational(value),
-        Tree::Pi => 2,
-        Tree::Root(root) => {
-            // The modulus of a root is at most 1 + max|cₖ/cₙ| (Cauchy).
-            let bits = root.polynomial.numerators().iter().map(BigInt::bits).max();
-            bits.unwrap_or(0) as i64 + 1
-        }
-        Tree::Sqrt(x) => (x.magnitude() + 1).div_euclid(2),
-        Tree::Cbrt(x) => (x.magnitude() + 2).div_euclid(3),
-        Tree::Exp(x) => {
-            // log₂(eˣ) = x·log₂e < 3/2·x for positive x.
-            check_magnitude(x.magnitude())?;
-            let interval = x.enclose(4).ok_or_else(|| x.undecided())?;
-            let above: BigInt = &interval.high >> 4u32;
-            let above = (above.to_i64().unwrap_or(i64::from(u32::MAX)) + 1)
-                .clamp(-i64::from(u32::MAX), i64::from(u32::MAX));
-            if above > 0 {
-                (above * 1443).div_euclid(1000) + 1
-            } else {
-                (above * 1442).div_euclid(1000) + 1
-            }
-        }
-        Tree::Ln(x) => {
-            let (_, least) = x.separation().ok_or_else(|| x.undecided())?;
-            length(least.unsigned_abs().max(x.magnitude().unsigned_abs()))
-        }
-        Tree::Cos(x) | Tree::Sin(x) => {
-            check_magnitude(x.magnitude())?;
-            0
-        }
-        Tree::Product(factors) => {
-            let mut sum = 0i64;
-            for (x, n) in factors {
-                check("an exponent", n.unsigned_abs() as usize, MAX_POWER as usize)?;
-                let size = if *n > 0 {
-                    x.magnitude()
-                } else {
-                    x.separation().ok_or_else(|| x.undecided())?.1
-                };
-                sum = sum.saturating_add(size.saturating_mul(i64::from(*n)));
-            }
-            sum
-        }
-        Tree::Sum(constant, terms) => {
-            let largest = terms
-                .iter()
-                .map(|(x, q)| x.magnitude().saturating_add(magnitude_of_rational(q)))
-                .fold(magnitude_of_rational(constant), i64::max);
-            largest.saturating_add(length(terms.len() as u64))
-        }
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::symbolic::constant::tests::{constant, value};
-
-    #[test]
-    fn magnitudes_bound_the_values() {
-        for text in [
-            "pi",
-            "-e^5",
-            "exp(-7/2)",
-            "sqrt(1/1000)",
-            "1/(pi - 22/7)",
-            "ln(10^300)",
-            "1000*sqrt(2) + e",
-            "root(t^3 - 1000*t - 1, 3)",
-            "cbrt(-10^9/7)",
-            "exp(1/1000)",
-            "exp(-1/1000)",
-            "pi^5/exp(2)^3",
-        ] {
-            let x = constant(text);
-            assert!(value(&x).abs() <= 2f64.powi(x.magnitude() as i32), "{text}");
-            assert!(
-                value(&x).abs() >= 2f64.powi(x.magnitude() as i32 - 9),
-                "{text}"
-            );
-        }
-    }
 }
