@@ -40,6 +40,11 @@ const LONGEST_TEXT: usize = 2000;
 /// The largest product of the degree in `X` and the root of the number of constants: elimination among
 /// rational functions grows with both.
 const MAX_DEGREES: f64 = 160.0;
+/// Rationals with at most so many bits are as cheap as any.
+const USUAL_BITS: u64 = 128;
+/// The largest product of the bits beyond that and the degrees in `X` and `θ`: exact arithmetic with long rationals takes
+/// far longer than enclosures.
+const MAX_LENGTH: f64 = 2048.0;
 
 impl PartialEq for Constants {
     fn eq(&self, other: &Self) -> bool {
@@ -61,6 +66,8 @@ struct Parts {
     seen: HashSet<Constant>,
     /// All exponents and arguments in radians, and powers of π.
     arguments: Vec<BigRational>,
+    /// The most bits of a rational.
+    bits: u64,
 }
 
 /// The least common multiple of a denominator and those before; `None` where it is out of proportion.
@@ -73,13 +80,21 @@ fn common(known: Option<u32>, value: &BigRational) -> Option<Option<u32>> {
 impl Parts {
     /// Collects the parts of a constant; `None` where a part lies in no constant field.
     fn collect(&mut self, constant: &Constant) -> Option<()> {
-        if matches!(constant.tree(), Tree::Rational(_)) || !self.seen.insert(constant.clone()) {
+        if let Tree::Rational(value) = constant.tree() {
+            self.note(value);
+            return Some(());
+        }
+        if !self.seen.insert(constant.clone()) {
             return Some(());
         }
         match constant.tree() {
             Tree::Rational(_) => {}
             Tree::Pi => self.pi = true,
-            Tree::Root(_) => self.radicals.push(constant.clone()),
+            Tree::Root(root) => {
+                let bits = root.polynomial.numerators().iter().map(BigInt::bits).max();
+                self.bits = self.bits.max(bits.unwrap_or(0));
+                self.radicals.push(constant.clone());
+            }
             Tree::Sqrt(x) | Tree::Cbrt(x) => {
                 self.collect(x)?;
                 self.radicals.push(constant.clone());
@@ -108,13 +123,28 @@ impl Parts {
                     self.collect(x)?;
                 }
             }
-            Tree::Sum(_, terms) => {
-                for (x, _) in terms {
+            Tree::Sum(value, terms) => {
+                self.note(value);
+                for (x, factor) in terms {
+                    self.note(factor);
                     self.collect(x)?;
                 }
             }
         }
         Some(())
+    }
+
+    /// Takes note of the length of a rational.
+    fn note(&mut self, value: &BigRational) {
+        let bits = value.numer().bits().max(value.denom().bits());
+        self.bits = self.bits.max(bits);
+    }
+
+    /// Whether arithmetic is fast enough in a field with this degree in `X` and this degree of `θ`.
+    fn are_short(&self, transcendental: f64, algebraic: usize) -> bool {
+        let beyond = self.bits.saturating_sub(USUAL_BITS) as f64;
+        let degrees = (1.0 + transcendental) * algebraic as f64;
+        degrees <= 1.0 || beyond * degrees <= MAX_LENGTH
     }
 
     /// The largest power of `X` in an exponential, a sine or a cosine.
@@ -151,8 +181,11 @@ impl Constants {
             parts.collect(constant)?;
         }
         let transcendental = parts.transcendental()?;
-        let size = (1.0 + parts.degree()?) * (constants.len() as f64).sqrt();
-        if size > MAX_DEGREES {
+        // The powers of X, of which there is at least the first.
+        let degree = parts.degree()?;
+        let powers = transcendental.map_or(0.0, |_| degree.max(1.0));
+        let size = (1.0 + degree) * (constants.len() as f64).sqrt();
+        if size > MAX_DEGREES || !parts.are_short(powers, 1) {
             return None;
         }
         let mut result = Constants {
@@ -169,6 +202,14 @@ impl Constants {
         }
         for radical in &parts.radicals {
             let number_field = result.field.algebraic();
+            let order = match radical.tree() {
+                Tree::Root(root) => root.polynomial.degree().unwrap_or(1),
+                Tree::Cbrt(_) => 3,
+                _ => 2,
+            };
+            if !parts.are_short(powers, order * number_field.degree()) {
+                return None;
+            }
             let inner = |x: &Constant| result.element(x)?.as_algebraic();
             let extension = match radical.tree() {
                 Tree::Sqrt(x) => number_field.square_root(&inner(x)?)?,

@@ -1,0 +1,121 @@
+//! Definitions with extreme constants: an answer in time, and files that are accepted again.
+
+mod extreme;
+
+use std::time::Duration;
+
+use extreme::{Random, definition, within};
+use symplectic_compiler::export::{json, text, toml};
+use symplectic_compiler::{Definition, Key, Limits, check};
+
+/// Far more than any definition here takes by itself, which is less than 2 s: tests run beside others.
+const DEADLINE: Duration = Duration::from_secs(20);
+
+/// Derives a definition, decides its properties and orders, and rounds its coefficients. Whether it was not refused.
+fn answered(definition: &Definition) -> bool {
+    let Ok(tableau) = definition.derive(&Limits::default()) else {
+        return false;
+    };
+    let _ = (tableau.properties(), tableau.separable_properties());
+    let _ = (tableau.orders(), tableau.perturbed_order());
+    let _ = tableau.to_f64();
+    assert!(
+        [1, 40]
+            .iter()
+            .all(|&digits| !text::write(&tableau, digits).is_empty())
+    );
+    true
+}
+
+/// How many of the definitions of these seeds are not refused, the longest time and its seed.
+fn run(seeds: std::ops::Range<u64>) -> (usize, Duration, u64) {
+    let (mut derived, mut longest, mut slowest) = (0, Duration::ZERO, 0);
+    for seed in seeds {
+        let definition = definition(&mut Random::new(seed));
+        let label = format!("seed {seed}: {definition}");
+        let (is_derived, time) = within(DEADLINE, &label, move || answered(&definition));
+        derived += usize::from(is_derived);
+        if time > longest {
+            (longest, slowest) = (time, seed);
+        }
+    }
+    (derived, longest, slowest)
+}
+
+#[test]
+fn extreme_constants_have_an_answer_in_time() {
+    let (derived, ..) = run(0..200);
+    assert!(derived > 50, "only {derived} are derived");
+}
+
+#[test]
+#[ignore = "thousands, by hand"]
+fn thousands_of_extreme_constants_have_an_answer_in_time() {
+    let (derived, longest, seed) = run(1000..6000);
+    println!("{derived} of 5000 are derived, the longest takes {longest:?}: seed {seed}");
+}
+
+/// Definitions whose numbers differ by hundreds of powers of ten.
+fn stretched(random: &mut Random) -> Definition {
+    let rate = [1, 40, 200, 400, 700, 750, 800, 900, 1000, 1300][random.below(10)];
+    let sign = random.pick(&["", "-"]);
+    let function = random.pick(&["exp", "cosh", "sinh"]);
+    let scale = random.pick(&["", "t*", "1e-300*", "1e200*"]);
+    let nodes = [
+        "1/4, 3/4",
+        "0, 1",
+        "1e-30, 1/2",
+        "1/3, 1 - 1e-60",
+        "1/2, 1/2 + 1e-40",
+    ];
+    let mut parts = vec![
+        (Key::Basis, format!("1, {scale}{function}({sign}{rate}*t)")),
+        (Key::Nodes, random.pick(&nodes).to_owned()),
+    ];
+    for key in [Key::Exchange, Key::Adjoint] {
+        if random.below(2) == 0 {
+            parts.push((key, "true".to_owned()));
+        }
+    }
+    Definition::new(parts)
+}
+
+/// Writes a definition in both formats and holds the files against new derivations; whether there is a tableau.
+fn round_trip(definition: &Definition, digits: usize) -> Result<bool, String> {
+    let limits = Limits::default();
+    let Ok(tableau) = definition.derive(&limits) else {
+        return Ok(false);
+    };
+    let files = [
+        ("x.toml", toml::write(&tableau, digits)),
+        ("x.json", json::write(&tableau, digits)),
+    ];
+    for (name, text) in files {
+        check(name, &text, &limits).map_err(|error| error.to_string())?;
+    }
+    Ok(true)
+}
+
+fn round_trips(seeds: std::ops::Range<u64>) -> usize {
+    let trip = |seed: u64| {
+        let mut random = Random::new(seed);
+        let definition = stretched(&mut random);
+        let digits = [1, 16, 40, 200][random.below(4)];
+        let label = format!("seed {seed}, {digits} digits: {definition}");
+        let (result, _) = within(DEADLINE, &label, move || round_trip(&definition, digits));
+        result.unwrap_or_else(|error| panic!("{label}: {error}"))
+    };
+    seeds.filter(|&seed| trip(seed)).count()
+}
+
+#[test]
+fn what_is_written_is_accepted_again() {
+    let written = round_trips(0..60);
+    assert!(written > 30, "only {written}");
+}
+
+#[test]
+#[ignore = "thousands, by hand"]
+fn thousands_that_are_written_are_accepted_again() {
+    println!("{} files are accepted", round_trips(1000..5000));
+}
