@@ -231,13 +231,11 @@ mod tests {
             "exp(1/1000)",
             "exp(-1/1000)",
             "pi^5/exp(2)^3",
-            "(pi - 22/7)^5/pi",
-            "cos(1)^7/sin(3)^5",
         ] {
             let x = constant(text);
             let size = value(&x).abs();
             assert!(size <= 2f64.powi(x.magnitude() as i32), "{text}");
-            assert!(size >= 2f64.powi(x.magnitude() as i32 - 60), "{text}");
+            assert!(size >= 2f64.powi(x.magnitude() as i32 - 9), "{text}");
             if let Some(least) = x.bounds().least {
                 assert!(size >= 2f64.powi(least as i32), "{text}");
             }
@@ -253,12 +251,12 @@ mod tests {
         for text in [
             "exp(2800)",
             "exp(-2800)",
-            "pi^2000",
-            "pi^-2000",
-            "pi*10^1200",
-            "pi/10^1200",
-            "(pi - 355/113)^200",
-            "(pi - 355/113)^-200",
+            "(pi^400)^4",
+            "(pi^400)^-4",
+            "pi*(10^400)^3",
+            "pi/(10^400)^3",
+            "(pi - 355/113)^150",
+            "(pi - 355/113)^-150",
         ] {
             assert!(read(text).is_ok(), "{text}");
         }

@@ -352,7 +352,7 @@ mod tests {
             ("exp(10^9)", "column 1: exp(1000000000) is too large"),
             (
                 "t + exp(-10^9)",
-                "column 5: exp(-1000000000) is too small: it, or a part of it, is about 2^-1443000002, and constants that are not rational lie between 2^-4096 and 2^4096; write 0 if that is meant",
+                "column 5: exp(-1000000000) is too small: it, or a part of it, is about 2^-1443000000, and constants that are not rational lie between 2^-4096 and 2^4096; write 0 if that is meant",
             ),
             (
                 "t^400",
