@@ -210,7 +210,6 @@ fn sides(factors: &[(Constant, i32)]) -> Result<[Magnitude; 2], ErrorKind> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::expression::{Input, parse_list};
     use crate::symbolic::constant::tests::{constant, value};
 
