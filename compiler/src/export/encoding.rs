@@ -111,13 +111,15 @@ mod tests {
             ),
         ];
         for (bytes, encoding) in refused {
-            let message = decode("x", bytes).unwrap_err().to_string();
+            let message = decode("x", bytes).expect_err("refused").to_string();
             assert!(
                 message.starts_with(&format!("`x` is {encoding} text; save it as UTF-8")),
                 "{message}"
             );
         }
-        let message = decode("x", b"a\xe3".to_vec()).unwrap_err().to_string();
+        let message = decode("x", b"a\xe3".to_vec())
+            .expect_err("refused")
+            .to_string();
         assert!(
             message.contains("the byte at offset 1 is wrong; save it as UTF-8"),
             "{message}"
