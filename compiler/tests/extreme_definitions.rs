@@ -52,7 +52,11 @@ fn extreme_constants_have_an_answer_in_time() {
 #[ignore = "thousands, by hand"]
 fn thousands_of_extreme_constants_have_an_answer_in_time() {
     let (derived, longest, seed) = run(1000..6000);
-    println!("{derived} of 5000 are derived, the longest takes {longest:?}: seed {seed}");
+    let limit = Duration::from_secs(2);
+    assert!(
+        longest < limit,
+        "seed {seed} takes {longest:?}; {derived} are derived"
+    );
 }
 
 /// Definitions whose numbers differ by hundreds of powers of ten.
@@ -129,5 +133,6 @@ fn what_is_written_is_accepted_again() {
 #[test]
 #[ignore = "thousands, by hand: the stability of some takes long"]
 fn thousands_that_are_written_are_accepted_again() {
-    println!("{} files are accepted", round_trips(1000..5000));
+    let written = round_trips(1000..5000);
+    assert!(written > 2000, "only {written}");
 }
