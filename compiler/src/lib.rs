@@ -39,6 +39,8 @@ pub mod catalogue;
 pub mod certify;
 mod check;
 mod coefficients;
+#[cfg(test)]
+mod decisions;
 mod definition;
 mod derive;
 mod efficiency;

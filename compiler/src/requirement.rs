@@ -268,7 +268,10 @@ impl Tableau {
                     Some(bound) => format!("stable up to hω = {bound}"),
                     None => "`p_stable`".to_owned(),
                 };
-                let message = format!("the method is not {not}: it is stable for hω in {steps}");
+                let message = match evidence {
+                    Evidence::Undecided { .. } => format!("whether the method is {not}: {steps}"),
+                    _ => format!("the method is not {not}: it is stable for hω in {steps}"),
+                };
                 (holds, evidence, message)
             }
         };
@@ -284,6 +287,9 @@ impl Tableau {
         if let StableSteps::First { interval, evidence } = &steps {
             let holds = bound.is_some_and(|bound| interval.contains(bound));
             return (steps.to_string(), holds, *evidence);
+        }
+        if let StableSteps::NotDecided { bits } = steps {
+            return (steps.to_string(), false, Evidence::Undecided { bits });
         }
         let stability = self.stability();
         let holds = bound.map_or(stability.p_stable, |bound| stability.stable_to(bound));

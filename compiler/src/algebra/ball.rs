@@ -81,15 +81,17 @@ impl Ball {
         Ball::rounded(middle, BigInt::one(), -(up as i64), bits)
     }
 
-    /// An enclosure of a number that is narrow compared with the number.
+    /// An enclosure of a number that is narrow compared with the number, or with 1 if the number is not told from zero.
     pub fn of(number: &Number<'_>, bits: u32) -> Self {
         match number {
             Number::Rational(value) => return Ball::quotient(value, bits),
             Number::Enclosed(ball) => return ball.clone(),
             _ => {}
         }
-        if number.is_zero() {
-            return Ball::zero();
+        match number.zero() {
+            Zero::Yes => return Ball::zero(),
+            Zero::Within(_) => return Ball::undecided(&number.enclose(bits)),
+            Zero::No => {}
         }
         let mut places = bits + 64;
         loop {
@@ -101,6 +103,14 @@ impl Ball {
                 }
             }
             places *= 2;
+        }
+    }
+
+    /// A number that enclosures do not tell from zero, which is small compared with 1.
+    fn undecided(interval: &Interval) -> Self {
+        Ball {
+            scale: 0,
+            ..Ball::around(interval, interval.bits())
         }
     }
 
@@ -347,6 +357,10 @@ impl Field for Balls {
 
     fn enclose(&self, x: &Ball, _bits: u32) -> Ball {
         x.clone()
+    }
+
+    fn finest_bits(&self) -> Option<u32> {
+        Some(self.bits)
     }
 
     fn doubt(&self) {

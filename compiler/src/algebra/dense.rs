@@ -76,6 +76,10 @@ pub trait Field: Debug + PartialEq {
     fn length(&self, _x: &Self::Element) -> u64 {
         0
     }
+    /// The bits beyond which enclosures get no narrower; `None` where numbers are enclosed as narrowly as wanted.
+    fn finest_bits(&self) -> Option<u32> {
+        None
+    }
     /// Takes note that a question was left undecided.
     fn doubt(&self) {}
 }

@@ -2,13 +2,15 @@
 
 use std::cmp::Ordering;
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero as _};
 
 use super::node::{NodeNumber, short_rational};
-use super::real::ROUNDING_BITS;
+use super::real::{ROUNDING_BITS, beyond_usual};
 use super::{Ball, ConstantField, FieldElement, Real, ZERO_BITS};
 use crate::arithmetic::interval::Interval;
+use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::{add, ratio};
 use crate::arithmetic::rounding::{self, Decimal, exact};
 
@@ -61,6 +63,37 @@ impl Number<'_> {
             Number::Enclosed(ball) => ball.interval(bits),
         };
         enclosure.with_bits(bits)
+    }
+
+    /// About how many machine words the exact form has; 0 where there is none, or it is of no interest.
+    pub(crate) fn words(&self) -> u64 {
+        let words = |polynomial: &Polynomial| {
+            let numerators = polynomial.numerators().iter();
+            let bits: u64 = numerators.map(BigInt::bits).sum();
+            (bits + polynomial.denominator().bits()) / 64
+        };
+        match self {
+            Number::Rational(value) => (value.numer().bits() + value.denom().bits()) / 64,
+            Number::Field(_, element) => {
+                let lists = [element.numerator(), element.denominator()];
+                lists.into_iter().flatten().map(words).sum()
+            }
+            _ => 0,
+        }
+    }
+
+    /// The binary places beyond the usual ones that it takes to see the smallest of the numbers of which this one consists.
+    pub(crate) fn fineness(&self) -> u32 {
+        match self {
+            Number::Rational(value) => beyond_usual(value.denom().bits()),
+            Number::Field(_, element) => {
+                let lists = [element.numerator(), element.denominator()];
+                let places = lists.into_iter().flatten().map(|p| p.denominator().bits());
+                beyond_usual(places.max().unwrap_or(0))
+            }
+            Number::Real(number) => number.fineness(),
+            Number::Node(_) | Number::Enclosed(_) => 0,
+        }
     }
 
     /// Whether both are written in the same way, which is seen at once; numbers that are not may be equal.
@@ -230,7 +263,6 @@ mod tests {
 
     use super::*;
     use crate::algebra::{NodeAlgebra, StageAlgebra, Tensor};
-    use crate::arithmetic::polynomial::Polynomial;
     use num_traits::One;
 
     /// Nodes 1/2 ∓ √3/6.

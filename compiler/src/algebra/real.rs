@@ -14,6 +14,17 @@ use crate::symbolic::Constant;
 /// Binary places to which equations are verified, and to which a number is compared with zero when it is rounded.
 /// Half the smallest positive double is `2⁻¹⁰⁷⁵`, so that what is not told from zero is the double zero.
 pub const ZERO_BITS: u32 = 1280;
+/// Numbers that begin at so many binary places are nothing unusual.
+const USUAL_BITS: u64 = 256;
+/// At most so many binary places are added for numbers that begin later.
+const MOST_FINENESS: u32 = 1 << 14;
+
+/// The binary places beyond the usual ones at which a number begins, from those at which it does.
+pub(crate) fn beyond_usual(places: u64) -> u32 {
+    let beyond = places.saturating_sub(USUAL_BITS);
+    u32::try_from(beyond).unwrap_or(MOST_FINENESS).min(MOST_FINENESS)
+}
+
 /// Binary places to which a number is compared with ties when it is rounded.
 pub const ROUNDING_BITS: u32 = 8192;
 
@@ -27,6 +38,8 @@ pub struct Real(Arc<Expression>);
 #[derive(Debug)]
 struct Expression {
     operation: Operation,
+    /// The binary places beyond the usual ones that it takes to see the smallest of its numbers.
+    fineness: u32,
     finest: Mutex<Option<Interval>>,
 }
 
@@ -42,9 +55,30 @@ enum Operation {
     Inverse(Real),
 }
 
+impl Operation {
+    /// That of a sum is that of its finest term, that of a product the sum of those of its factors.
+    fn fineness(&self) -> u32 {
+        match self {
+            Operation::Rational(value) => beyond_usual(value.denom().bits()),
+            Operation::Constant(constant) => beyond_usual(constant.fineness()),
+            Operation::Certified(..) => 0,
+            Operation::Add(x, y) | Operation::Subtract(x, y) => x.fineness().max(y.fineness()),
+            Operation::Multiply(x, y) => (x.fineness() + y.fineness()).min(MOST_FINENESS),
+            Operation::Inverse(x) => x.fineness(),
+        }
+    }
+}
+
 impl Real {
+    /// The binary places beyond the usual ones that it takes to see the smallest of the numbers in the expression: a zero
+    /// is one only beyond these.
+    pub(crate) fn fineness(&self) -> u32 {
+        self.0.fineness
+    }
+
     fn new(operation: Operation) -> Self {
         Real(Arc::new(Expression {
+            fineness: operation.fineness(),
             operation,
             finest: Mutex::new(None),
         }))
@@ -122,7 +156,7 @@ impl Real {
     }
 
     /// What is known about whether the number equals a rational, from enclosures with as many binary places
-    /// as `limit`.
+    /// as `limit` and those that it takes to see the smallest of its numbers.
     pub fn difference(&self, value: &BigRational, limit: u32) -> Zero {
         if let Some(known) = self.as_rational() {
             return if known == value { Zero::Yes } else { Zero::No };
@@ -135,7 +169,7 @@ impl Real {
             return Zero::No;
         }
         // Nearly every number is told apart by the first enclosure; what is not is likely equal.
-        for bits in [PIVOT_BITS, limit] {
+        for bits in [PIVOT_BITS, limit.saturating_add(self.fineness())] {
             if !self.enclose(bits).contains(value) {
                 return Zero::No;
             }

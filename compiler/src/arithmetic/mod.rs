@@ -2,11 +2,13 @@
 //! functions, correct rounding.
 
 pub mod algebraic_number;
+mod common_divisor;
 pub mod eigen;
 pub mod elementary;
 pub mod enclosure_cache;
 pub mod factor;
 pub mod fixed;
+pub(crate) mod gcd;
 pub mod interval;
 pub mod linear_solver;
 pub mod matrix;

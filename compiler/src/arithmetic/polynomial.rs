@@ -1,12 +1,15 @@
 //! Polynomials in one variable with rational coefficients.
 
+use std::cmp::Ordering;
 use std::fmt;
 use std::ops::{Add, Mul, Neg, Sub};
 
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
+
+use super::common_divisor;
+use super::gcd::gcd;
 
 /// A polynomial over the rationals, lowest degree first.
 ///
@@ -33,7 +36,7 @@ impl Polynomial {
             if common.is_one() {
                 break;
             }
-            common = common.gcd(numerator);
+            common = gcd(&common, numerator);
         }
         if numerators.is_empty() {
             common = denominator.clone();
@@ -96,7 +99,7 @@ impl Polynomial {
     pub fn from_rationals(coefficients: &[BigRational]) -> Self {
         let denominator = coefficients
             .iter()
-            .fold(BigInt::one(), |lcm, c| lcm.lcm(c.denom()));
+            .fold(BigInt::one(), |lcm, c| &lcm / gcd(&lcm, c.denom()) * c.denom());
         let numerators = coefficients
             .iter()
             .map(|c| c.numer() * (&denominator / c.denom()))
@@ -125,7 +128,8 @@ impl Polynomial {
         if self.denominator.is_one() {
             return BigRational::from_integer(numerator);
         }
-        BigRational::new(numerator, self.denominator.clone())
+        let common = gcd(&numerator, &self.denominator);
+        BigRational::new_raw(numerator / &common, &self.denominator / common)
     }
 
     /// All coefficients, lowest degree first.
@@ -155,7 +159,7 @@ impl Polynomial {
         let content = self
             .numerators
             .iter()
-            .fold(BigInt::zero(), |gcd, n| gcd.gcd(n));
+            .fold(BigInt::zero(), |content, n| gcd(&content, n));
         let content = if self.leading().is_negative() {
             -content
         } else {
@@ -163,6 +167,14 @@ impl Polynomial {
         };
         Polynomial {
             numerators: self.numerators.iter().map(|n| n / &content).collect(),
+            denominator: BigInt::one(),
+        }
+    }
+
+    /// The multiple by the common denominator: whole coefficients, which need not be coprime.
+    pub(crate) fn whole_multiple(&self) -> Self {
+        Polynomial {
+            numerators: self.numerators.clone(),
             denominator: BigInt::one(),
         }
     }
@@ -199,6 +211,17 @@ impl Polynomial {
         }
         // `power` has one factor too many, and so has nothing else.
         BigRational::new(value * x.denom(), &self.denominator * power)
+    }
+
+    /// The sign of the value at a rational point, without bringing the value to lowest terms.
+    pub fn sign_at(&self, x: &BigRational) -> Ordering {
+        let mut value = BigInt::zero();
+        let mut power = BigInt::one();
+        for numerator in self.numerators.iter().rev() {
+            value = value * x.numer() + numerator * &power;
+            power *= x.denom();
+        }
+        value.cmp(&BigInt::zero())
     }
 
     /// The composition `self(inner(x))`.
@@ -253,8 +276,8 @@ impl Polynomial {
                 continue;
             }
             if !leading.is_one() {
-                let gcd = top.gcd(leading);
-                let (top, leading) = (&top / &gcd, leading / gcd);
+                let common = gcd(&top, leading);
+                let (top, leading) = (&top / &common, leading / common);
                 remainder.iter_mut().for_each(|r| *r *= &leading);
                 quotient.iter_mut().for_each(|q| *q *= &leading);
                 multiplier *= &leading;
@@ -289,13 +312,7 @@ impl Polynomial {
 
     /// The greatest common divisor, with coprime integer coefficients; zero if both are zero.
     pub fn gcd(&self, other: &Polynomial) -> Self {
-        let (mut a, mut b) = (self.clone(), other.clone());
-        while !b.is_zero() {
-            let r = a.remainder(&b);
-            a = b;
-            b = if r.is_zero() { r } else { r.primitive() };
-        }
-        if a.is_zero() { a } else { a.primitive() }
+        common_divisor::gcd(self, other)
     }
 
     /// The inverse modulo another polynomial.
@@ -360,7 +377,8 @@ impl fmt::Debug for Polynomial {
 
 /// `a·left + b·right` coefficient by coefficient, over the least common denominator.
 fn combine(left: &Polynomial, right: &Polynomial, sign: i32) -> Polynomial {
-    let denominator = left.denominator.lcm(&right.denominator);
+    let common = gcd(&left.denominator, &right.denominator);
+    let denominator = &left.denominator / common * &right.denominator;
     let (l, r) = (
         &denominator / &left.denominator,
         &denominator / &right.denominator * sign,

@@ -8,6 +8,7 @@ use num_traits::{One, Signed, Zero};
 
 use super::interval::Interval;
 use super::polynomial::Polynomial;
+use super::prime_field::{PrimeField, large_primes};
 use super::rational::simplest_between;
 
 /// A real root of a squarefree polynomial, exactly.
@@ -123,6 +124,33 @@ impl SturmChain {
     }
 }
 
+/// The only root of a polynomial in `(low, high]·2⁻ᵇⁱᵗˢ`, which is known to be rational or not.
+pub(crate) fn classified(polynomial: &Polynomial, interval: &Interval) -> Root {
+    let Interval { low, high, bits } = interval.clone();
+    classify(&polynomial.whole_multiple(), low, high, bits)
+}
+
+/// Leading coefficients with more bits make it long to look at a rational candidate.
+const LONG: u64 = 1024;
+/// The primes by which rational roots are excluded.
+const PRIMES: usize = 64;
+
+/// Whether some prime proves that a polynomial with whole coefficients has no rational root: it has none modulo that
+/// prime, which does not divide the leading coefficient.
+fn surely_has_no_rational_root(polynomial: &Polynomial) -> bool {
+    let proves = |field: PrimeField| {
+        let residues = field.reduce(polynomial)?;
+        if residues.len() != polynomial.numerators().len() {
+            return None;
+        }
+        let power = field.power_modulo(&[0, 1], field.prime(), &residues);
+        let difference = field.subtract(&power, &field.remainder(&[0, 1], &residues));
+        (field.gcd(&residues, &difference).len() == 1).then_some(())
+    };
+    let mut primes = large_primes().take(PRIMES).map(PrimeField::new);
+    primes.any(|field| proves(field).is_some())
+}
+
 /// Decides whether the only root in `(low, high]` is rational.
 fn classify(polynomial: &Polynomial, low: BigInt, high: BigInt, bits: u32) -> Root {
     let rational = |point: &BigInt, bits: u32| {
@@ -142,6 +170,9 @@ fn classify(polynomial: &Polynomial, low: BigInt, high: BigInt, bits: u32) -> Ro
             _ => low = middle,
         }
     }
+    if polynomial.leading().numer().bits() > LONG && surely_has_no_rational_root(polynomial) {
+        return Root::Irrational(Interval { low, high, bits });
+    }
     // A rational root is k/leading for a whole k: in an interval shorter than 1/(2·leading) it is the
     // simplest rational, or there is none.
     let leading = polynomial.leading().to_integer();
@@ -156,7 +187,7 @@ fn classify(polynomial: &Polynomial, low: BigInt, high: BigInt, bits: u32) -> Ro
     let scaled = |end: BigRational| end * BigRational::from_integer(leading.clone());
     let candidate = simplest_between(&scaled(interval.low()), &scaled(interval.high()))
         / BigRational::from_integer(leading.clone());
-    if polynomial.evaluate(&candidate).is_zero() {
+    if polynomial.sign_at(&candidate).is_eq() {
         Root::Rational(candidate)
     } else {
         Root::Irrational(interval)

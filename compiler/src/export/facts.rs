@@ -2,7 +2,7 @@
 
 use super::json::evidence;
 use crate::order::{ClassOrder, HamiltonianClass, PerturbedOrder, PowerOrder, SymplecticityOrder};
-use crate::properties::{Evidence, Property};
+use crate::properties::Property;
 use crate::stability::{
     EndPoint, MOST_STAGES, RungeKuttaStability, Stability, StableSteps, evidence_text,
 };
@@ -101,6 +101,10 @@ pub(super) fn sections(
                 ("evidence", Text(name.to_owned())),
             ]
         }
+        StableSteps::NotDecided { bits } => vec![
+            ("evidence", Text("undecided".to_owned())),
+            ("bits", Literal(bits.to_string())),
+        ],
         StableSteps::NotComputed => vec![("omitted", Text(omitted("all")))],
     };
     [("order", order), ("stability", stability)]
@@ -283,11 +287,7 @@ pub(super) fn lines(tableau: &Tableau) -> Vec<String> {
         lines.push(format!("  {:10} {found}", "perturbed"));
     }
     if let Some(found) = tableau.symplecticity_order(SYMPLECTICITY_LIMIT) {
-        let evidence = match found.evidence {
-            Evidence::Verified { bits } => format!("verified to 2^-{bits}"),
-            Evidence::Certified => "certified".to_owned(),
-            Evidence::Proved | Evidence::Refuted => "proved".to_owned(),
-        };
+        let evidence = evidence_text(found.evidence);
         let violated = found.violated.as_ref();
         let not = violated.map_or(String::new(), |v| format!("; not {}: {v}", found.order + 1));
         let at_least = if violated.is_none() { "at least " } else { "" };
@@ -308,6 +308,7 @@ pub(super) fn lines(tableau: &Tableau) -> Vec<String> {
             lines.push(format!("  stable for ν in {interval}, {evidence}"));
             lines.push(format!("  left out: {omitted}"));
         }
+        steps @ StableSteps::NotDecided { .. } => lines.push(format!("  stable for ν: {steps}")),
         StableSteps::NotComputed => lines.push(format!("  left out: {}", omitted("all"))),
     }
     lines

@@ -3,6 +3,7 @@
 use super::facts::separable_only;
 use super::layout::{left, right, width, widths};
 use super::{left_out, written};
+use crate::stability::evidence_text;
 use crate::coefficients::Coefficients;
 use crate::pair::Staircase;
 use crate::properties::Evidence;
@@ -202,11 +203,14 @@ fn property_lines(tableau: &Tableau) -> Vec<String> {
         .map(|(name, property)| {
             let evidence = match property.evidence {
                 Evidence::Proved => "proved".to_owned(),
-                Evidence::Certified => "certified".to_owned(),
                 Evidence::Refuted => "refuted".to_owned(),
-                Evidence::Verified { bits } => format!("verified to 2^-{bits}"),
+                known => evidence_text(known),
             };
-            let holds = if property.holds { "yes" } else { "no" };
+            let holds = match (property.holds, property.evidence) {
+                (_, Evidence::Undecided { .. }) => "?",
+                (true, _) => "yes",
+                (false, _) => "no",
+            };
             let witness = property.witness.clone().unwrap_or_default();
             vec![name.to_owned(), holds.to_owned(), evidence, witness]
         })

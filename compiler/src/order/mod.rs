@@ -157,7 +157,7 @@ impl Tableau {
 }
 
 /// The order of a pair for each class of Hamiltonians.
-fn order<A: StageAlgebra>(
+pub(crate) fn order<A: StageAlgebra>(
     pair: &Pair<A>,
     options: &OrderOptions,
     given: Option<&GivenOrder>,

@@ -27,6 +27,7 @@ use num_traits::One;
 use super::weights::most_products;
 use super::words::Product;
 use super::{GivenOrder, SHORT, short};
+use crate::stability::evidence_text;
 use crate::algebra::{Dense, Field, Rationals, Zero};
 use crate::certify::{DRIFT, KICK, MAX_ORDER, MAX_PERTURBED_ORDER, Word, split_lyndon};
 use crate::pair::Pair;
@@ -99,11 +100,7 @@ impl fmt::Display for PerturbedOrder {
     /// `(4, 2), proved; not 5 in ε: …; not 3 in ε²: …`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.numbers())?;
-        let evidence = |power: &PowerOrder| match power.evidence {
-            Evidence::Verified { bits } => format!("verified to 2^-{bits}"),
-            Evidence::Certified => "certified".to_owned(),
-            Evidence::Proved | Evidence::Refuted => "proved".to_owned(),
-        };
+        let evidence = |power: &PowerOrder| evidence_text(power.evidence);
         let mut known: Vec<String> = self.powers.iter().map(evidence).collect();
         // One word for all, or one for each number.
         if known.iter().all(|word| *word == known[0]) {

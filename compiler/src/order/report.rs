@@ -6,6 +6,7 @@ use num_rational::BigRational;
 
 use super::class::HamiltonianClass;
 use super::tree::BicolouredTree;
+use crate::stability::evidence_text;
 use crate::arithmetic::rounding::Decimal;
 use crate::properties::Evidence;
 
@@ -54,11 +55,7 @@ impl fmt::Display for ClassOrder {
             f.write_str("at least ")?;
         }
         write!(f, "{}, ", self.order)?;
-        match self.evidence {
-            Evidence::Verified { bits } => write!(f, "verified to 2^-{bits}")?,
-            Evidence::Certified => f.write_str("certified")?,
-            Evidence::Proved | Evidence::Refuted => f.write_str("proved")?,
-        }
+        f.write_str(&evidence_text(self.evidence))?;
         match &self.refuted_by {
             Some(violated) => write!(f, "; not {}: {violated}", self.order + 1),
             None => Ok(()),

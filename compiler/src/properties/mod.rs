@@ -20,6 +20,7 @@ pub(crate) use self::symmetric::Symmetry;
 use crate::algebra::{Number, StageAlgebra, Zero};
 use crate::coefficients::{Coefficients, subscript};
 use crate::pair::Pair;
+use crate::stability::evidence_text;
 
 /// How it is known whether a property holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,9 +31,15 @@ pub enum Evidence {
     Certified,
     /// It does not hold, by exact arithmetic or by an enclosure that excludes it.
     Refuted,
-    /// Known only up to enclosures of width `2⁻ᵇⁱᵗˢ`; that is no proof.
+    /// Known only up to enclosures: each number that has to vanish is at most `2⁻ᵇⁱᵗˢ` in size, compared with the largest
+    /// term of the sum that it is or with 1, and all inequalities are proved. That is no proof.
     Verified {
         /// The width of the enclosures.
+        bits: u32,
+    },
+    /// Not known: enclosures of this many bits do not decide it.
+    Undecided {
+        /// The bits of the enclosures.
         bits: u32,
     },
 }
@@ -41,6 +48,8 @@ impl Evidence {
     /// The evidence for two statements that both hold.
     pub(crate) fn and(self, other: Evidence) -> Evidence {
         match (self, other) {
+            (undecided @ Evidence::Undecided { .. }, _)
+            | (_, undecided @ Evidence::Undecided { .. }) => undecided,
             (Evidence::Verified { bits }, Evidence::Verified { bits: others }) => {
                 Evidence::Verified {
                     bits: bits.min(others),
@@ -74,6 +83,14 @@ impl Property {
         }
     }
 
+    fn undecided(bits: u32, witness: String) -> Self {
+        Property {
+            holds: false,
+            evidence: Evidence::Undecided { bits },
+            witness: Some(witness),
+        }
+    }
+
     fn refuted(witness: String) -> Self {
         Property {
             holds: false,
@@ -85,12 +102,14 @@ impl Property {
 
 impl fmt::Display for Property {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(if self.holds { "yes, " } else { "no, " })?;
+        if !matches!(self.evidence, Evidence::Undecided { .. }) {
+            f.write_str(if self.holds { "yes, " } else { "no, " })?;
+        }
         match self.evidence {
             Evidence::Proved => f.write_str("proved")?,
             Evidence::Certified => f.write_str("certified")?,
             Evidence::Refuted => f.write_str("refuted")?,
-            Evidence::Verified { bits } => write!(f, "verified to 2^-{bits}")?,
+            known => f.write_str(&evidence_text(known))?,
         }
         self.witness
             .as_ref()

@@ -13,11 +13,7 @@ pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
             match (weight.sign(), weight.zero()) {
                 (Ordering::Greater, _) => {}
                 (Ordering::Equal, Zero::Within(bits)) => {
-                    return Property {
-                        holds: false,
-                        evidence: Evidence::Verified { bits },
-                        witness: Some(format!("{name} cannot be told from zero")),
-                    };
+                    return Property::undecided(bits, format!("{name} cannot be told from zero"));
                 }
                 (Ordering::Equal, _) => return Property::refuted(format!("{name} = 0")),
                 (Ordering::Less, _) => {

@@ -32,6 +32,8 @@ impl<P: RealPolynomial> Cells<P> {
             roots.extend(found.map(|root| PositiveRoot::new(&polynomial, root)));
         }
         let mut bits = FIRST_BITS;
+        let finest = roots.iter().filter_map(|root| root.polynomial.finest_bits());
+        let finest = finest.min().unwrap_or(u32::MAX);
         // Different positive numbers: enough places tell them apart, and from zero.
         let enclosures = loop {
             let enclosed = |root: PositiveRoot<P>| (root.enclose(bits), root);
@@ -45,6 +47,10 @@ impl<P: RealPolynomial> Cells<P> {
                 .is_none_or(|(x, _)| x.sign().is_some_and(std::cmp::Ordering::is_gt));
             if apart && positive {
                 break enclosures;
+            }
+            if bits > finest {
+                enclosures.iter().for_each(|(_, root)| root.polynomial.doubt());
+                break Vec::new();
             }
             roots = enclosures.into_iter().map(|(_, root)| root).collect();
             bits *= 2;

@@ -8,13 +8,13 @@ use num_rational::BigRational;
 
 use super::Coefficient;
 use super::budget::Budget;
-use super::isolation::{bisect, monotonic};
+use super::isolation::{monotonic, narrow};
 use super::polynomial::{RealPolynomial, SHORT};
 use crate::algebra::{Ball, Field, Image, Scalar, StageAlgebra};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::ratio;
-use crate::arithmetic::roots::Root;
+use crate::arithmetic::roots::{Root, compare};
 
 /// A polynomial over the field of constants of an algebra.
 ///
@@ -28,21 +28,26 @@ pub(super) struct FieldPolynomial<A: StageAlgebra> {
     coefficients: Vec<Scalar<A>>,
     /// Enclosures of the coefficients, for each of [`PRECISIONS`], once they were needed.
     enclosures: [OnceLock<Vec<Ball>>; PRECISIONS.len()],
+    /// The positive roots, if enclosures tell them apart, once they were needed.
+    roots: OnceLock<Option<Vec<Root>>>,
 }
 
-/// Bits of enclosures. The signs of numbers that the last ones do not tell are found exactly.
-const PRECISIONS: [u32; 3] = [256, 1024, 4096];
+/// Bits of enclosures. The signs of numbers that the last ones do not tell are found exactly, or are not known.
+const PRECISIONS: [u32; 4] = [256, 1024, 4096, 16384];
+/// So many of [`PRECISIONS`] are tried to tell roots apart.
+const TRIED: usize = 3;
 
-impl<A: StageAlgebra> Clone for FieldPolynomial<A> {
+impl<A: StageAlgebra + 'static> Clone for FieldPolynomial<A> {
     fn clone(&self) -> Self {
         FieldPolynomial {
             enclosures: self.enclosures.clone(),
+            roots: self.roots.clone(),
             ..self.with(self.coefficients.clone())
         }
     }
 }
 
-impl<A: StageAlgebra> FieldPolynomial<A> {
+impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
     /// The polynomial with these coefficients, the constant first.
     pub(super) fn new(
         algebra: &Arc<A>,
@@ -58,6 +63,7 @@ impl<A: StageAlgebra> FieldPolynomial<A> {
             budget: Arc::clone(budget),
             coefficients,
             enclosures: Default::default(),
+            roots: OnceLock::new(),
         }
     }
 
@@ -67,6 +73,7 @@ impl<A: StageAlgebra> FieldPolynomial<A> {
             budget: Arc::clone(&self.budget),
             coefficients,
             enclosures: Default::default(),
+            roots: OnceLock::new(),
         }
     }
 
@@ -88,6 +95,84 @@ impl<A: StageAlgebra> FieldPolynomial<A> {
         let point = Ball::quotient(point, bits);
         let list = list.iter().rev().cloned();
         list.reduce(|value, c| value.multiply(&point, bits).add(&c, bits))
+    }
+
+    /// The value at a rational point, if enclosures tell its sign.
+    fn known_value(&self, point: &BigRational) -> Option<Ball> {
+        let tried = if self.is_exact() { TRIED } else { PRECISIONS.len() };
+        let known = |k| self.value_at(point, k).filter(|value| value.sign().is_some());
+        (0..tried).find_map(known)
+    }
+
+    /// The positive roots, if they are simple and narrow enclosures tell them apart.
+    fn roots(&self) -> Option<&[Root]> {
+        let find = || {
+            if self.degree().unwrap_or(0) == 0 {
+                return Some(Vec::new());
+            }
+            let intervals = (0..TRIED).find_map(|k| {
+                let (list, bits) = self.enclosed(k);
+                monotonic(list, bits)
+            });
+            Some(intervals?.into_iter().filter_map(|i| self.root_in(i)).collect())
+        };
+        self.roots.get_or_init(find).as_deref()
+    }
+
+    /// The root in a half-open interval in which the polynomial is monotonic.
+    fn root_in(&self, interval: Interval) -> Option<Root> {
+        let signs = [interval.low(), interval.high()].map(|end| self.sign_at(&end));
+        match signs {
+            // The other end of another interval, or zero.
+            [Ordering::Equal, _] => None,
+            [_, Ordering::Equal] => Some(Root::Rational(interval.high())),
+            [low, high] if low == high => None,
+            _ => Some(Root::Irrational(interval)),
+        }
+    }
+
+    /// Whether enclosures prove that no positive root is one of another polynomial.
+    fn is_apart_from(&self, other: &Self) -> bool {
+        let (Some(roots), Some(others)) = (self.roots(), other.roots()) else {
+            return false;
+        };
+        let enclosed = |polynomial: &Self, roots: &[Root], bits| -> Vec<Interval> {
+            let enclose = |root| polynomial.enclose_root(root, bits);
+            roots.iter().map(enclose).collect()
+        };
+        [64, 256, 1024, 4096, 16384].into_iter().any(|bits| {
+            let (all, others) = (enclosed(self, roots, bits), enclosed(other, others, bits));
+            let mut pairs = all.iter().flat_map(|x| others.iter().map(move |y| (x, y)));
+            pairs.all(|(x, y)| compare(x, y).is_some())
+        })
+    }
+
+    /// The greatest common divisor as far as positive roots go, where what is zero is only known from enclosures.
+    ///
+    /// Those of Euclid's algorithm lose all their places where numbers differ much in size. So they are asked only
+    /// where enclosures do not tell the roots apart, and have to explain why not.
+    fn enclosed_gcd(&self, other: &Self) -> Self {
+        if self.is_apart_from(other) {
+            return self.with(vec![self.integer(1)]);
+        }
+        let common = self.euclid(other);
+        if common.degree() == Some(0) {
+            return common;
+        }
+        let [rest, others] = [self, other].map(|p| p.divide(&common).0);
+        if !rest.is_apart_from(&others) {
+            self.field().doubt();
+        }
+        common
+    }
+
+    fn euclid(&self, other: &Self) -> Self {
+        let (mut a, mut b) = (self.signed_monic(), other.signed_monic());
+        while !b.is_zero() && !self.budget.is_spent() {
+            let remainder = a.remainder(&b).signed_monic();
+            (a, b) = (b, remainder);
+        }
+        a
     }
 
     /// Whether the arithmetic of the field decides what is zero.
@@ -259,17 +344,24 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
             if bound == Some(0) {
                 return self.with(vec![self.integer(1)]);
             }
+            if !self.is_exact() {
+                return self.enclosed_gcd(other);
+            }
             let (long, short) = if m < n { (other, self) } else { (self, other) };
             if bound == short.degree() && long.remainder(short).is_zero() {
                 return short.signed_monic();
             }
         }
-        let (mut a, mut b) = (self.signed_monic(), other.signed_monic());
-        while !b.is_zero() && !self.budget.is_spent() {
-            let remainder = a.remainder(&b).signed_monic();
-            (a, b) = (b, remainder);
+        self.euclid(other)
+    }
+
+    /// Where enclosures tell the positive roots apart, each of them is simple.
+    fn squarefree(&self) -> Self {
+        let simple = self.degree().unwrap_or(0) < 2 || !self.is_exact() && self.roots().is_some();
+        if simple {
+            return self.clone();
         }
-        a
+        self.divide(&self.gcd(&self.derivative())).0
     }
 
     /// From the lowest coefficients upwards, for which nothing but polynomials in the generators of the
@@ -288,6 +380,9 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
     }
 
     fn is_multiple_of(&self, divisor: &Self) -> bool {
+        if !self.is_exact() && !self.is_zero() && self.is_apart_from(divisor) {
+            return false;
+        }
         let rest = |image: &Image| {
             let (a, b) = (self.image(image)?, divisor.image(image)?);
             Some(image.field.remainder(&a, &b))
@@ -339,11 +434,8 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
     }
 
     fn sign_at(&self, point: &BigRational) -> Ordering {
-        if self.is_exact() {
-            let enclosed = |k| self.value_at(point, k)?.sign();
-            if let Some(sign) = (0..PRECISIONS.len()).find_map(enclosed) {
-                return sign;
-            }
+        if let Some(sign) = self.known_value(point).and_then(|value| value.sign()) {
+            return sign;
         }
         let field = self.field();
         let point = field.rational(point);
@@ -359,30 +451,13 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
     /// From enclosures of the coefficients: the polynomial is squarefree, so that narrow ones tell its roots
     /// apart.
     fn positive_roots(&self) -> Vec<Root> {
-        if self.degree().unwrap_or(0) == 0 || self.budget.is_spent() {
+        if self.budget.is_spent() {
             return Vec::new();
         }
-        let intervals = (0..PRECISIONS.len()).find_map(|k| {
-            let (list, bits) = self.enclosed(k);
-            monotonic(list, bits)
-        });
-        let Some(intervals) = intervals else {
-            self.budget.exhaust();
-            self.field().doubt();
-            return Vec::new();
-        };
-        let mut roots = Vec::new();
-        for interval in intervals {
-            let signs = [interval.low(), interval.high()].map(|end| self.sign_at(&end));
-            match signs {
-                // The other end of another interval, or zero.
-                [Ordering::Equal, _] => {}
-                [_, Ordering::Equal] => roots.push(Root::Rational(interval.high())),
-                [low, high] if low == high => {}
-                _ => roots.push(Root::Irrational(interval)),
-            }
-        }
-        roots
+        self.roots().map(<[Root]>::to_vec).unwrap_or_else(|| {
+            self.doubt();
+            Vec::new()
+        })
     }
 
     fn enclose_root(&self, root: &Root, bits: u32) -> Interval {
@@ -390,7 +465,15 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
             let value = root.rational().cloned().unwrap_or_default();
             return Interval::enclosing(&value, bits);
         };
-        bisect(interval, bits, |point| self.sign_at(point))
+        let exact = self.is_exact();
+        narrow(interval, bits, |point| match self.known_value(point) {
+            None if exact => Some(match self.sign_at(point) {
+                Ordering::Less => Ball::whole(1).negate(),
+                Ordering::Equal => Ball::whole(0),
+                Ordering::Greater => Ball::whole(1),
+            }),
+            known => known,
+        })
     }
 
     fn square_root_text(&self, root: &Root) -> Option<String> {
@@ -425,6 +508,15 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
         let top = self.coefficients.last().cloned().unwrap_or_else(zero);
         let inverse = other.coefficients.last().and_then(|c| field.inverse(c));
         self.coefficient(&field.multiply(&top, &inverse.unwrap_or_else(zero)))
+    }
+
+    fn finest_bits(&self) -> Option<u32> {
+        self.field().finest_bits()
+    }
+
+    fn doubt(&self) {
+        self.budget.exhaust();
+        self.field().doubt();
     }
 
     fn as_rational(&self) -> Option<&Polynomial> {

@@ -23,7 +23,7 @@ use num_rational::BigRational;
 
 use super::end_point::{EndPoint, PositiveReal};
 use super::intervals::StabilityInterval;
-use super::isolation::{bisect, monotonic_within, root_bound};
+use super::isolation::{ monotonic_within, narrow, root_bound};
 use super::oscillator::{matrix_of_flows, product_of_flows};
 use crate::algebra::{Ball, Balls, Field, Scalar, StageAlgebra};
 use crate::arithmetic::enclosure_cache::EnclosureCache;
@@ -31,7 +31,7 @@ use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
 use crate::pair::{Flows, Pair};
 
-/// Bits of enclosures. A sign that the last ones do not tell is taken for zero.
+/// Bits of enclosures.
 const PRECISIONS: [u32; 7] = [
     1 << 10,
     1 << 11,
@@ -95,9 +95,15 @@ impl<A: StageAlgebra> Half<A> {
         self.enclosures[precision].get_or_init(|| self.flows.map(enclose))
     }
 
-    /// The sign of an entry of `N` at `x`.
+    /// The sign of an entry of `N` at `x`; zero where the last enclosures do not tell it.
     fn sign_at(&self, entry: usize, x: &BigRational) -> Ordering {
-        let sign = |precision: usize| {
+        let value = self.value_at(entry, x);
+        value.and_then(|value| value.sign()).unwrap_or(Ordering::Equal)
+    }
+
+    /// The value of an entry of `N` at `x`, if enclosures tell its sign.
+    fn value_at(&self, entry: usize, x: &BigRational) -> Option<Ball> {
+        let value = |precision: usize| {
             let bits = PRECISIONS[precision];
             let x = Ball::quotient(x, bits);
             let add = |sum: &mut Ball, factor: &Ball, value: &Ball, power| {
@@ -109,11 +115,11 @@ impl<A: StageAlgebra> Half<A> {
                 *sum = sum.add(&product, bits);
             };
             let units = [Ball::whole(0), Ball::whole(1)];
-            let entries = product_of_flows(self.enclosed(precision), units, Ball::negate, add);
-            entries[entry].sign()
+            let [a, b, c, d] = product_of_flows(self.enclosed(precision), units, Ball::negate, add);
+            let value = [a, b, c, d].into_iter().nth(entry)?;
+            value.sign().map(|_| value)
         };
-        let mut signs = (0..PRECISIONS.len()).filter_map(sign);
-        signs.next().unwrap_or(Ordering::Equal)
+        (0..PRECISIONS.len()).find_map(value)
     }
 
     /// The first positive root of the entries of `N`: which of them has it, and an interval in which it is alone, and no
@@ -158,7 +164,7 @@ impl<A: StageAlgebra> Half<A> {
     fn least(&self, mut roots: Vec<(usize, Interval)>) -> Option<(usize, Interval)> {
         for places in [32, 128, 512] {
             for (entry, interval) in &mut roots {
-                *interval = bisect(interval, places, |x| self.sign_at(*entry, x));
+                *interval = narrow(interval, places, |x| self.value_at(*entry, x));
             }
             roots.sort_by_key(|(_, interval)| interval.low());
             let high = roots.first()?.1.high();
@@ -181,8 +187,8 @@ struct FirstRoot<A: StageAlgebra> {
 
 impl<A: StageAlgebra> PositiveReal for FirstRoot<A> {
     fn enclose(&self, bits: u32) -> Interval {
-        let sign_at = |x: &BigRational| self.half.sign_at(self.entry, x);
-        let compute = |bits| bisect(&self.interval, bits, sign_at);
+        let value_at = |x: &BigRational| self.half.value_at(self.entry, x);
+        let compute = |bits| narrow(&self.interval, bits, value_at);
         self.finest.enclose(bits, compute)
     }
 

@@ -4,10 +4,11 @@ use std::cmp::Ordering;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 
 use crate::algebra::Ball;
 use crate::arithmetic::interval::Interval;
+use crate::arithmetic::rational::dyadic;
 
 /// Half-open intervals `(low, high]·2⁻ᵇⁱᵗˢ` in ascending order, in each of which a polynomial is monotonic, and
 /// outside of which it has no positive root.
@@ -83,34 +84,76 @@ pub(super) fn monotonic_within(
     Some(found)
 }
 
-/// Narrows an interval at the ends of which a function has different signs, around a root, to this many binary places.
-pub(super) fn bisect(
+/// Narrows an interval at the ends of which a function has different signs, around a root, to this many binary places, or
+/// until a sign is not known.
+///
+/// The interval is cut into `2ⁿ` parts, and the root is sought in the one in which the chord vanishes. Where it is there,
+/// `n` is doubled, otherwise halved (Abbott, *Quadratic interval refinement for real roots*). `value_at` is a value whose
+/// sign is known.
+pub(super) fn narrow(
     interval: &Interval,
     bits: u32,
-    sign_at: impl Fn(&BigRational) -> Ordering,
+    value_at: impl Fn(&BigRational) -> Option<Ball>,
 ) -> Interval {
+    let value = |n: &BigInt, places: u32| value_at(&dyadic(n, places));
     let Interval {
         mut low,
         mut high,
         bits: mut places,
     } = interval.clone();
-    let below = sign_at(&interval.low());
-    while places < bits || &high - &low > BigInt::one() << (places - bits) {
-        (low, high, places) = (low << 1, high << 1, places + 1);
-        let middle: BigInt = (&low + &high) >> 1;
-        let point = BigRational::new(middle.clone(), BigInt::one() << places);
-        match sign_at(&point) {
-            Ordering::Equal => return Interval::enclosing(&point, bits),
-            sign if sign == below => low = middle,
-            _ => high = middle,
+    let (Some(mut below), Some(mut above)) = (value(&low, places), value(&high, places)) else {
+        return interval.with_bits(bits);
+    };
+    let mut parts = 1;
+    loop {
+        let width = &high - &low;
+        let excess = i64::from(bits) - i64::from(places) + width.bits() as i64;
+        if excess <= 0 || excess == 1 && width == BigInt::one() << (places.saturating_sub(bits)) {
+            break;
         }
+        let count = parts.min(u32::try_from(excess).unwrap_or(u32::MAX));
+        (low, high, places) = (low << count, high << count, places + count);
+        let (start, last) = (low.clone(), (BigInt::one() << count) - BigInt::one());
+        let mut part = chord(&below, &above, count).clamp(BigInt::one(), last.clone());
+        // The ends of the part in which the root should be.
+        for _ in 0..2 {
+            if !part.is_positive() || part > last {
+                break;
+            }
+            let point = &start + &width * &part;
+            let Some(found) = value(&point, places) else {
+                return Interval { low, high, bits: places }.with_bits(bits);
+            };
+            if found.sign() == Some(Ordering::Equal) {
+                return Interval::enclosing(&dyadic(&point, places), bits);
+            }
+            if found.sign() == below.sign() {
+                (low, below) = (point, found);
+                part += 1;
+            } else {
+                (high, above) = (point, found);
+                part -= 1;
+            }
+        }
+        parts = if &high - &low <= width { 2 * count } else { count.div_ceil(2) };
     }
-    let excess = places - bits;
     Interval {
-        low: low >> excess,
-        high: -((-high) >> excess),
-        bits,
+        low,
+        high,
+        bits: places,
     }
+    .with_bits(bits)
+}
+
+/// About where the chord between values at the ends of an interval vanishes, in `2ⁿ` parts of it.
+fn chord(below: &Ball, above: &Ball, parts: u32) -> BigInt {
+    let bits = parts + 64;
+    let (below, above) = (below.size(), above.size());
+    let inverse = below.add(&above, bits).inverse(bits);
+    let fraction = inverse.map(|inverse| below.multiply(&inverse, bits));
+    let half = || Ball::dyadic(BigInt::one(), -1, 1);
+    let scaled = fraction.unwrap_or_else(half).shifted(i64::from(parts));
+    scaled.interval(0).low
 }
 
 /// The coefficients of `f((z ± 1)/2)` from those of `f(y)`: halves of the interval `|y| ≤ 1`, by additions alone. Each

@@ -102,7 +102,7 @@ impl Stability {
                 return stability;
             }
         }
-        Stability::enclosed(pair, equal)
+        Stability::enclosed(pair, &Precision::USUAL)
     }
 
     /// From the coefficients of polynomials over a field.
@@ -125,9 +125,14 @@ impl Stability {
         Stability::decide(&parts, function, Evidence::Proved)
     }
 
-    /// From enclosures of the coefficients with so many bits that what is taken for zero is very small.
-    fn enclosed<A: StageAlgebra>(pair: &Pair<A>, equal: bool) -> Self {
-        let mut bits = FEWEST_BITS;
+    /// From enclosures of the coefficients, with more and more bits until what is taken for zero is very small: compared
+    /// with the terms of the sum that it is, and with the smallest of the numbers that are given.
+    fn enclosed<A: StageAlgebra>(pair: &Pair<A>, precision: &Precision) -> Self {
+        let numbers = pair.numbers();
+        let equal = pair.equal_halves() == (true, true);
+        let fineness = numbers.iter().map(Number::fineness).max().unwrap_or(0);
+        let wanted = (precision.zero + ORDERS * fineness).min(precision.most / 2);
+        let mut bits = (wanted + GUARD).next_power_of_two();
         loop {
             let pair = pair.enclosed(bits);
             let balls = &pair.algebra;
@@ -136,15 +141,36 @@ impl Stability {
             let budget = Arc::new(Budget::unlimited());
             let stability = Stability::over(balls, &budget, &parts, function.as_ref());
             let verified = balls.field().zero_bits();
-            if verified >= ZERO_BITS || bits >= MOST_BITS {
-                let bits = verified.min(ZERO_BITS);
+            if verified >= wanted {
+                let evidence = Evidence::Verified { bits: ZERO_BITS };
                 return Stability {
-                    evidence: Evidence::Verified { bits },
+                    evidence,
+                    ..stability
+                };
+            }
+            if bits >= precision.most {
+                return Stability {
+                    intervals: Vec::new(),
+                    p_stable: false,
+                    runge_kutta: None,
+                    dispersion: None,
+                    evidence: Evidence::Undecided { bits },
                     ..stability
                 };
             }
             bits *= 2;
         }
+    }
+
+    /// From enclosures with several times as many bits.
+    #[cfg(test)]
+    pub(crate) fn with_more_bits<A: StageAlgebra>(pair: &Pair<A>, times: u32) -> Self {
+        let Precision { zero, most } = Precision::USUAL;
+        let precision = Precision {
+            zero: times * zero,
+            most: times * most,
+        };
+        Stability::enclosed(pair, &precision)
     }
 
     fn decide<P: RealPolynomial>(
@@ -193,6 +219,9 @@ impl Stability {
 
     /// The set as text: `(0, 2*sqrt(2)) ∪ (2*sqrt(3), 2*sqrt(6))`, or `∅`.
     pub fn intervals_text(&self) -> String {
+        if let Evidence::Undecided { .. } = self.evidence {
+            return evidence_text(self.evidence);
+        }
         if self.intervals.is_empty() {
             return "∅".to_owned();
         }
@@ -235,9 +264,25 @@ impl Stability {
 /// Products of machine words beyond which stability is decided from enclosures: about a second, with all
 /// that goes with a product in a field.
 const PRODUCTS: u64 = 2_500_000;
-/// The bits of enclosures, at first and at most.
-const FEWEST_BITS: u32 = 2048;
-const MOST_BITS: u32 = 1 << 15;
+/// How narrow enclosures are.
+struct Precision {
+    /// The binary places to which numbers that are given with usual ones have to vanish where they are taken for zero.
+    zero: u32,
+    /// The most bits of enclosures.
+    most: u32,
+}
+
+impl Precision {
+    const USUAL: Precision = Precision {
+        zero: ZERO_BITS,
+        most: 1 << 15,
+    };
+}
+
+/// Bits that are usually lost on the way.
+const GUARD: u32 = 512;
+/// What vanishes to first order in the smallest of the given numbers may still be one of the second order or so.
+const ORDERS: u32 = 4;
 
 /// A polynomial whose coefficients are known to be rational.
 fn rational_polynomial<F: Field>(field: &F, list: &[F::Element]) -> Option<Polynomial> {
@@ -253,6 +298,7 @@ pub(crate) fn evidence_text(evidence: Evidence) -> String {
     match evidence {
         Evidence::Verified { bits } => format!("verified to 2^-{bits}"),
         Evidence::Certified => "certified".to_owned(),
+        Evidence::Undecided { bits } => format!("not decided by enclosures of {bits} bits"),
         _ => "proved".to_owned(),
     }
 }
@@ -260,6 +306,9 @@ pub(crate) fn evidence_text(evidence: Evidence) -> String {
 impl fmt::Display for Stability {
     /// A few lines of text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Evidence::Undecided { .. } = self.evidence {
+            return write!(f, "stable for ν: {}", evidence_text(self.evidence));
+        }
         writeln!(f, "trace: {}", self.trace)?;
         if !self.preserves_area {
             writeln!(f, "determinant: {}", self.determinant)?;

@@ -6,7 +6,7 @@ use num_traits::{One, Zero};
 use super::fraction::Fraction;
 use super::polynomial::RealPolynomial;
 use super::resolvent::{Resolvent, apply, apply_left, dot};
-use crate::algebra::{Field, Scalar, StageAlgebra};
+use crate::algebra::{Field, Number, Scalar, StageAlgebra};
 use crate::pair::{Flows, Pair};
 
 /// What the matrix of one step is made of: polynomials in `x`, the constant first.
@@ -54,7 +54,7 @@ impl<T> Parts<T> {
 pub(super) fn cost<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
     let algebra = &*pair.algebra;
     if !algebra.constants().is_costly() {
-        return 0;
+        return cost_of_length(pair);
     }
     let sum = |m: &A::Matrix| -> u64 {
         let rows = algebra.operator(m);
@@ -67,6 +67,19 @@ pub(super) fn cost<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
     let reduced = entry.saturating_mul(entry).saturating_mul(8);
     let products = stages.pow(if pair.staircase().is_some() { 2 } else { 4 });
     products.saturating_mul(reduced)
+}
+
+/// About how many products of machine words, where each takes little, all that follows takes: the coefficients of the
+/// matrix are products of an entry of each row, and elimination squares their length.
+fn cost_of_length<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
+    let longest = |row: &Vec<Number<'_>>| row.iter().map(Number::words).max().unwrap_or(0);
+    let total = |matrix: &A::Matrix| -> u64 {
+        let rows = pair.algebra.entries(matrix);
+        rows.iter().map(longest).sum()
+    };
+    let stages = pair.algebra.stages() as u64;
+    let length = stages.saturating_mul(total(&pair.a) + total(&pair.a_tilde));
+    length.saturating_mul(length) / 128
 }
 
 /// The parts over the field of constants.

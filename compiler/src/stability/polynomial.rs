@@ -7,12 +7,14 @@ use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
 use super::Coefficient;
+use super::isolation::monotonic;
+use crate::algebra::Ball;
 use crate::algebra::field::NumberField;
 use crate::arithmetic::factor::irreducible_factor_at;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::ratio;
-use crate::arithmetic::roots::{Root, enclose, real_roots};
+use crate::arithmetic::roots::{Root, classified, enclose, real_roots};
 
 /// A polynomial in one variable `x` over an ordered field. All polynomials that meet are over the same.
 pub(super) trait RealPolynomial: Clone + Debug + 'static {
@@ -56,6 +58,12 @@ pub(super) trait RealPolynomial: Clone + Debug + 'static {
     fn coefficients(&self) -> Vec<Coefficient>;
     /// The quotient of the leading coefficients.
     fn leading_ratio(&self, other: &Self) -> Coefficient;
+    /// The bits beyond which enclosures of roots get no narrower; `None` where there are none.
+    fn finest_bits(&self) -> Option<u32> {
+        None
+    }
+    /// Takes note that a question about this polynomial was left undecided.
+    fn doubt(&self) {}
     /// This polynomial, if its coefficients are known to be rational.
     fn as_rational(&self) -> Option<&Polynomial>;
 
@@ -160,19 +168,25 @@ impl RealPolynomial for Polynomial {
     }
 
     fn sign_at(&self, point: &BigRational) -> Ordering {
-        self.evaluate(point).cmp(&BigRational::zero())
+        Polynomial::sign_at(self, point)
     }
 
+    /// By enclosures, for which a few bits of long coefficients are enough.
     fn positive_roots(&self) -> Vec<Root> {
-        let roots = real_roots(self).into_iter();
-        let positive = |root: &Root| match root {
-            Root::Rational(value) => value.is_positive(),
-            // Zero would be a rational root, so enough places tell.
-            Root::Irrational(interval) => (interval.bits()..)
-                .find_map(|bits| enclose(self, root, bits).sign())
-                .is_some_and(Ordering::is_gt),
+        let enclosed = |bits| {
+            let coefficients = self.numerators().iter().cloned();
+            let balls: Vec<Ball> = coefficients.map(|n| Ball::dyadic(n, 0, bits)).collect();
+            monotonic(&balls, bits)
         };
-        roots.filter(positive).collect()
+        let Some(intervals) = PRECISIONS.into_iter().find_map(enclosed) else {
+            return positive_roots_by_sturm(self);
+        };
+        let root = |interval: &Interval| {
+            let [low, high] = [interval.low(), interval.high()].map(|end| self.sign_at(&end));
+            // The lower end is that of another interval, or zero.
+            (low.is_ne() && low != high).then(|| classified(self, interval))
+        };
+        intervals.iter().filter_map(root).collect()
     }
 
     fn enclose_root(&self, root: &Root, bits: u32) -> Interval {
@@ -197,9 +211,26 @@ impl RealPolynomial for Polynomial {
     }
 }
 
+/// Bits of enclosures by which roots are told apart.
+const PRECISIONS: [u32; 3] = [256, 1024, 4096];
+
+/// The positive roots of a polynomial some of whose roots lie very close to one another.
+fn positive_roots_by_sturm(polynomial: &Polynomial) -> Vec<Root> {
+    let positive = |root: &Root| match root {
+        Root::Rational(value) => value.is_positive(),
+        // Zero would be a rational root, so enough places tell.
+        Root::Irrational(interval) => (interval.bits()..)
+            .find_map(|bits| enclose(polynomial, root, bits).sign())
+            .is_some_and(Ordering::is_gt),
+    };
+    real_roots(polynomial).into_iter().filter(positive).collect()
+}
+
 /// Roots of longer polynomials are not searched for quadratic ones: factoring them takes longer than all
 /// the rest.
 const LONGEST: usize = 12;
+/// Nor are those of polynomials with longer coefficients, in bits.
+const LONGEST_COEFFICIENT: u64 = 1 << 13;
 
 /// The square root of a positive root that is rational or quadratic: `2*sqrt(2)`, `sqrt(5 - sqrt(5))`.
 fn square_root_text(polynomial: &Polynomial, root: &Root) -> Option<String> {
@@ -210,7 +241,9 @@ fn square_root_text(polynomial: &Polynomial, root: &Root) -> Option<String> {
             extension.field.display(&extension.number)
         }
         Root::Irrational(interval) => {
-            if polynomial.degree()? > LONGEST {
+            let mut coefficients = polynomial.numerators().iter();
+            let long = coefficients.any(|n| n.bits() > LONGEST_COEFFICIENT);
+            if long || polynomial.degree()? > LONGEST {
                 return None;
             }
             let factor = irreducible_factor_at(polynomial, root)?;

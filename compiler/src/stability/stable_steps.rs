@@ -1,6 +1,6 @@
 //! What is found of the stable steps of a method, in bounded time.
 
-use super::{Stability, StabilityInterval};
+use super::{Stability, StabilityInterval, evidence_text};
 use crate::properties::Evidence;
 use crate::tableau::Tableau;
 
@@ -20,6 +20,11 @@ pub enum StableSteps {
         /// How it is known.
         evidence: Evidence,
     },
+    /// Nothing: enclosures do not decide it.
+    NotDecided {
+        /// The bits of the enclosures.
+        bits: u32,
+    },
     /// Nothing of a longer method that is not the same from both ends.
     NotComputed,
 }
@@ -38,7 +43,11 @@ impl Tableau {
     /// ```
     pub fn stable_steps(&self) -> StableSteps {
         if self.stages() <= MOST_STAGES {
-            return StableSteps::All(Box::new(self.stability()));
+            let stability = self.stability();
+            return match stability.evidence {
+                Evidence::Undecided { bits } => StableSteps::NotDecided { bits },
+                _ => StableSteps::All(Box::new(stability)),
+            };
         }
         let Some(interval) = self.first_stable_interval() else {
             return StableSteps::NotComputed;
@@ -56,6 +65,9 @@ impl std::fmt::Display for StableSteps {
         match self {
             StableSteps::All(stability) => f.write_str(&stability.intervals_text()),
             StableSteps::First { interval, .. } => write!(f, "{interval} at first"),
+            StableSteps::NotDecided { bits } => {
+                f.write_str(&evidence_text(Evidence::Undecided { bits: *bits }))
+            }
             StableSteps::NotComputed => f.write_str("not computed"),
         }
     }

@@ -10,7 +10,7 @@ use num_traits::{One, Zero};
 
 use super::magnitude::{Magnitude, magnitude};
 use super::root::AlgebraicRoot;
-use super::size::{check, check_rational, size, words};
+use super::size::{check, check_rational, fineness, size, words};
 use super::{MAX_HEIGHT, MAX_SIGN_BITS, MAX_SIZE};
 use crate::error::ErrorKind;
 use crate::expression::shown;
@@ -140,6 +140,12 @@ impl Constant {
     /// The size, at most `MAX_SIZE` and bounded by it alone: operations, and words of rationals.
     pub fn size(&self) -> usize {
         self.0.size
+    }
+
+    /// How many binary places there are before the smallest of the numbers of which the constant consists begins, beside
+    /// others of about 1.
+    pub(crate) fn fineness(&self) -> u64 {
+        fineness(self)
     }
 
     /// The height of the tree, which bounds every recursion over it.

@@ -31,6 +31,38 @@ pub(super) fn words(value: &BigRational) -> usize {
     ((value.numer().bits() + value.denom().bits()) / 64) as usize
 }
 
+/// How many binary places there are before the smallest of the numbers of which a constant consists begins, beside
+/// others of about 1: what enclosures have to have to see all of them.
+pub(super) fn fineness(constant: &Constant) -> u64 {
+    let rational = |value: &BigRational| value.denom().bits();
+    // That of a number which is small because its parts are.
+    let smallness = || {
+        let separated = constant.separation().map_or(0, |(_, least)| -least);
+        u64::try_from(separated).unwrap_or(0)
+    };
+    let below = match constant.tree() {
+        Tree::Rational(value) => return rational(value),
+        Tree::Pi | Tree::Root(_) => 0,
+        Tree::Sqrt(x) | Tree::Cbrt(x) | Tree::Exp(x) | Tree::Ln(x) => fineness(x),
+        // Those of small arguments differ from 0 or 1 by a square.
+        Tree::Cos(x) | Tree::Sin(x) => fineness(x).saturating_mul(2),
+        Tree::Product(factors) => {
+            let power = |(x, n): &(Constant, i32)| {
+                fineness(x).saturating_mul(u64::from(n.unsigned_abs()))
+            };
+            factors.iter().map(power).fold(0, u64::saturating_add)
+        }
+        Tree::Sum(constant, terms) => {
+            let term = |(x, factor): &(Constant, BigRational)| {
+                fineness(x).saturating_add(rational(factor))
+            };
+            let terms = terms.iter().map(term).max();
+            return rational(constant).max(terms.unwrap_or(0));
+        }
+    };
+    below.max(smallness())
+}
+
 /// The size of a tree and the largest height in it.
 pub(super) fn size(tree: &Tree) -> (usize, usize) {
     // What is costly to enclose counts more.

@@ -118,7 +118,7 @@ fn facts(tableau: &Tableau) -> String {
         None => String::new(),
     };
     let stable = match tableau.stable_steps() {
-        StableSteps::NotComputed => String::new(),
+        StableSteps::NotComputed | StableSteps::NotDecided { .. } => String::new(),
         steps => format!(", stable for hω in {steps}"),
     };
     format!(

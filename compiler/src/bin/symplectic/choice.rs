@@ -148,6 +148,7 @@ impl Choice {
 fn words(evidence: Evidence) -> &'static str {
     match evidence {
         Evidence::Verified { .. } => "verified",
+        Evidence::Undecided { .. } => "not decided",
         Evidence::Certified => "certified",
         Evidence::Proved | Evidence::Refuted => "proved",
     }

@@ -133,5 +133,6 @@ pub(in crate::export) fn evidence(evidence: Evidence) -> (&'static str, Option<u
         Evidence::Certified => ("certified", None),
         Evidence::Refuted => ("refuted", None),
         Evidence::Verified { bits } => ("verified", Some(bits)),
+        Evidence::Undecided { bits } => ("undecided", Some(bits)),
     }
 }

@@ -35,11 +35,8 @@ impl<F: Field> Symmetry for Dense<F> {
                 Zero::Within(bits) => evidence = evidence.and(Evidence::Verified { bits }),
                 // Another permutation may be left that enclosures could not exclude either.
                 Zero::No => {
-                    return Property {
-                        holds: false,
-                        evidence: Evidence::Verified { bits: SEARCH_BITS },
-                        witness: Some(format!("not equal to the adjoint {}", order.witness())),
-                    };
+                    let witness = format!("not equal to the adjoint {}", order.witness());
+                    return Property::undecided(SEARCH_BITS, witness);
                 }
             }
         }

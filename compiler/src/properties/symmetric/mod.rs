@@ -5,7 +5,7 @@ mod node;
 
 use num_rational::BigRational;
 
-use super::{Evidence, Examined, Property};
+use super::{Examined, Property};
 use crate::algebra::{Number, StageAlgebra};
 use crate::arithmetic::interval::Interval;
 use crate::coefficients::Coefficients;
@@ -85,12 +85,8 @@ fn search(numbers: &Coefficients<Number<'_>>) -> Result<Permutation, Property> {
     Err(if budget > 0 {
         Property::refuted(NO_ORDER.to_owned())
     } else {
-        let tried = format!("not decided: {SEARCH_BUDGET} partial orders of the stages were tried");
-        Property {
-            holds: false,
-            evidence: Evidence::Verified { bits: SEARCH_BITS },
-            witness: Some(tried),
-        }
+        let tried = format!("{SEARCH_BUDGET} partial orders of the stages were tried");
+        Property::undecided(SEARCH_BITS, tried)
     })
 }
 

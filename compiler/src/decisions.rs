@@ -1,0 +1,182 @@
+//! What enclosures decide, compared with the same from eight times as many bits, for definitions with tiny, huge and nearly
+//! equal numbers.
+
+use crate::algebra::{Number, StageAlgebra};
+use crate::coefficients::Coefficients;
+use crate::order::{HamiltonianClass, OrderOptions, OrderReport, order};
+use crate::pair::Pair;
+use crate::properties::{Evidence, Properties};
+use crate::schedule::{Class, StepGraph};
+use crate::stability::Stability;
+use crate::tableau::over_algebra;
+use crate::{Definition, Limits, Tableau};
+
+const TIMES: u32 = 8;
+const BITS: u32 = TIMES * 2048;
+
+/// Numbers in reproducible disorder (Knuth's MMIX).
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) as usize % bound
+    }
+
+    fn one_in(&mut self, bound: usize) -> bool {
+        self.below(bound) == 0
+    }
+
+    fn of<'a>(&mut self, list: &[&'a str]) -> &'a str {
+        list[self.below(list.len())]
+    }
+
+    fn weight(&mut self) -> String {
+        const SIZES: [&str; 11] = [
+            "1", "1", "1/3", "-1/2", "2/7", "1e-30", "1e-280", "1e-300", "1e-400", "1e30", "1e-1000",
+        ];
+        const REALS: [&str; 10] = [
+            "1", "pi", "e", "sqrt(2)", "(pi - 355/113)", "exp(1/3)", "sin(1)", "(e - 19/7)", "(pi - e - 423/1000)", "ln(2)",
+        ];
+        match self.below(6) {
+            0 => self.of(&SIZES).to_owned(),
+            1 => format!("({} + {}*{})", self.of(&REALS), self.of(&REALS), self.of(&SIZES)),
+            _ => format!("{}*{}", self.of(&REALS), self.of(&SIZES)),
+        }
+    }
+
+    /// Weights that are often consistent, often the same from both ends, and often nearly so.
+    fn weights(&mut self, count: usize) -> Vec<String> {
+        let mut list: Vec<String> = (0..count).map(|_| self.weight()).collect();
+        if self.one_in(3) {
+            for i in 0..count / 2 {
+                list[count - 1 - i] = list[i].clone();
+            }
+        }
+        if count > 1 && self.one_in(4) {
+            list[1] = format!("{} + {}", list[0], self.of(&["1e-300", "1e-400*pi", "1e-500*e"]));
+        }
+        if count > 1 && !self.one_in(3) {
+            let middle = self.below(count);
+            let others = list.iter().enumerate().filter(|(i, _)| *i != middle);
+            let sum: Vec<String> = others.map(|(_, weight)| format!("({weight})")).collect();
+            list[middle] = format!("1 - {}", sum.join(" - "));
+        }
+        list
+    }
+
+    fn definition(&mut self) -> String {
+        let count = 1 + self.below(4);
+        if self.one_in(4) {
+            let count = 1 + self.below(2);
+            let rows: Vec<String> = (0..count).map(|_| format!("[{}]", self.weights(count).join(", "))).collect();
+            let b = self.weights(count).join(", ");
+            return format!("a: [{}], b: [{b}]", rows.join(", "));
+        }
+        let (kick, drift) = (self.weights(count), self.weights(count));
+        format!("kick: [{}], drift: [{}]", kick.join(", "), drift.join(", "))
+    }
+}
+
+/// Two things that should be the same, as text.
+type Difference = (&'static str, String, String);
+
+fn stability_text(found: &Stability) -> String {
+    let intervals = found.intervals.iter().map(|i| {
+        let ends = [&i.low, &i.high].map(|end| end.decimal(20));
+        format!("{ends:?} {:?}", [i.low_closed, i.high_closed])
+    });
+    let intervals: Vec<String> = intervals.collect();
+    let dispersion = found.dispersion.as_ref().map(|d| (d.order, d.coefficient.value));
+    let function = found.runge_kutta.as_ref().map(|f| {
+        let flags = [f.a_stable, f.l_stable];
+        (flags, f.imaginary.decimal(20), f.at_infinity.as_ref().map(|x| x.value))
+    });
+    let degrees = [&found.trace, &found.determinant].map(|f| (f.numerator.len(), f.denominator.len()));
+    format!("{intervals:?} {} {dispersion:?} {function:?} {degrees:?}", found.p_stable)
+}
+
+fn graphs<A: StageAlgebra>(pair: &Pair<A>, numbers: &Coefficients<Number<'_>>) -> String {
+    let text = |class| {
+        let graph = StepGraph::of_pair(class, pair, numbers);
+        let values = graph.positions.iter().chain(&graph.momenta);
+        let values: Vec<_> = values.map(|v| (&v.stages, v.is_end, v.is_start(), &v.applied)).collect();
+        format!("{:?} {values:?}", graph.schedule())
+    };
+    text(Class::General) + &text(Class::Separable)
+}
+
+fn order_text(report: &OrderReport) -> String {
+    let orders = HamiltonianClass::ALL.map(|class| report.class(class).order);
+    format!("{orders:?}")
+}
+
+/// What differs.
+fn compare(tableau: &Tableau) -> Vec<Difference> {
+    let mut all: Vec<Difference> = Vec::new();
+    let (usual, more) = (
+        tableau.stability(),
+        over_algebra!(tableau, pair => Stability::with_more_bits(pair, TIMES)),
+    );
+    let undecided = |evidence| matches!(evidence, Evidence::Undecided { .. });
+    if !undecided(usual.evidence) && !undecided(more.evidence) {
+        all.push(("stability", stability_text(&usual), stability_text(&more)));
+    }
+    over_algebra!(tableau, pair => {
+        let fine = pair.enclosed(BITS);
+        let numbers = fine.numbers();
+        let (usual, more) = (tableau.properties(), Properties::of_pair(&fine));
+        for ((name, usual), (_, more)) in usual.all().into_iter().zip(more.all()) {
+            if !undecided(usual.evidence) && !undecided(more.evidence) {
+                all.push((name, usual.holds.to_string(), more.holds.to_string()));
+            }
+        }
+        all.push(("schedule", graphs(pair, &pair.numbers()), graphs(&fine, &numbers)));
+        let options = OrderOptions { limit: 4, ..OrderOptions::default() };
+        let usual = order_text(&order(pair, &options, None));
+        all.push(("order", usual, order_text(&order(&fine, &options, None))));
+    });
+    all.retain(|(_, usual, more)| usual != more);
+    all
+}
+
+/// The definitions that were compared, those among them whose stability is not decided, and what differs.
+fn compare_many(seed: u64, count: usize) -> (usize, usize, Vec<String>) {
+    let mut numbers = Numbers(seed);
+    let (mut compared, mut open, mut differences) = (0, 0, Vec::new());
+    for _ in 0..count {
+        let text = numbers.definition();
+        // A stage with the weight zero, or a constant out of bounds.
+        let Ok(tableau) = Definition::parse(&text).and_then(|d| d.derive(&Limits::default())) else {
+            continue;
+        };
+        compared += 1;
+        open += usize::from(matches!(tableau.stability().evidence, Evidence::Undecided { .. }));
+        let found = compare(&tableau).into_iter();
+        differences.extend(found.map(|(what, usual, more)| format!("{text}\n  {what}: {usual}\n  not {more}")));
+    }
+    (compared, open, differences)
+}
+
+#[test]
+fn eight_times_the_bits_decide_the_same() {
+    let (compared, open, differences) = compare_many(34, 60);
+    assert!(compared > 40 && open < 3, "{compared}, {open} of them not decided");
+    assert!(differences.is_empty(), "{}", differences.join("\n"));
+}
+
+/// By hand, with a seed and a number of definitions in `DECISIONS`: `DECISIONS=1,3000`.
+#[test]
+#[ignore = "takes minutes"]
+fn eight_times_the_bits_decide_the_same_for_many() {
+    let text = std::env::var("DECISIONS").unwrap_or_else(|_| "1,1000".to_owned());
+    let (seed, count) = text.split_once(',').expect("a seed and a number");
+    let (compared, open, differences) =
+        compare_many(seed.parse().expect("a seed"), count.parse().expect("a number"));
+    assert!(
+        differences.is_empty(),
+        "{compared} compared, {open} not decided, {} differ\n{}",
+        differences.len(),
+        differences.join("\n")
+    );
+}
