@@ -22,7 +22,9 @@ const MOST_FINENESS: u32 = 1 << 14;
 /// The binary places beyond the usual ones at which a number begins, from those at which it does.
 pub(crate) fn beyond_usual(places: u64) -> u32 {
     let beyond = places.saturating_sub(USUAL_BITS);
-    u32::try_from(beyond).unwrap_or(MOST_FINENESS).min(MOST_FINENESS)
+    u32::try_from(beyond)
+        .unwrap_or(MOST_FINENESS)
+        .min(MOST_FINENESS)
 }
 
 /// Binary places to which a number is compared with ties when it is rounded.

@@ -16,7 +16,11 @@ use super::residues::Residues;
 pub(super) fn gcd(a: &Polynomial, b: &Polynomial) -> Polynomial {
     let (Some(m), Some(n)) = (a.degree(), b.degree()) else {
         let other = if a.is_zero() { b } else { a };
-        return if other.is_zero() { other.clone() } else { other.primitive() };
+        return if other.is_zero() {
+            other.clone()
+        } else {
+            other.primitive()
+        };
     };
     if m.min(n) == 0 || image(a, b, first_prime()).is_some_and(|image| image.len() == 1) {
         return Polynomial::one();
@@ -50,7 +54,10 @@ fn image(a: &Polynomial, b: &Polynomial, prime: PrimeField) -> Option<Vec<u64>> 
     let reduced = |p: &Polynomial| {
         let residues = p.numerators().iter().map(|n| prime.integer(n));
         let residues: Vec<u64> = residues.collect();
-        residues.last().is_some_and(|&top| top != 0).then_some(residues)
+        residues
+            .last()
+            .is_some_and(|&top| top != 0)
+            .then_some(residues)
     };
     Some(prime.gcd(&reduced(a)?, &reduced(b)?))
 }

@@ -97,9 +97,9 @@ impl Polynomial {
 
     /// The polynomial with these coefficients, lowest degree first.
     pub fn from_rationals(coefficients: &[BigRational]) -> Self {
-        let denominator = coefficients
-            .iter()
-            .fold(BigInt::one(), |lcm, c| &lcm / gcd(&lcm, c.denom()) * c.denom());
+        let denominator = coefficients.iter().fold(BigInt::one(), |lcm, c| {
+            &lcm / gcd(&lcm, c.denom()) * c.denom()
+        });
         let numerators = coefficients
             .iter()
             .map(|c| c.numer() * (&denominator / c.denom()))
@@ -171,11 +171,17 @@ impl Polynomial {
         }
     }
 
-    /// The multiple by the common denominator: whole coefficients, which need not be coprime.
+    /// The multiple by the common denominator or its negative: whole coefficients, which need not be coprime, and a positive
+    /// leading one.
     pub(crate) fn whole_multiple(&self) -> Self {
-        Polynomial {
+        let whole = Polynomial {
             numerators: self.numerators.clone(),
             denominator: BigInt::one(),
+        };
+        if whole.leading().is_negative() {
+            -&whole
+        } else {
+            whole
         }
     }
 

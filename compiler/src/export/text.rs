@@ -3,10 +3,10 @@
 use super::facts::separable_only;
 use super::layout::{left, right, width, widths};
 use super::{left_out, written};
-use crate::stability::evidence_text;
 use crate::coefficients::Coefficients;
 use crate::pair::Staircase;
 use crate::properties::Evidence;
+use crate::stability::evidence_text;
 use crate::tableau::Tableau;
 
 /// Exact forms that are longer than this give way to decimals.

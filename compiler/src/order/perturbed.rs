@@ -27,12 +27,12 @@ use num_traits::One;
 use super::weights::most_products;
 use super::words::Product;
 use super::{GivenOrder, SHORT, short};
-use crate::stability::evidence_text;
 use crate::algebra::{Dense, Field, Rationals, Zero};
 use crate::certify::{DRIFT, KICK, MAX_ORDER, MAX_PERTURBED_ORDER, Word, split_lyndon};
 use crate::pair::Pair;
 use crate::properties::Evidence;
 use crate::schedule::{Class, Node, StepGraph};
+use crate::stability::evidence_text;
 use crate::stability::superscript;
 use crate::tableau::{Exact, Tableau};
 

@@ -6,9 +6,9 @@ use num_rational::BigRational;
 
 use super::class::HamiltonianClass;
 use super::tree::BicolouredTree;
-use crate::stability::evidence_text;
 use crate::arithmetic::rounding::Decimal;
 use crate::properties::Evidence;
+use crate::stability::evidence_text;
 
 /// The order of a method for each class of Hamiltonians.
 #[derive(Debug, Clone, PartialEq, Eq)]

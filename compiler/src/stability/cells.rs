@@ -32,7 +32,9 @@ impl<P: RealPolynomial> Cells<P> {
             roots.extend(found.map(|root| PositiveRoot::new(&polynomial, root)));
         }
         let mut bits = FIRST_BITS;
-        let finest = roots.iter().filter_map(|root| root.polynomial.finest_bits());
+        let finest = roots
+            .iter()
+            .filter_map(|root| root.polynomial.finest_bits());
         let finest = finest.min().unwrap_or(u32::MAX);
         // Different positive numbers: enough places tell them apart, and from zero.
         let enclosures = loop {
@@ -49,7 +51,9 @@ impl<P: RealPolynomial> Cells<P> {
                 break enclosures;
             }
             if bits > finest {
-                enclosures.iter().for_each(|(_, root)| root.polynomial.doubt());
+                enclosures
+                    .iter()
+                    .for_each(|(_, root)| root.polynomial.doubt());
                 break Vec::new();
             }
             roots = enclosures.into_iter().map(|(_, root)| root).collect();

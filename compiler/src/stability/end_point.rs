@@ -25,7 +25,7 @@ pub(super) struct PositiveRoot<P> {
 
 /// A positive real number that is enclosed as narrowly as needed and compared with rationals.
 pub(super) trait PositiveReal: Debug {
-    /// An enclosure with this many binary places, whose width tends to zero as they grow.
+    /// An enclosure with this many binary places, whose width tends to zero as they grow, as far as the number is known.
     fn enclose(&self, bits: u32) -> Interval;
     /// Whether it is this number.
     fn equals(&self, value: &BigRational) -> bool;
@@ -144,6 +144,7 @@ impl EndPoint {
             return Ordering::Equal;
         }
         let mut bits = FIRST_BITS;
+        let mut width = None;
         loop {
             let interval = square.enclose(bits);
             if interval.low() > value {
@@ -152,12 +153,20 @@ impl EndPoint {
             if interval.high() < value {
                 return Ordering::Less;
             }
+            if width
+                .replace(interval.width())
+                .is_some_and(|before| interval.width() >= before)
+            {
+                return Ordering::Equal;
+            }
             bits *= 2;
         }
     }
 
-    /// The number rounded to `digits` significant decimal digits, ties to even; `infinity` if infinite.
+    /// The number rounded to `digits` significant decimal digits, ties to even; `infinity` if infinite. Fewer digits of a
+    /// number that is not known to as many.
     pub fn decimal(&self, digits: usize) -> String {
+        let digits = self.known_digits(digits);
         self.round(|value| Decimal::round(value, digits), Decimal::value)
             .map_or_else(|| "infinity".to_owned(), |decimal| decimal.to_string())
     }
@@ -168,6 +177,28 @@ impl EndPoint {
             .unwrap_or(f64::INFINITY)
     }
 
+    /// As many of these digits as enclosures tell.
+    fn known_digits(&self, digits: usize) -> usize {
+        let mut bits = FIRST_BITS;
+        let mut width = None;
+        while let Some(interval) = self.enclose(bits) {
+            let known = interval.magnitude_bits() - interval.width_bits();
+            // A digit has less than 4 bits, and more than 3.
+            let known = usize::try_from(known).unwrap_or(0);
+            if known / 4 >= digits {
+                break;
+            }
+            if width
+                .replace(interval.width())
+                .is_some_and(|before| interval.width() >= before)
+            {
+                return digits.min((known / 4).max(1));
+            }
+            bits *= 2;
+        }
+        digits
+    }
+
     /// Rounds by refining the enclosure until both ends round to the same, which they do unless the number
     /// is the middle between two neighbours; that is decided exactly.
     fn round<T: PartialEq>(
@@ -176,6 +207,7 @@ impl EndPoint {
         value: impl Fn(&T) -> BigRational,
     ) -> Option<T> {
         let mut bits = FIRST_BITS;
+        let mut width = None;
         loop {
             let interval = self.enclose(bits)?;
             let (below, above) = (round(&interval.low()), round(&interval.high()));
@@ -185,6 +217,12 @@ impl EndPoint {
             let middle = (value(&below) + value(&above)) / ratio(2, 1);
             if self.compare_is_equal(&middle) {
                 return Some(round(&middle));
+            }
+            if width
+                .replace(interval.width())
+                .is_some_and(|before| interval.width() >= before)
+            {
+                return Some(round(&interval.middle()));
             }
             bits *= 2;
         }

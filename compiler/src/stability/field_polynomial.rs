@@ -99,8 +99,15 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
 
     /// The value at a rational point, if enclosures tell its sign.
     fn known_value(&self, point: &BigRational) -> Option<Ball> {
-        let tried = if self.is_exact() { TRIED } else { PRECISIONS.len() };
-        let known = |k| self.value_at(point, k).filter(|value| value.sign().is_some());
+        let tried = if self.is_exact() {
+            TRIED
+        } else {
+            PRECISIONS.len()
+        };
+        let known = |k| {
+            self.value_at(point, k)
+                .filter(|value| value.sign().is_some())
+        };
         (0..tried).find_map(known)
     }
 
@@ -114,7 +121,12 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
                 let (list, bits) = self.enclosed(k);
                 monotonic(list, bits)
             });
-            Some(intervals?.into_iter().filter_map(|i| self.root_in(i)).collect())
+            Some(
+                intervals?
+                    .into_iter()
+                    .filter_map(|i| self.root_in(i))
+                    .collect(),
+            )
         };
         self.roots.get_or_init(find).as_deref()
     }

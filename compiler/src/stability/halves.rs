@@ -23,7 +23,7 @@ use num_rational::BigRational;
 
 use super::end_point::{EndPoint, PositiveReal};
 use super::intervals::StabilityInterval;
-use super::isolation::{ monotonic_within, narrow, root_bound};
+use super::isolation::{monotonic_within, narrow, root_bound};
 use super::oscillator::{matrix_of_flows, product_of_flows};
 use crate::algebra::{Ball, Balls, Field, Scalar, StageAlgebra};
 use crate::arithmetic::enclosure_cache::EnclosureCache;
@@ -98,7 +98,9 @@ impl<A: StageAlgebra> Half<A> {
     /// The sign of an entry of `N` at `x`; zero where the last enclosures do not tell it.
     fn sign_at(&self, entry: usize, x: &BigRational) -> Ordering {
         let value = self.value_at(entry, x);
-        value.and_then(|value| value.sign()).unwrap_or(Ordering::Equal)
+        value
+            .and_then(|value| value.sign())
+            .unwrap_or(Ordering::Equal)
     }
 
     /// The value of an entry of `N` at `x`, if enclosures tell its sign.

@@ -122,7 +122,12 @@ pub(super) fn narrow(
             }
             let point = &start + &width * &part;
             let Some(found) = value(&point, places) else {
-                return Interval { low, high, bits: places }.with_bits(bits);
+                return Interval {
+                    low,
+                    high,
+                    bits: places,
+                }
+                .with_bits(bits);
             };
             if found.sign() == Some(Ordering::Equal) {
                 return Interval::enclosing(&dyadic(&point, places), bits);
@@ -135,7 +140,11 @@ pub(super) fn narrow(
                 part -= 1;
             }
         }
-        parts = if &high - &low <= width { 2 * count } else { count.div_ceil(2) };
+        parts = if &high - &low <= width {
+            2 * count
+        } else {
+            count.div_ceil(2)
+        };
     }
     Interval {
         low,

@@ -168,7 +168,7 @@ impl Stability {
         let Precision { zero, most } = Precision::USUAL;
         let precision = Precision {
             zero: times * zero,
-            most: times * most,
+            most: 4 * most,
         };
         Stability::enclosed(pair, &precision)
     }

@@ -223,7 +223,10 @@ fn positive_roots_by_sturm(polynomial: &Polynomial) -> Vec<Root> {
             .find_map(|bits| enclose(polynomial, root, bits).sign())
             .is_some_and(Ordering::is_gt),
     };
-    real_roots(polynomial).into_iter().filter(positive).collect()
+    real_roots(polynomial)
+        .into_iter()
+        .filter(positive)
+        .collect()
 }
 
 /// Roots of longer polynomials are not searched for quadratic ones: factoring them takes longer than all

@@ -577,3 +577,64 @@ fn the_catalogue_agrees_with_floating_point_arithmetic() {
     }
     assert!(inside > 1000 && outside > 1000);
 }
+
+fn splitting(kick: &str, drift: &str) -> Stability {
+    let definition = crate::Definition::parse(&format!("kick: [{kick}], drift: [{drift}]"));
+    let tableau = definition.and_then(|d| d.derive(&crate::Limits::default()));
+    tableau.expect("derived").stability()
+}
+
+/// Half of a kick and of a drift is moved by so little that the first stable steps do not change in 12 digits.
+#[test]
+fn tiny_kicks_move_no_end_far() {
+    let near = splitting("pi, 1 - pi", "e, 1 - e").intervals[0]
+        .high
+        .decimal(12);
+    assert_eq!(near, "0.178386584319");
+    for tiny in ["1e-30", "1e-280", "1e-400"] {
+        let found = splitting(
+            &format!("pi, {tiny}, 1 - pi - {tiny}"),
+            &format!("e, {tiny}, 1 - e - {tiny}"),
+        );
+        assert_eq!(
+            found.evidence,
+            Evidence::Verified { bits: ZERO_BITS },
+            "{tiny}"
+        );
+        assert_eq!(found.intervals[0].high.decimal(12), near, "{tiny}");
+        // The leading coefficient of the trace is not zero: there are stable steps at the other end of it.
+        assert_eq!(found.intervals.len(), 2, "{tiny}");
+    }
+}
+
+/// A number of digits that no fast algorithm for greatest common divisors is needed for.
+#[test]
+fn many_digits_are_proved_in_bounded_time() {
+    let digits = |seed: u64, count: usize| -> String {
+        let next = |state: &mut u64| {
+            *state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            Some(char::from(b'0' + (*state >> 33) as u8 % 10))
+        };
+        std::iter::successors(Some(seed), |state| Some(*state))
+            .scan(seed, |state, _| next(state))
+            .take(count)
+            .collect()
+    };
+    for (count, proved) in [(200, true), (4000, false)] {
+        let [kick, drift] = [1, 2].map(|seed| {
+            let [a, b] = [seed, seed + 7].map(|seed| format!("0.3{}", digits(seed, count)));
+            format!("{a}, {b}, 1 - {a} - {b}")
+        });
+        let found = splitting(&kick, &drift);
+        assert_eq!(
+            found.evidence == Evidence::Proved,
+            proved,
+            "{}",
+            found.intervals_text()
+        );
+        assert!(!matches!(found.evidence, Evidence::Undecided { .. }));
+        assert!(!found.intervals.is_empty());
+    }
+}

@@ -47,9 +47,8 @@ pub(super) fn fineness(constant: &Constant) -> u64 {
         // Those of small arguments differ from 0 or 1 by a square.
         Tree::Cos(x) | Tree::Sin(x) => fineness(x).saturating_mul(2),
         Tree::Product(factors) => {
-            let power = |(x, n): &(Constant, i32)| {
-                fineness(x).saturating_mul(u64::from(n.unsigned_abs()))
-            };
+            let power =
+                |(x, n): &(Constant, i32)| fineness(x).saturating_mul(u64::from(n.unsigned_abs()));
             factors.iter().map(power).fold(0, u64::saturating_add)
         }
         Tree::Sum(constant, terms) => {
