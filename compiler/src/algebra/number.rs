@@ -287,8 +287,8 @@ mod tests {
         let sqrt3 = "1.73205080756887729352744634150587236694280525381038062805580697945193301690880003708114618675724857567562614142";
         let digits = nodes[1].decimal(60).to_string();
         let six: BigRational = ratio(6, 1);
-        let integer: num_bigint::BigInt = sqrt3.replace('.', "").parse().expect("digits");
-        let scale = num_bigint::BigInt::from(10).pow(sqrt3.len() as u32 - 2);
+        let integer: BigInt = sqrt3.replace('.', "").parse().expect("digits");
+        let scale = BigInt::from(10).pow(sqrt3.len() as u32 - 2);
         let reference = BigRational::new(integer, scale) / six + ratio(1, 2);
         assert_eq!(digits, Decimal::round(&reference, 60).to_string());
         assert_eq!(nodes[1].to_f64(), 0.5 + 3f64.sqrt() / 6.0);
@@ -328,7 +328,7 @@ mod tests {
         let k = algebra();
         let c1_c2 = Tensor::from_products(&k, &[(k.variable(), k.variable())]);
         // c_1 c_2 = 1/6: the double 1/4 hidden in it, then a hair more than that.
-        let hair = BigRational::new(One::one(), num_bigint::BigInt::one() << 300);
+        let hair = BigRational::new(One::one(), BigInt::one() << 300);
         for more in [BigRational::zero(), hair] {
             let shift = Polynomial::constant(ratio(1, 12) + &more);
             let hidden = c1_c2.add(&Tensor::from_products(&k, &[(shift, Polynomial::one())]));
@@ -359,7 +359,7 @@ mod tests {
         let quarter = &NodeAlgebra::entries(&k, &shifted)[0][1];
         // 1/4 to one digit is a tie; to even it is 0.2. Its neighbours are not ties.
         assert_eq!(quarter.decimal(1).to_string(), "0.2");
-        let hair = BigRational::new(One::one(), num_bigint::BigInt::one() << 500);
+        let hair = BigRational::new(One::one(), BigInt::one() << 500);
         let above = shifted.add(&Tensor::from_products(
             &k,
             &[(Polynomial::constant(hair.clone()), Polynomial::one())],

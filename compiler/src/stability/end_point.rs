@@ -153,10 +153,7 @@ impl EndPoint {
             if interval.high() < value {
                 return Ordering::Less;
             }
-            if width
-                .replace(interval.width())
-                .is_some_and(|before| interval.width() >= before)
-            {
+            if is_stuck(&mut width, &interval) {
                 return Ordering::Equal;
             }
             bits *= 2;
@@ -188,10 +185,7 @@ impl EndPoint {
             if known / 4 >= digits {
                 break;
             }
-            if width
-                .replace(interval.width())
-                .is_some_and(|before| interval.width() >= before)
-            {
+            if is_stuck(&mut width, &interval) {
                 return digits.min((known / 4).max(1));
             }
             bits *= 2;
@@ -218,10 +212,7 @@ impl EndPoint {
             if self.compare_is_equal(&middle) {
                 return Some(round(&middle));
             }
-            if width
-                .replace(interval.width())
-                .is_some_and(|before| interval.width() >= before)
-            {
+            if is_stuck(&mut width, &interval) {
                 return Some(round(&interval.middle()));
             }
             bits *= 2;
@@ -235,6 +226,13 @@ impl EndPoint {
             Value::Infinity => false,
         }
     }
+}
+
+/// Whether an enclosure with twice the places is hardly narrower than the one before.
+fn is_stuck(width: &mut Option<BigRational>, interval: &Interval) -> bool {
+    let now = interval.width();
+    let before = width.replace(now.clone());
+    before.is_some_and(|before| now.is_positive() && now * ratio(2, 1) > before)
 }
 
 /// Binary places of first enclosures.

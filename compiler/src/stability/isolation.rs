@@ -32,6 +32,7 @@ pub(super) fn monotonic_within(
     precision: u32,
 ) -> Option<Vec<Interval>> {
     let Interval { low, high, bits } = interval.clone();
+    let first_bits = bits;
     let bound = high.bits() as i64 - i64::from(bits);
     let deepest = i64::from(precision) - bound.min(0) + bound.abs();
     let mut found = Vec::new();
@@ -40,6 +41,11 @@ pub(super) fn monotonic_within(
     let mut pending = vec![(low, high, bits, whole)];
     while let Some((low, high, bits, shifted)) = pending.pop() {
         let bits_here = bits;
+        let depth = bits - first_bits;
+        let shifted = match depth.is_multiple_of(HALVINGS) && depth > 0 {
+            true => local(coefficients, &low, &high, bits, precision),
+            false => shifted,
+        };
         let sum = |first: usize, weighted: bool| {
             let terms = shifted.iter().enumerate().skip(first);
             terms.fold(None, |sum: Option<Ball>, (k, c)| {
@@ -83,6 +89,10 @@ pub(super) fn monotonic_within(
     }
     Some(found)
 }
+
+/// After so many halvings, each of which costs a place, the coefficients are found anew: from a bound that is huge, because
+/// a leading coefficient is tiny, there are thousands of them.
+const HALVINGS: u32 = 32;
 
 /// Narrows an interval at the ends of which a function has different signs, around a root, to this many binary places, or
 /// until a sign is not known.

@@ -622,19 +622,13 @@ fn many_digits_are_proved_in_bounded_time() {
             .take(count)
             .collect()
     };
-    for (count, proved) in [(200, true), (4000, false)] {
+    for count in [200, 1000, 4000] {
         let [kick, drift] = [1, 2].map(|seed| {
             let [a, b] = [seed, seed + 7].map(|seed| format!("0.3{}", digits(seed, count)));
             format!("{a}, {b}, 1 - {a} - {b}")
         });
         let found = splitting(&kick, &drift);
-        assert_eq!(
-            found.evidence == Evidence::Proved,
-            proved,
-            "{}",
-            found.intervals_text()
-        );
-        assert!(!matches!(found.evidence, Evidence::Undecided { .. }));
+        assert_eq!(found.evidence, Evidence::Proved);
         assert!(!found.intervals.is_empty());
     }
 }
