@@ -176,6 +176,9 @@ impl EndPoint {
 
     /// As many of these digits as enclosures tell.
     fn known_digits(&self, digits: usize) -> usize {
+        if self.is_zero() {
+            return digits;
+        }
         let mut bits = FIRST_BITS;
         let mut width = None;
         while let Some(interval) = self.enclose(bits) {
