@@ -123,6 +123,16 @@ impl Attempt {
                 residual,
                 iterations,
             },
+            Some(Failure::Stagnation {
+                residual,
+                iterations,
+            }) => Error::Stagnation {
+                time,
+                step_size,
+                step,
+                residual,
+                iterations,
+            },
             Some(Failure::SingularMatrix) => Error::SingularMatrix {
                 time,
                 step_size,

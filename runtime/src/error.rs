@@ -25,6 +25,25 @@ pub enum Error {
         iterations: u32,
     },
 
+    /// The iteration for the coupled stages came down, and then stood still far above rounding errors: evaluations are noisy.
+    #[error(
+        "step {step} of size {step_size} at time {time}: after {iterations} iterations the stages still change by {residual:e} and no \
+         longer less; the velocity or the force has larger errors than rounding, or jumps: evaluate it more precisely, or take \
+         `Plain` sums and set a tolerance above that change"
+    )]
+    Stagnation {
+        /// Time at the start of the step.
+        time: f64,
+        /// Step size.
+        step_size: f64,
+        /// Number of the step, from 1.
+        step: u64,
+        /// Relative change of the stages in the last sweep.
+        residual: f64,
+        /// Sweeps made.
+        iterations: u32,
+    },
+
     /// An evaluation of the system, or the result of the step, is infinite or not a number.
     #[error(
         "step {step} of size {step_size} at time {time}: the {what}{} is not finite; take a smaller step, or keep \

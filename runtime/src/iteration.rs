@@ -3,22 +3,22 @@
 mod patient;
 mod quick;
 
-pub(crate) use self::patient::patiently;
+pub(crate) use self::patient::{is_last, non_finite, patiently};
 use self::quick::hasten;
 use crate::{Change, Class, EvaluationCounts, Failure, Kept, Quantity, Scalar, Stopping, Work};
 
 /// Changes up to this many units of EPSILON can be rounding errors: one sweep rounds s products, s sums and the
 /// evaluations, s ≤ 20 in practice. The change also has to have stopped shrinking, so that an iteration which still
 /// gains digits below the threshold goes on.
-const ROUNDING: f64 = 64.0;
+pub(crate) const ROUNDING: f64 = 64.0;
 
 /// Sweeps without progress after which a change that has shrunk by [`CONTRACTION`] counts as noise; before as many all
 /// sweeps are early ones.
-const PATIENCE: u32 = 10;
+pub(crate) const PATIENCE: u32 = 10;
 
 /// The part of its sweeps for which an iteration has to be without progress: where it converges slowly and turns as it does,
 /// changes grow now and then long before it has settled. Of fewer sweeps one without progress will do.
-const STAGNATION: u32 = 16;
+pub(crate) const STAGNATION: u32 = 16;
 
 /// Changes above this many units of EPSILON, of the stages of the step before or of those that were looked at first, are not looked
 /// at further in the first sweeps: none of them is the last.
@@ -28,7 +28,10 @@ const FAR: f64 = ROUNDING * ROUNDING;
 const AMPLIFIED: f64 = 4.0 * ROUNDING;
 
 /// What tells an iteration that came down to its noise from one that never got anywhere.
-const CONTRACTION: f64 = 1.0 / 1024.0;
+pub(crate) const CONTRACTION: f64 = 1.0 / 1024.0;
+
+/// A relative change above this is not the noise of evaluations that are good for anything.
+pub(crate) const NOISIEST: f64 = 1e-5;
 
 /// Stages that are iterated.
 pub(crate) trait Sweeps {
@@ -40,9 +43,6 @@ pub(crate) trait Sweeps {
 
     /// Whether it is known after each sweep how large they are; else only what they [are about](Self::are_about), from the start.
     const MEASURED: bool = true;
-
-    /// Whether changes that are far from rounding errors are looked at.
-    const LOOKS_AFAR: bool = false;
 
     /// How many evaluations they make.
     fn evaluations(&self) -> EvaluationCounts;

@@ -175,9 +175,9 @@ pub use moves::{Drift, Force, Moves};
 pub use nalgebra;
 #[cfg(feature = "alloc")]
 pub use newton::{
-    Analytic, BandMatrix, Banded, Coupling, Dense, Derivatives, Differences, FixedPointThenNewton,
-    FixedPointThenNewtonMemory, Jacobian, LinearSolver, Linearized, Matrices, Newton, NewtonMemory,
-    Parts,
+    Analytic, BandMatrix, Banded, Coupling, Dense, Derivatives, Differences, EveryStage,
+    FixedPointThenNewton, FixedPointThenNewtonMemory, Jacobian, LinearSolver, Linearized, Matrices,
+    Newton, NewtonMemory, Parts,
 };
 #[cfg(feature = "num-dual")]
 pub use newton::{DualNumbers, HamiltonianInDuals};

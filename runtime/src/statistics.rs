@@ -21,7 +21,7 @@ use crate::Work;
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statistics {
     /// Steps taken; of one that was [split](crate::Retry::Split), its parts.
     pub steps: u64,
@@ -35,6 +35,10 @@ pub struct Statistics {
     pub evaluations: u64,
     /// Times the linear systems of a Newton iteration were made and factored: one for each pair of stages.
     pub factorisations: u64,
+    /// The largest residual of a step by Newton's iteration: the relative change of the stages in its last sweep, of the positions or of
+    /// the momenta. In a stiff system it is the rounding error of the force, divided by the step size: it may be far above
+    /// [`Scalar::EPSILON`](crate::Scalar::EPSILON). 0 for other iterations.
+    pub largest_residual: f64,
 }
 
 impl Statistics {
@@ -63,5 +67,6 @@ impl Statistics {
         self.evaluations += u64::from(work.evaluations);
         self.factorisations += u64::from(work.factorisations);
         self.rejected += u64::from(work.rejected);
+        self.largest_residual = self.largest_residual.max(work.residual);
     }
 }

@@ -19,6 +19,8 @@ pub struct Work {
     /// where that is not known. Without a tolerance it is right but for a factor of two; of momenta where they show that an iteration
     /// goes on, which in plain sums those of a separable system do not.
     pub scales: [f64; 2],
+    /// The relative change of the stages in the last sweep of a Newton iteration; of several steps, the largest one. Zero elsewhere.
+    pub residual: f64,
 }
 
 impl Default for Work {
@@ -31,6 +33,7 @@ impl Default for Work {
             factorisations: 0,
             rejected: 0,
             scales: [0.0; 2],
+            residual: 0.0,
         }
     }
 }
@@ -43,6 +46,7 @@ impl AddAssign for Work {
         self.factorisations += other.factorisations;
         self.rejected += other.rejected;
         self.scales = other.scales;
+        self.residual = self.residual.max(other.residual);
     }
 }
 
@@ -52,6 +56,13 @@ pub enum Failure {
     /// The iteration did not settle: [`Error::NoConvergence`](crate::Error::NoConvergence).
     NoConvergence {
         /// Relative change in the last sweep in which it was finite; infinite where that was not looked at.
+        residual: f64,
+        /// Sweeps made.
+        iterations: u32,
+    },
+    /// The iteration stands still, far above rounding errors: [`Error::Stagnation`](crate::Error::Stagnation).
+    Stagnation {
+        /// Relative change in the last sweep.
         residual: f64,
         /// Sweeps made.
         iterations: u32,
@@ -75,7 +86,7 @@ impl Failure {
                 what,
                 stage: stage.map(|stage| stages + stage),
             },
-            Self::NoConvergence { .. } | Self::SingularMatrix => self,
+            Self::NoConvergence { .. } | Self::Stagnation { .. } | Self::SingularMatrix => self,
         }
     }
 }

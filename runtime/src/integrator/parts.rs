@@ -33,7 +33,10 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     pub(super) fn take_again(&mut self, size: f64, time: f64, error: Error) -> Result<u32, Error> {
         let of_the_size = matches!(
             error,
-            Error::NoConvergence { .. } | Error::NonFinite { .. } | Error::SingularMatrix { .. }
+            Error::NoConvergence { .. }
+                | Error::Stagnation { .. }
+                | Error::NonFinite { .. }
+                | Error::SingularMatrix { .. }
         );
         if !of_the_size || self.retry == Retry::Never {
             return Err(error);

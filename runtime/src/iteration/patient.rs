@@ -1,8 +1,8 @@
 //! Sweeps that are looked at one by one.
 
 use super::{
-    AMPLIFIED, Begun, CONTRACTION, FAR, Movement, PATIENCE, ROUNDING, STAGNATION, Sweeps, coin,
-    is_known, known, larger, units,
+    AMPLIFIED, Begun, CONTRACTION, FAR, Movement, NOISIEST, PATIENCE, ROUNDING, STAGNATION, Sweeps,
+    coin, is_known, known, larger, units,
 };
 use crate::{
     Change, Class, Failure, Kept, PartChange, Quantity, Scalar, Separable, Stopping, Work,
@@ -60,7 +60,9 @@ pub(super) fn solve<C: Class, T: Scalar, W: Sweeps>(
             work.scales = known::<T>(scales, W::both::<C>() || !W::HASTY);
             iterations
         }
-        Err(Failure::NoConvergence { iterations, .. }) => iterations,
+        Err(Failure::NoConvergence { iterations, .. } | Failure::Stagnation { iterations, .. }) => {
+            iterations
+        }
         Err(Failure::NonFinite { .. } | Failure::SingularMatrix) => 1,
     };
     work.iterations += iterations;
@@ -98,7 +100,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
     // Whether there are changes that are not looked at, and which: without stages that are kept the first sweep shows what is
     // not finite.
     let is_known = kept.stages && is_known::<T>(kept.scales, both);
-    let mut overlooks = is_known && !W::LOOKS_AFAR;
+    let mut overlooks = is_known;
     let mut far = units::<T>(FAR, kept.scales);
     let Begun {
         iterations: mut iteration,
@@ -111,6 +113,8 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0);
     let mut least = last;
     let mut idle = 0;
+    // The last change that was at most half of this before, and those since.
+    let (mut mark, mut slow) = (f64::INFINITY, 0);
     let mut once_more = false;
     if let Some((sweep, movement)) = &seen {
         (last, looked) = (sweeps.change(movement), *sweep);
@@ -137,7 +141,11 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
             let change = sweeps.change(&this);
             if change.is_undefined() {
                 if iteration == 1 {
-                    return Err(non_finite(sweeps, &change));
+                    return Err(non_finite(
+                        sweeps.non_finite_force(),
+                        || sweeps.non_finite(),
+                        &change,
+                    ));
                 }
                 // It has run away: the change before is shown, if it was looked at.
                 let residual = match looked + 1 == iteration {
@@ -154,7 +162,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
             }
             let size = size_of(&change);
             if looked == 0 {
-                (overlooks, far) = (!W::LOOKS_AFAR, units::<T>(FAR, change.scales()));
+                (overlooks, far) = (true, units::<T>(FAR, change.scales()));
             }
             (last, looked) = (change, iteration);
             largest = larger(size, largest);
@@ -163,6 +171,11 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
                 (size, change, 0)
             } else {
                 (smallest, least, idle + 1)
+            };
+            (mark, slow) = if size <= 0.5 * mark {
+                (size, 0)
+            } else {
+                (mark, slow + 1)
             };
             let is_rounding = || C::settling(&change) <= ROUNDING * T::EPSILON;
             // What rounding does may be amplified by all sweeps after the one whose change was the smallest.
@@ -186,15 +199,27 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
             }
         }
     }
-    Err(Failure::NoConvergence {
-        residual: relative(&last),
-        iterations: max_iterations,
+    let (residual, iterations) = (relative(&last), max_iterations);
+    // It came down and stands still, at its noise.
+    let came_down = residual <= NOISIEST
+        && smallest <= CONTRACTION * largest
+        && size_of(&last) <= ROUNDING * smallest;
+    Err(if slow >= PATIENCE && came_down {
+        Failure::Stagnation {
+            residual,
+            iterations,
+        }
+    } else {
+        Failure::NoConvergence {
+            residual,
+            iterations,
+        }
     })
 }
 
 /// Whether a change, after the one `before`, is the last of an iteration that does not wait for stagnation.
 #[inline(always)]
-fn is_last<T: Scalar>(before: Option<Change>, change: &Change, both: bool) -> bool {
+pub(crate) fn is_last<T: Scalar>(before: Option<Change>, change: &Change, both: bool) -> bool {
     let of = |before: Option<f64>, change: &PartChange| {
         let (unit, this) = (T::EPSILON * change.scale(), change.difference());
         // The next one by a quotient, for numbers of any size.
@@ -205,16 +230,20 @@ fn is_last<T: Scalar>(before: Option<Change>, change: &Change, both: bool) -> bo
         && (!both || of(before.map(|x| x.p.difference()), &change.p))
 }
 
-/// What is to blame for a first sweep that is not finite.
-fn non_finite(sweeps: &impl Sweeps, change: &Change) -> Failure {
+/// What is to blame for a first sweep that is not finite: the force of a stage, or the first evaluation that is not finite.
+pub(crate) fn non_finite(
+    force: Option<usize>,
+    evaluation: impl FnOnce() -> Option<(Quantity, usize)>,
+    change: &Change,
+) -> Failure {
     let part = if change.q.is_undefined() {
         Quantity::Position
     } else {
         Quantity::Momentum
     };
-    let culprit = match sweeps.non_finite_force() {
+    let culprit = match force {
         Some(stage) => Some((Quantity::Force, stage)),
-        None => sweeps.non_finite(),
+        None => evaluation(),
     };
     let (what, stage) = match culprit {
         Some((what, stage)) => (what, Some(stage)),

@@ -24,7 +24,7 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     let both = W::both::<C>();
     let goes_on = kept.stages && kept.scales[0] > 0.0;
     // The last sweep that is allowed is looked at.
-    if W::LOOKS_AFAR || !goes_on || stopping.max_iterations < 2 {
+    if !goes_on || stopping.max_iterations < 2 {
         return Err(Begun::NOTHING);
     }
     sweeps.begin(kept);

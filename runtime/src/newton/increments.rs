@@ -4,21 +4,22 @@ use core::marker::PhantomData;
 
 use num_traits::Zero;
 
+use super::convergence::{Attempt, MOST_SWEEPS};
+use super::every_stage::{EveryStage, NOT_FINITE};
 use super::linear::{Coupling, LinearSolver};
 use super::memory::{NewtonMemory, rows};
-use crate::iteration::Sweeps;
 use crate::stage::first_non_finite_of;
 use crate::summation::add;
 use crate::{
-    Change, Class, EvaluationCounts, Failure, HalfTableau, Hamiltonian, Kept, Outcome, PartChange,
-    Quantity, Scalar, StageStorage, StageTableau, Step, Summation, Vector,
+    Change, Class, Failure, HalfTableau, Hamiltonian, Outcome, PartChange, Quantity, Scalar,
+    Separable, StageStorage, StageTableau, Step, Summation, Vector,
 };
 
 /// A change that goes on by more than this factor makes the derivatives stale for the next step.
 const GOOD: f64 = 1.0 / 32.0;
 
-/// A change that goes on by more than this factor makes them stale at once.
-const BAD: f64 = 0.5;
+/// Changes of so many units of EPSILON are rounding errors, in the forecast of how many sweeps an iteration takes.
+const ROUNDING: f64 = 16.0;
 
 /// Changes below this many units of EPSILON may be noise, and say nothing about the contraction.
 const NOISE: f64 = 16384.0;
@@ -37,102 +38,13 @@ pub(super) struct ByIncrements<'a, P, R, V: Vector, S: Hamiltonian<V>, L: Linear
     sweeps: u32,
     /// Sweeps since the matrices were factored, or since the beginning.
     since: u32,
+    /// Whether the derivatives are taken at every stage, anew in every sweep.
+    in_full: bool,
+    /// Whether the derivatives were taken anew within the step.
+    renewed: bool,
+    /// Whether it contracts too slowly with derivatives that were taken anew.
+    slow: bool,
     sums: PhantomData<R>,
-}
-
-impl<P, R, V, S, L> Sweeps for ByIncrements<'_, P, R, V, S, L>
-where
-    P: StageTableau,
-    R: Summation,
-    V: Vector,
-    S: Hamiltonian<V, Class = P::Class>,
-    L: LinearSolver<V, S>,
-{
-    type Movement = Change;
-
-    const HASTY: bool = !R::COMPENSATED;
-
-    /// A sweep costs far more than that, and may be noise soon.
-    const LOOKS_AFAR: bool = true;
-
-    fn evaluations(&self) -> EvaluationCounts {
-        EvaluationCounts {
-            begin: 0,
-            start: 0,
-            sweep: (P::POSITIONS.count + P::MOMENTA.count) as u32,
-            finish: 0,
-            carried: 0,
-        }
-    }
-
-    fn time(&self) -> f64 {
-        self.step.time
-    }
-
-    fn begin(&mut self, kept: Kept) {
-        let memory = &mut *self.memory;
-        (self.last, self.sweeps, self.since) = (f64::NAN, 0, 0);
-        memory.failure = None;
-        memory.contraction = 0.0;
-        if !kept.stages {
-            memory.stale = true;
-            let evaluations = memory.velocity.iter_mut().chain(&mut memory.force);
-            evaluations.for_each(clear);
-        }
-        let extrapolates = kept.stages
-            && memory.waiting == 0
-            && !P::MOMENTA.extrapolation.is_empty()
-            && !P::POSITIONS.extrapolation.is_empty();
-        memory.first_change = extrapolates.then_some(f64::NAN);
-        if extrapolates {
-            extrapolate(&P::MOMENTA, &mut memory.u, &mut memory.unknown);
-            extrapolate(&P::POSITIONS, &mut memory.w, &mut memory.unknown);
-        } else {
-            memory.u.iter_mut().chain(&mut memory.w).for_each(clear);
-        }
-        self.values();
-        if self.memory.stale || self.memory.factored != Some(self.step.size) {
-            self.factor();
-        }
-    }
-
-    /// They are corrected at once: neither is a function of the other.
-    fn both<C: Class>() -> bool {
-        true
-    }
-
-    fn non_finite(&self) -> Option<(Quantity, usize)> {
-        self.memory.non_finite()
-    }
-
-    fn non_finite_force(&self) -> Option<usize> {
-        first_non_finite_of(&self.memory.force)
-    }
-
-    fn sweep(&mut self) -> Change {
-        if self.memory.failure.is_some() {
-            return Change {
-                q: PartChange::new(f64::NAN, f64::NAN),
-                p: PartChange::new(f64::NAN, f64::NAN),
-            };
-        }
-        self.evaluate();
-        self.residuals();
-        if P::Class::SEPARABLE {
-            self.correct_separable();
-        } else {
-            self.solve();
-        }
-        self.update();
-        let change = self.values();
-        self.judge(&change);
-        change
-    }
-
-    #[inline(always)]
-    fn change(&self, movement: &Change) -> Change {
-        *movement
-    }
 }
 
 impl<'a, P, R, V, S, L> ByIncrements<'a, P, R, V, S, L>
@@ -156,13 +68,118 @@ where
             last: f64::NAN,
             sweeps: 0,
             since: 0,
+            in_full: false,
+            renewed: false,
+            slow: false,
             sums: PhantomData,
         }
     }
 
-    /// Why the iteration could not go on, if it could not.
-    pub(super) fn failure(&self) -> Option<Failure> {
-        self.memory.failure
+    /// Evaluations in one sweep.
+    pub(super) const fn evaluations(&self) -> u32 {
+        (P::POSITIONS.count + P::MOMENTA.count) as u32
+    }
+
+    /// When the step starts.
+    pub(super) const fn time(&self) -> f64 {
+        self.step.time
+    }
+
+    /// How many steps are left to the derivatives at every stage.
+    pub(super) const fn steps_in_full(&mut self) -> &mut u32 {
+        &mut self.memory.steps_in_full
+    }
+
+    /// Whether it contracts too slowly with derivatives at one point that were taken anew.
+    pub(super) const fn is_slow(&self) -> bool {
+        self.slow
+    }
+
+    /// Starting values, and derivatives there if there are none.
+    pub(super) fn begin(&mut self, attempt: Attempt) -> Result<(), Failure> {
+        let memory = &mut *self.memory;
+        (self.last, self.sweeps, self.since) = (f64::NAN, 0, 0);
+        (self.in_full, self.renewed, self.slow) = (attempt.in_full, false, false);
+        memory.contraction = 0.0;
+        if !attempt.kept {
+            memory.stale = true;
+            let evaluations = memory.velocity.iter_mut().chain(&mut memory.force);
+            evaluations.for_each(clear);
+        }
+        let extrapolates = attempt.kept
+            && memory.waiting == 0
+            && !P::MOMENTA.extrapolation.is_empty()
+            && !P::POSITIONS.extrapolation.is_empty();
+        memory.first_change = extrapolates.then_some(f64::NAN);
+        if extrapolates {
+            extrapolate(&P::MOMENTA, &mut memory.u, &mut memory.unknown);
+            extrapolate(&P::POSITIONS, &mut memory.w, &mut memory.unknown);
+        } else {
+            memory.u.iter_mut().chain(&mut memory.w).for_each(clear);
+        }
+        self.values();
+        if self.in_full {
+            // Those at one point have nothing to do with the steps after this one.
+            self.memory.stale = true;
+            self.scale();
+            Ok(())
+        } else if self.memory.stale || self.memory.factored != Some(self.step.size) {
+            self.factor()
+        } else {
+            Ok(())
+        }
+    }
+
+    /// The first evaluation that is not finite although its argument is.
+    pub(super) fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.memory.non_finite()
+    }
+
+    /// The first stage, from 1, whose force is not finite.
+    pub(super) fn non_finite_force(&self) -> Option<usize> {
+        first_non_finite_of(&self.memory.force)
+    }
+
+    /// Corrects all increments; returns how much that moved the stages.
+    pub(super) fn sweep(&mut self) -> Result<Change, Failure> {
+        self.evaluate();
+        self.residuals();
+        self.correct()?;
+        self.update();
+        let change = self.values();
+        self.judge(&change)?;
+        Ok(change)
+    }
+
+    /// By how much rounding alone moves the positions and the momenta of the stages in a sweep: what comes out of it where their
+    /// components are off by a unit of EPSILON, up or down.
+    pub(super) fn noise(&mut self) -> Result<[f64; 2], Failure> {
+        self.evaluate();
+        self.residuals();
+        let NewtonMemory {
+            q,
+            p,
+            x,
+            y,
+            residuals,
+            ..
+        } = &mut *self.memory;
+        residuals[0].copy_from_slice(x);
+        residuals[1].copy_from_slice(y);
+        q.iter_mut().enumerate().for_each(|(i, q)| jog(q, i));
+        p.iter_mut().enumerate().for_each(|(j, p)| jog(p, j));
+        self.evaluate();
+        self.residuals();
+        let NewtonMemory {
+            x, y, residuals, ..
+        } = &mut *self.memory;
+        for (new, old) in [(x, &residuals[0]), (y, &residuals[1])] {
+            new.iter_mut().zip(old).for_each(|(new, &old)| *new -= old);
+        }
+        self.correct()?;
+        let noise = self.extent();
+        self.values();
+        Ok(noise)
     }
 
     /// Writes the result of the step, and decides what is kept for the next one; returns how often the linear systems were
@@ -254,6 +271,84 @@ where
                 }
             }
         }
+    }
+
+    /// Residuals become corrections.
+    fn correct(&mut self) -> Result<(), Failure> {
+        if self.in_full {
+            let corrected = self.correct_in_full();
+            return corrected.map_err(|failure| self.failure(failure));
+        }
+        if P::Class::SEPARABLE {
+            self.correct_separable();
+        } else {
+            self.solve();
+        }
+        Ok(())
+    }
+
+    /// That with the derivatives at every stage.
+    fn correct_in_full(&mut self) -> Result<(), Failure> {
+        let NewtonMemory {
+            q,
+            p,
+            x,
+            y,
+            times,
+            scaled,
+            linear,
+            ..
+        } = &mut *self.memory;
+        let stages = EveryStage {
+            q,
+            p,
+            start: (self.step.q, self.step.p),
+            times,
+            positions: &scaled[0],
+            momenta: &scaled[1],
+        };
+        L::correct(linear, self.system, stages, x, y)
+    }
+
+    /// The coefficients for that.
+    fn scale(&mut self) {
+        let Step { time, size: h, .. } = *self.step;
+        let NewtonMemory {
+            times,
+            scaled: [positions, momenta],
+            ..
+        } = &mut *self.memory;
+        let (of_q, of_p) = (P::POSITIONS.count, P::MOMENTA.count);
+        for (i, stage) in times.iter_mut().enumerate() {
+            // Of a system that depends on time a force and a velocity may have times of their own: derivatives are taken between.
+            let forces = P::POSITIONS.times.get(i.min(of_q.saturating_sub(1)));
+            let velocities = P::MOMENTA.times.get(i.min(of_p.saturating_sub(1)));
+            let sum = forces.unwrap_or(&0.5) + velocities.unwrap_or(&0.5);
+            *stage = time + 0.5 * sum * h;
+        }
+        for i in 0..of_q {
+            for j in 0..of_p {
+                positions[i * of_p + j] = h * position::<P>(i, j);
+                momenta[j * of_q + i] = h * momentum::<P>(j, i);
+            }
+        }
+    }
+
+    /// How far the corrections reach in the positions and in the momenta of the stages.
+    fn extent(&self) -> [f64; 2] {
+        let n = self.step.q.dimension();
+        let rows = rows::<P>(n);
+        let NewtonMemory { x, y, .. } = &*self.memory;
+        let (stride, turn) = if P::Class::SEPARABLE { (1, 0) } else { (2, 1) };
+        let of_velocities = |j: usize, k: usize| x[j * rows + stride * k];
+        let of_forces = |i: usize, k: usize| match P::Class::SEPARABLE {
+            true => y[i * n + k],
+            false => x[i * rows + stride * k + turn],
+        };
+        let (positions, momenta) = (P::POSITIONS.count, P::MOMENTA.count);
+        let q = largest_sum(n, (positions, momenta), position::<P>, of_velocities);
+        let p = largest_sum(n, (momenta, positions), momentum::<P>, of_forces);
+        [q, p]
     }
 
     /// Residuals become corrections, for a separable system.
@@ -367,39 +462,52 @@ where
         }
     }
 
-    /// Decides from a change whether the derivatives are still good enough.
-    fn judge(&mut self, change: &Change) {
-        let size = P::Class::settling(change);
+    /// Decides from a change whether the derivatives at one point are still good enough.
+    fn judge(&mut self, change: &Change) -> Result<(), Failure> {
         if self.sweeps == 0 && self.memory.first_change.is_some() {
-            self.memory.first_change = Some(size);
+            self.memory.first_change = Some(P::Class::settling(change));
         }
         self.sweeps += 1;
         self.since += 1;
-        if size > NOISE * V::Scalar::EPSILON && !self.last.is_nan() {
-            let contraction = size / self.last;
-            self.memory.contraction = self.memory.contraction.max(contraction);
-            if contraction > BAD && self.since > 1 {
-                self.memory.stale = true;
-                self.factor();
-            }
-        }
+        // Either half shows it: the noise of the other one may be large.
+        let size = Separable::settling(change);
+        let contraction = size / self.last;
         self.last = size;
+        if self.in_full
+            || size.is_nan()
+            || size <= NOISE * V::Scalar::EPSILON
+            || contraction.is_nan()
+        {
+            return Ok(());
+        }
+        self.memory.contraction = self.memory.contraction.max(contraction);
+        let forecast = num_traits::Float::ln(ROUNDING * V::Scalar::EPSILON / size)
+            / num_traits::Float::ln(contraction);
+        let is_bad =
+            contraction >= 1.0 || f64::from(self.sweeps) + forecast > f64::from(MOST_SWEEPS);
+        if is_bad && self.since > 1 {
+            self.slow = self.renewed;
+            self.renewed = true;
+            self.memory.stale = true;
+            self.factor()?;
+        }
+        Ok(())
     }
 
-    /// Ends the iteration. Once it has begun the stages may be anywhere, and it is the iteration that has failed.
-    fn fail(&mut self, failure: Failure) {
-        self.memory.failure = Some(if self.sweeps == 0 {
+    /// What ends the iteration. Once it has begun the stages may be anywhere, and it is the iteration that has failed.
+    const fn failure(&self, failure: Failure) -> Failure {
+        if self.sweeps == 0 {
             failure
         } else {
             Failure::NoConvergence {
                 residual: self.last,
                 iterations: self.sweeps,
             }
-        });
+        }
     }
 
     /// Takes the derivatives anew, if they are stale, and factors the linear systems.
-    fn factor(&mut self) {
+    fn factor(&mut self) -> Result<(), Failure> {
         let (step, system) = (self.step, self.system);
         let h = step.size;
         let memory = &mut *self.memory;
@@ -411,11 +519,7 @@ where
             mean(p, &memory.p);
             let time = V::Scalar::from_f64(step.time + 0.5 * h);
             if !L::linearize(&mut memory.linear, system, time, q, p) {
-                self.fail(Failure::NonFinite {
-                    what: Quantity::Derivative,
-                    stage: None,
-                });
-                return;
+                return Err(self.failure(NOT_FINITE));
             }
             memory.stale = false;
         }
@@ -459,8 +563,9 @@ where
         if regular {
             memory.factored = Some(h);
             memory.factorisations += 1;
+            Ok(())
         } else {
-            self.fail(Failure::SingularMatrix);
+            Err(self.failure(Failure::SingularMatrix))
         }
     }
 }
@@ -507,6 +612,39 @@ fn momentum<P: StageTableau>(i: usize, j: usize) -> f64 {
         1.0
     };
     P::MOMENTA.columns[j][i] * weight
+}
+
+/// Moves every component by a unit of EPSILON, up or down as good as at random.
+fn jog<V: Vector>(values: &mut V, stage: usize) {
+    for (k, value) in values.as_mut_slice().iter_mut().enumerate() {
+        let up = (stage * 7 + k * 5 + stage * k) % 3 % 2 == 0;
+        let unit = V::Scalar::from_f64(if up {
+            V::Scalar::EPSILON
+        } else {
+            -V::Scalar::EPSILON
+        });
+        *value += *value * unit;
+    }
+}
+
+/// The largest component of `Σ_j factor(i, j) value(j)` over all `i`, of sums of as many terms as the second count says.
+fn largest_sum<T: Scalar>(
+    dimension: usize,
+    (sums, terms): (usize, usize),
+    factor: impl Fn(usize, usize) -> f64,
+    value: impl Fn(usize, usize) -> T,
+) -> f64 {
+    let mut largest = 0.0_f64;
+    for i in 0..sums {
+        for k in 0..dimension {
+            let mut sum = T::zero();
+            for j in 0..terms {
+                sum += T::from_f64(factor(i, j)) * value(j, k);
+            }
+            largest = largest.max(sum.magnitude());
+        }
+    }
+    largest
 }
 
 /// One component of a sum over the stages.

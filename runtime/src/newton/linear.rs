@@ -5,8 +5,9 @@ use core::fmt::Debug;
 use core::marker::PhantomData;
 
 use super::elimination::{Complex, Elimination};
+use super::every_stage::{AllStages, EveryStage, NOT_FINITE};
 use super::jacobian::{BandMatrix, Derivatives, Jacobian};
-use crate::{Class, Hamiltonian, Scalar, Vector};
+use crate::{Class, Failure, Hamiltonian, Scalar, Vector};
 
 /// How the parts of the unknown of a linear system depend on each other: the factor `γ` in `(1 − γ J) x = r`.
 ///
@@ -90,6 +91,27 @@ pub trait LinearSolver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
         vector: &[V::Scalar],
         product: &mut [V::Scalar],
     );
+
+    /// Whether [`correct`](Self::correct) is implemented.
+    const EVERY_STAGE: bool = false;
+
+    /// Full Newton: takes the derivatives at every stage, and makes corrections of the residuals `x` of `h velocity` and `y` of
+    /// `h force`, stage by stage; of a general system both are in `x`, component by component by turns.
+    ///
+    /// [`Newton`](crate::Newton) asks for it where derivatives at one point do not contract well.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::NonFinite`], where a derivative is not finite; [`Failure::SingularMatrix`].
+    fn correct(
+        _memory: &mut Self::Memory,
+        _system: &S,
+        _stages: EveryStage<'_, V>,
+        _x: &mut [V::Scalar],
+        _y: &mut [V::Scalar],
+    ) -> Result<(), Failure> {
+        Err(Failure::SingularMatrix)
+    }
 }
 
 /// Full matrices, with derivatives from `D`.
@@ -110,6 +132,8 @@ pub struct Matrices<T, D> {
     /// The matrix `J` of [`Coupling`].
     matrix: BandMatrix<T>,
     factors: Vec<Factors<T>>,
+    /// Made when first needed.
+    all_stages: Option<AllStages<T>>,
 }
 
 /// The factors of one linear system.
@@ -148,6 +172,7 @@ impl<T: Scalar, D> Matrices<T, D> {
             factors: factors.collect(),
             matrix,
             jacobian,
+            all_stages: None,
         }
     }
 
@@ -312,6 +337,35 @@ macro_rules! matrices {
                 product: &mut [V::Scalar],
             ) {
                 memory.jacobian.force_by_position.multiply(vector, product);
+            }
+
+            const EVERY_STAGE: bool = true;
+
+            fn correct(
+                memory: &mut Self::Memory,
+                system: &S,
+                stages: EveryStage<'_, V>,
+                x: &mut [V::Scalar],
+                y: &mut [V::Scalar],
+            ) -> Result<(), Failure> {
+                let Matrices { derivatives, jacobian, all_stages, .. } = memory;
+                let (points, momenta) = (stages.count(), stages.p.len());
+                let all = all_stages.get_or_insert_with(|| {
+                    AllStages::new(jacobian, points, momenta, S::Class::SEPARABLE)
+                });
+                for (number, jacobian) in all.jacobians.iter_mut().enumerate() {
+                    let (time, q, p) = stages.point(number);
+                    jacobian.clear();
+                    D::evaluate(derivatives, system, V::Scalar::from_f64(time), q, p, jacobian);
+                    if !jacobian.is_finite() {
+                        return Err(NOT_FINITE);
+                    }
+                }
+                if S::Class::SEPARABLE {
+                    all.correct_separable(&stages, x, y)
+                } else {
+                    all.correct_general(&stages, x)
+                }
             }
         }
     };

@@ -9,7 +9,7 @@ use num_traits::Zero;
 
 use super::linear::{LinearSolver, Parts};
 use crate::stage::{first_mismatch, first_non_finite};
-use crate::{Class, Failure, Hamiltonian, Quantity, StageStorage, StageTableau, Vector};
+use crate::{Class, Hamiltonian, Quantity, StageStorage, StageTableau, Vector};
 
 /// The memory of a [`Newton`](crate::Newton) iteration for the plan `P`.
 pub struct NewtonMemory<V: Vector, P, S: Hamiltonian<V>, L: LinearSolver<V, S>> {
@@ -44,8 +44,13 @@ pub struct NewtonMemory<V: Vector, P, S: Hamiltonian<V>, L: LinearSolver<V, S>> 
     pub(super) contraction: f64,
     /// How often the linear systems were factored in this step.
     pub(super) factorisations: u32,
-    /// Why the iteration cannot go on.
-    pub(super) failure: Option<Failure>,
+    /// The times of all stages, and `h a_ij` and `h ã_ij` by rows: for derivatives at every stage.
+    pub(super) times: Vec<f64>,
+    pub(super) scaled: [Vec<f64>; 2],
+    /// Steps that are left to the derivatives at every stage.
+    pub(super) steps_in_full: u32,
+    /// Residuals, to tell their noise by.
+    pub(super) residuals: [Vec<V::Scalar>; 2],
     /// The first change of this step, if it began with extrapolated values.
     pub(super) first_change: Option<f64>,
     /// Steps to go before starting values are extrapolated again.
@@ -105,7 +110,13 @@ impl<V: Vector, P: StageTableau, S: Hamiltonian<V>, L: LinearSolver<V, S>> Stage
             stale: true,
             contraction: 0.0,
             factorisations: 0,
-            failure: None,
+            times: vec![0.0; positions.max(momenta)],
+            scaled: [
+                vec![0.0; positions * momenta],
+                vec![0.0; positions * momenta],
+            ],
+            steps_in_full: 0,
+            residuals: [zeros(unknowns), zeros(positions * n)],
             first_change: None,
             waiting: 0,
             plan: PhantomData,

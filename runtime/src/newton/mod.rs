@@ -1,8 +1,10 @@
 //! Coupled stages by a simplified Newton iteration.
 
+mod convergence;
 #[cfg(feature = "num-dual")]
 mod dual_numbers;
 mod elimination;
+mod every_stage;
 mod increments;
 mod jacobian;
 mod linear;
@@ -14,16 +16,17 @@ use core::marker::PhantomData;
 
 #[cfg(feature = "num-dual")]
 pub use dual_numbers::{DualNumbers, HamiltonianInDuals};
+pub use every_stage::EveryStage;
 pub use jacobian::{Analytic, BandMatrix, Derivatives, Differences, Jacobian, Linearized};
 pub use linear::{Banded, Coupling, Dense, LinearSolver, Matrices, Parts};
 pub use memory::NewtonMemory;
 pub use policy::{FixedPointThenNewton, FixedPointThenNewtonMemory};
 
-use crate::iteration::settle;
 use crate::{
     Failure, Hamiltonian, Inside, Integrator, Kept, Method, Outcome, Solver, StageTableau, Step,
     Stopping, StoredEvaluations, Summation, Vector, Work,
 };
+use convergence::settle;
 use increments::ByIncrements;
 
 /// The simplified Newton iteration, for stiff and strongly coupled systems; `L`, a [`LinearSolver`], solves its linear
@@ -142,8 +145,7 @@ impl<V: Vector, S: Hamiltonian<V>, L: LinearSolver<V, S>> Solver<V, S> for Newto
         S: Hamiltonian<V, Class = P::Class>,
     {
         let mut sweeps = ByIncrements::<P, R, V, S, L>::new(step, system, memory);
-        let settled = settle::<P::Class, V::Scalar>(&mut sweeps, kept, stopping);
-        let mut work = settled.map_err(|failure| sweeps.failure().unwrap_or(failure))?;
+        let mut work = settle(&mut sweeps, kept, stopping)?;
         work.factorisations = sweeps.finish(outcome);
         Ok(work)
     }

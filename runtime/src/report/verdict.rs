@@ -127,7 +127,7 @@ impl Verdict {
 
     fn stopped(error: &Error) -> Self {
         let cause = match error {
-            Error::NoConvergence { .. } => Cause::NoConvergence,
+            Error::NoConvergence { .. } | Error::Stagnation { .. } => Cause::NoConvergence,
             Error::NonFinite { .. } => Cause::NonFinite,
             Error::SingularMatrix { .. } => Cause::SingularMatrix,
             _ => Cause::Other,
