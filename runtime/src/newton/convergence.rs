@@ -6,8 +6,8 @@ use crate::iteration::{
     CONTRACTION, NOISIEST, PATIENCE, ROUNDING, STAGNATION, coin, is_last, non_finite,
 };
 use crate::{
-    Change, Class, Failure, Hamiltonian, Kept, Scalar, StageTableau, Stopping, Summation, Vector,
-    Work,
+    Change, Class, Failure, Hamiltonian, Kept, Scalar, Separable, StageTableau, Stopping,
+    Summation, Vector, Work,
 };
 
 /// Sweeps in which the change has not halved, after which it stagnates.
@@ -126,7 +126,7 @@ where
             });
         }
         let before = course.last;
-        course.note(&change, FLOOR * V::Scalar::EPSILON);
+        course.note::<P::Class>(&change, FLOOR * V::Scalar::EPSILON);
         work.scales = change.scales();
         work.residual = change.residual();
         let within = |tolerance: f64| {
@@ -140,8 +140,11 @@ where
             return Ok(());
         }
         if course.stagnates(iteration, max_iterations) {
-            let is_noise = P::Class::settling(&change) <= ROUNDING * V::Scalar::EPSILON
-                || course.may_be_noise() && measurements < MOST_MEASUREMENTS && {
+            let is_within = |size: f64| size <= ROUNDING * V::Scalar::EPSILON;
+            // The noise of derivatives at one point may be larger than it has to be.
+            let may_be_noise = !attempt.gives_up || is_within(Separable::settling(&change));
+            let is_noise = is_within(P::Class::settling(&change))
+                || may_be_noise && course.may_be_noise() && measurements < MOST_MEASUREMENTS && {
                     measurements += 1;
                     work.evaluations += 2 * sweeps.evaluations();
                     let [q, p] = sweeps.noise()?;
@@ -154,15 +157,19 @@ where
                 once_more = true;
             }
         }
-        let is_late = iteration >= MOST_SWEEPS || course.slow > 2 * SLOW || sweeps.is_slow();
-        if attempt.gives_up && is_late && !once_more {
+        let is_late = iteration >= MOST_SWEEPS || course.slow >= SLOW;
+        let is_far = P::Class::settling(&change) > ROUNDING * V::Scalar::EPSILON;
+        if attempt.gives_up && (is_late && is_far || sweeps.is_slow()) {
             return Err(course.failure(iteration));
         }
     }
     Err(course.failure(max_iterations))
 }
 
-/// How the changes have gone so far: the larger relative change of both halves counts.
+/// How the changes have gone so far.
+///
+/// Their size is the smaller relative change of both halves for a separable system: where the positions rest, so do the forces, but for
+/// their rounding errors, and the momenta only follow. For a general one it is the larger.
 #[derive(Default)]
 struct Course {
     last: Option<Change>,
@@ -173,12 +180,14 @@ struct Course {
     mark: Option<f64>,
     slow: u32,
     largest: f64,
+    /// Sweeps in a row in which one half rested.
+    resting: u32,
 }
 
 impl Course {
     /// Takes note of a change; one below `floor` is not told from a smaller one.
-    fn note(&mut self, change: &Change, floor: f64) {
-        let size = change.residual().max(floor);
+    fn note<C: Class>(&mut self, change: &Change, floor: f64) {
+        let size = C::settling(change).max(floor);
         self.last = Some(*change);
         self.largest = self.largest.max(size);
         (self.smallest, self.idle) = match self.smallest {
@@ -189,17 +198,21 @@ impl Course {
             Some(mark) if size > 0.5 * mark => (Some(mark), self.slow + 1),
             _ => (Some(size), 0),
         };
+        self.resting = match Separable::settling(change) <= floor {
+            true => self.resting + 1,
+            false => 0,
+        };
     }
 
     /// Whether the changes have stopped shrinking; at the bound one sweep without progress will do.
     const fn stagnates(&self, iteration: u32, max_iterations: u32) -> bool {
         let waited = iteration == max_iterations || self.idle > iteration / STAGNATION;
-        self.idle > 0 && waited || self.slow >= SLOW
+        self.idle > 0 && waited || self.slow >= SLOW || self.resting > 1
     }
 
     /// Whether it is worthwhile to measure the noise: not while the iteration may be finding its way.
     fn may_be_noise(&self) -> bool {
-        self.slow >= SLOW || self.has_come_down()
+        self.slow >= SLOW || self.resting > 1 || self.has_come_down()
     }
 
     fn has_come_down(&self) -> bool {
