@@ -6,7 +6,8 @@ use core::fmt;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The iteration for the coupled stages did not settle.
+    /// The iteration for the coupled stages diverged, or converged too slowly: a smaller step helps, and for a stiff system
+    /// [`Newton`](crate::Newton) in place of a fixed-point iteration.
     #[error(
         "step {step} of size {step_size} at time {time}: the stages {}; take a smaller step",
         Divergence { residual: *.residual, iterations: *.iterations }

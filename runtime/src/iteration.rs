@@ -3,7 +3,9 @@
 mod patient;
 mod quick;
 
-pub(crate) use self::patient::{is_last, non_finite, patiently};
+pub(crate) use self::patient::patiently;
+#[cfg(feature = "alloc")]
+pub(crate) use self::patient::{is_last, non_finite};
 use self::quick::hasten;
 use crate::{Change, Class, EvaluationCounts, Failure, Kept, Quantity, Scalar, Stopping, Work};
 

@@ -1,9 +1,12 @@
 //! When the iteration for coupled stages stops.
 
-/// When the iteration for the coupled stages of a step stops: at last.
+/// Stopping criterion of the iteration for the coupled stages of a step.
+///
+/// The iteration stops earlier if the stages have settled: see [`FixedPoint`](crate::FixedPoint) and [`Newton`](crate::Newton).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stopping {
-    /// Sweeps of one step, beyond which it has failed; at least one.
+    /// Most sweeps of one attempt at the stages, at least one; after these it has failed. [`Newton`](crate::Newton) makes up to three
+    /// attempts: from the stages of the step before, from the start of the step, and with the derivatives of every stage.
     pub max_iterations: u32,
     /// With [`Plain`](crate::Plain) sums: how far the last sweep may move the positions of the stages, and the momenta where they
     /// count, in their units. Zero: as far as rounding does. See [`Integrator::set_tolerance`](crate::Integrator::set_tolerance).
@@ -11,7 +14,7 @@ pub struct Stopping {
 }
 
 impl Stopping {
-    /// 200 sweeps, down to rounding. An iteration that needs more gains less than a factor of 1.2 a sweep.
+    /// 200 sweeps, down to rounding. A fixed-point iteration that needs more gains less than a factor of 1.2 a sweep.
     pub const DEFAULT: Self = Self {
         max_iterations: 200,
         tolerance: 0.0,

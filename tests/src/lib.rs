@@ -11,4 +11,5 @@ pub mod order;
 pub mod references;
 pub mod scenes;
 pub mod stiff_and_extreme;
+pub mod stiff_steps;
 pub mod table;

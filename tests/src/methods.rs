@@ -20,6 +20,11 @@ symplectic::tableau! {
         basis: polynomial(2), nodes: gauss(2), require: [symplectic, symmetric, equal_matrices, order == 4, p_stable]
     }
 
+    /// Gauss with three stages, order 6.
+    pub Gauss3 {
+        basis: polynomial(3), nodes: gauss(3), require: [symplectic, symmetric, equal_matrices, order == 6, p_stable]
+    }
+
     /// Gauss with four stages, order 8.
     pub Gauss4 {
         basis: polynomial(4), nodes: gauss(4), require: [symplectic, symmetric, equal_matrices, order == 8, p_stable]
@@ -37,6 +42,9 @@ symplectic::tableau! {
 
     /// The implicit midpoint rule, which is the variational Newmark method with γ = 1/2 in other variables, order 2.
     pub Midpoint { basis: polynomial(1), nodes: gauss(1), require: [order == 2, p_stable] }
+
+    /// Radau with two stages, the end of the step one of them.
+    pub RadauRight2 { basis: polynomial(2), nodes: radau-right(2), require: [symplectic] }
 
     /// Radau with three stages, the end of the step one of them.
     pub RadauRight3 { basis: polynomial(3), nodes: radau-right(3), require: [symplectic] }

@@ -369,7 +369,7 @@ fn noise_may_be_amplified_after_it_was_rounding() {
     assert_eq!(changes(60.0), Ok(6));
     // Ten sweeps without progress.
     assert_eq!(changes(200.0), Ok(15));
-    let Err(Failure::NoConvergence { iterations: 35, .. }) = changes(300.0) else {
+    let Err(Failure::Stagnation { iterations: 35, .. }) = changes(300.0) else {
         panic!("{:?}", changes(300.0));
     };
 }

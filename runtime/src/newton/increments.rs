@@ -307,7 +307,9 @@ where
             positions: &scaled[0],
             momenta: &scaled[1],
         };
-        L::correct(linear, self.system, stages, x, y)
+        L::correct(linear, self.system, stages, x, y)?;
+        self.memory.factorisations += 1;
+        Ok(())
     }
 
     /// The coefficients for that.

@@ -44,12 +44,30 @@ use increments::ByIncrements;
 /// decoupled by the [`Decoupling`](crate::Decoupling) of the method, so that in place of one matrix with sn rows there are
 /// s/2 complex ones with n, as in Hairer & Wanner, *Solving ODEs II*, IV.8.
 ///
-/// The factors are kept from step to step. They are made anew where the step size is another one, where nothing is
-/// [kept](Kept::stages) of the step before, after a step in which the change shrank by less than a factor of 32 a sweep,
-/// and at once where it does by less than 2. The iteration stops where that of [`FixedPoint`](crate::FixedPoint) does, down
-/// at rounding errors, so that the energy does not drift by what is left. One point has to do for all stages: where a stiff
-/// direction turns by much within a step, as on a pendulum with a spring of frequency ω if `h²ω` is above 1, the iteration
-/// does not converge, and the step fails.
+/// # Derivatives
+///
+/// The factors are kept from step to step. They are computed anew if the step size changes, if nothing is [kept](Kept::stages) of the
+/// step before, after a step in which the change shrank by less than a factor of 32 a sweep, and at once if the contraction forecasts more
+/// than 20 sweeps. Derivatives at one point cannot do for all stages where a stiff direction turns within the step, as on a pendulum with a
+/// spring of frequency ω if `h²ω` is above 1. If renewed ones still contract too slowly, the step starts again by full Newton, with the
+/// derivatives of every stage in every sweep ([`LinearSolver::correct`]), and so do the next 16 steps.
+///
+/// # Convergence
+///
+/// The iteration stops if the change of the stages no longer shrinks and is at the level of rounding, so that the energy does not drift
+/// by what is left:
+///
+/// * The change stagnates if it has not become smaller for one sweep and a sixteenth of all, or has not halved in three.
+/// * It is at the level of rounding at 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) of the largest position or momentum: of
+///   either for a separable system, as [`Class::settling`](crate::Class::settling) says. Otherwise the noise is measured: the arguments of
+///   all evaluations move by one unit, and a change up to 16 times the response is noise. A stiff spring `k (r − 1)` is evaluated with an
+///   error of `k` units; momenta then are uncertain by `1/h` units of the positions.
+///
+/// With [`Plain`](crate::Plain) sums it stops earlier, as [`FixedPoint`](crate::FixedPoint) does. The change that was left is
+/// [`Statistics::largest_residual`](crate::Statistics::largest_residual).
+///
+/// A step fails with [`Error::NoConvergence`](crate::Error::NoConvergence) if full Newton does not converge either, and with
+/// [`Error::Stagnation`](crate::Error::Stagnation) if it comes down but stands still far above rounding: the evaluations are noisier.
 ///
 /// ```
 /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }

@@ -1,0 +1,227 @@
+//! Steps of stiff systems by Newton's iteration, beside full Newton iterations in doubles and in 71 digits.
+//!
+//! A result is compared with the solution of the same discrete equations, with the coefficients as they are rounded, that is next to its
+//! own stages. The unit of its error is what rounding does to that solution, to first order: one half unit of EPSILON of all that is added
+//! in a force, of the largest position that it depends on, and of the largest momentum, goes through the linearised equations of all steps
+//! so far, in absolute values.
+
+mod full_newton;
+mod systems;
+
+use std::rc::Rc;
+
+use symplectic::nalgebra::SVector;
+use symplectic::{
+    Analytic, Compensated, Dense, Differences, Error, Integrator, LinearSolver, Method, Newton,
+    Plain, Scalar, State, Summation,
+};
+
+use crate::methods::{Gauss2, Gauss3, Gauss4, Lobatto3, Midpoint, RadauRight2};
+use crate::references::Wide;
+use full_newton::{FullNewton, Watched};
+use systems::{Fput, HangingChain, Steps, Stiff};
+
+/// Steps that are taken one after another.
+const STEPS: u32 = 3;
+
+/// Iterations after which full Newton has failed.
+const MOST_ITERATIONS: u32 = 60;
+
+/// Positions beyond this are those of an unstable method: hω is beyond its stability, and states grow by powers of it. The start is of the
+/// size of one.
+const GROWN: f64 = 100.0;
+
+/// What became of a run.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// System, method, derivatives, sums, k and h.
+    pub name: String,
+    /// The most sweeps of a step, or why one failed.
+    pub sweeps: Result<u32, Error>,
+    /// The most iterations that full Newton takes for a step in doubles, if it converges.
+    pub in_full: Option<u32>,
+    /// The error in units of what rounding does to the exact solution; `None` where full Newton in 71 digits found none.
+    pub error: Option<f64>,
+    /// Whether the method is unstable.
+    pub grows: bool,
+}
+
+/// A system and where it starts.
+#[derive(Clone, Copy)]
+struct Problem<S, const N: usize> {
+    name: &'static str,
+    k: f64,
+    system: S,
+    q: [f64; N],
+    p: [f64; N],
+}
+
+/// Makes all runs with these powers of ten for `k` and `h`, and shows what became of each.
+pub fn grid(stiffnesses: &[i32], step_sizes: &[i32], mut see: impl FnMut(Outcome)) {
+    for &power in stiffnesses {
+        let k = 10f64.powi(power);
+        let pendulum = |name, p| Problem {
+            name,
+            k,
+            system: HangingChain { k },
+            q: [1.0, 0.0],
+            p,
+        };
+        let chain = [
+            1.0,
+            0.0,
+            1.75,
+            -0.6614378277661477,
+            2.75,
+            -0.6614378277661477,
+        ];
+        let fput = [1.0, 0.0, 0.0, k.sqrt().recip(), 0.0, 0.0];
+        for &power in step_sizes {
+            let h = 10f64.powi(power);
+            methods(&pendulum("spring pendulum", [0.0, 1.0]), h, &mut see);
+            methods(&pendulum("spring pendulum at rest", [0.0; 2]), h, &mut see);
+            let problem = Problem {
+                name: "FPUT springs",
+                k,
+                system: Fput { k },
+                q: fput,
+                p: [1.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+            };
+            methods(&problem, h, &mut see);
+            let problem = Problem {
+                name: "hanging chain",
+                k,
+                system: HangingChain { k },
+                q: chain,
+                p: [0.0; 6],
+            };
+            methods(&problem, h, &mut see);
+        }
+    }
+}
+
+fn methods<S: Stiff<N> + 'static, const N: usize>(
+    problem: &Problem<S, N>,
+    h: f64,
+    see: &mut impl FnMut(Outcome),
+) {
+    macro_rules! run {
+        ($($method:ident)*) => { $(solvers($method, &$method::C, problem, h, see);)* };
+    }
+    run!(Midpoint Gauss2 Gauss3 Gauss4 Lobatto3 RadauRight2);
+}
+
+fn solvers<M: Method, S: Stiff<N> + 'static, const N: usize>(
+    method: M,
+    nodes: &[f64],
+    problem: &Problem<S, N>,
+    h: f64,
+    see: &mut impl FnMut(Outcome),
+) {
+    let in_full = in_full(method, problem, h);
+    macro_rules! run {
+        ($($derivatives:ident $sums:ident)*) => {
+            $({
+                let mut outcome = run::<M, S, Dense<$derivatives>, $sums, N>(method, nodes, problem, h);
+                let name = (stringify!($derivatives), stringify!($sums));
+                outcome.name =
+                    format!("{}, {}, {} {}, k = {:e}, h = {h:e}", problem.name, M::NAME, name.0, name.1, problem.k);
+                outcome.in_full = in_full;
+                see(outcome);
+            })*
+        };
+    }
+    run!(Differences Plain Differences Compensated Analytic Plain Analytic Compensated);
+}
+
+/// The most iterations of full Newton in doubles.
+fn in_full<M: Method, S: Stiff<N> + 'static, const N: usize>(
+    method: M,
+    problem: &Problem<S, N>,
+    h: f64,
+) -> Option<u32> {
+    let start = State::from_arrays(0.0, problem.q, problem.p);
+    let system = Watched::new(problem.system);
+    let integrator = Integrator::plain(method, system, start, h).ok()?;
+    let mut integrator = integrator.with_solver(FullNewton);
+    integrator.set_max_iterations(MOST_ITERATIONS);
+    for _ in 0..STEPS {
+        integrator.step().ok()?;
+    }
+    Some(integrator.statistics().most_iterations)
+}
+
+fn run<M: Method, S: Stiff<N> + 'static, L, R: Summation, const N: usize>(
+    method: M,
+    nodes: &[f64],
+    problem: &Problem<S, N>,
+    h: f64,
+) -> Outcome
+where
+    L: LinearSolver<SVector<f64, N>, Steps<S>>,
+{
+    let mut outcome = Outcome {
+        name: String::new(),
+        sweeps: Ok(0),
+        in_full: None,
+        error: Some(0.0),
+        grows: false,
+    };
+    if let Err(error) = follow::<M, S, L, R, N>(method, nodes, problem, h, &mut outcome) {
+        outcome.sweeps = Err(error);
+    }
+    outcome
+}
+
+/// Takes the steps; errors are those of the library.
+fn follow<M: Method, S: Stiff<N> + 'static, L, R: Summation, const N: usize>(
+    method: M,
+    nodes: &[f64],
+    problem: &Problem<S, N>,
+    h: f64,
+    outcome: &mut Outcome,
+) -> Result<(), Error>
+where
+    L: LinearSolver<SVector<f64, N>, Steps<S>>,
+{
+    let start = State::from_arrays(0.0, problem.q, problem.p);
+    let integrator: Integrator<M, _, _, R> =
+        Integrator::with_summation(method, Steps(problem.system), start, h)?;
+    let mut integrator = integrator.with_solver(Newton::<L>::new());
+    let wide = |values: [f64; N]| values.map(Wide::from_f64);
+    let start = State::from_arrays(0.0, wide(problem.q), wide(problem.p));
+    let mut watched = Watched::new(problem.system);
+    let (guess, notes) = (Rc::clone(&watched.guess), Rc::clone(&watched.notes));
+    watched.is_reference = true;
+    let mut reference = Integrator::plain(method, watched, start, h)?.with_solver(FullNewton);
+    reference.set_max_iterations(MOST_ITERATIONS);
+    let mut bound = vec![0.0; 2 * N];
+    for _ in 0..STEPS {
+        let state = integrator.step()?.clone();
+        outcome.sweeps = Ok(integrator.statistics().most_iterations);
+        outcome.grows |= state.q.iter().any(|q| q.abs() > GROWN);
+        let dense = integrator.dense()?;
+        let (begin, end) = dense.span();
+        let stage = |&node: &f64| {
+            let inside = dense.state((begin + node * (end - begin)).min(end))?;
+            Ok((node, inside.q.as_slice().to_vec()))
+        };
+        let stages = nodes.iter().map(stage).collect::<Result<_, Error>>()?;
+        guess.replace(stages);
+        let Ok(exact) = reference.step() else {
+            outcome.error = None;
+            return Ok(());
+        };
+        bound = notes.borrow().carry(&bound);
+        let components = state
+            .q
+            .iter()
+            .chain(&state.p)
+            .zip(exact.q.iter().chain(&exact.p));
+        for ((&found, &exact), bound) in components.zip(&bound) {
+            let error = (Wide::from_f64(found) - exact).magnitude();
+            outcome.error = outcome.error.map(|largest| largest.max(error / bound));
+        }
+    }
+    Ok(())
+}
