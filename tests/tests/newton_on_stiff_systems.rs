@@ -12,7 +12,7 @@ const EASY: u32 = 5;
 #[test]
 fn steps_are_as_right_as_rounding_lets_them_be() {
     let mut runs = 0;
-    grid(&[2, 5, 7, 10], &[-4, -2, 0], |outcome| {
+    grid(&[2, 7, 10], &[-3, 0], |outcome| {
         runs += 1;
         // Beyond its stability a method has several solutions, or an overflow.
         if outcome.grows {
@@ -28,5 +28,5 @@ fn steps_are_as_right_as_rounding_lets_them_be() {
             assert!(error < 4.0, "{outcome:?}");
         }
     });
-    assert_eq!(runs, 4 * 3 * 4 * 6 * 4);
+    assert_eq!(runs, 3 * 2 * 4 * 6 * 4);
 }
