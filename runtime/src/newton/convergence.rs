@@ -27,7 +27,7 @@ const FLOOR: f64 = 0.25;
 const MOST_MEASUREMENTS: u32 = 4;
 
 /// Sweeps that an attempt with the derivatives at one point may take where the derivatives at every stage can be had.
-pub(super) const MOST_SWEEPS: u32 = 20;
+pub(super) const MOST_SWEEPS: u32 = 16;
 
 /// Steps that are left to the derivatives at every stage after one that needed them.
 const STEPS_IN_FULL: u32 = 16;

@@ -48,7 +48,7 @@ use increments::ByIncrements;
 ///
 /// The factors are kept from step to step. They are computed anew if the step size changes, if nothing is [kept](Kept::stages) of the
 /// step before, after a step in which the change shrank by less than a factor of 32 a sweep, and at once if the contraction forecasts more
-/// than 20 sweeps. Derivatives at one point cannot do for all stages where a stiff direction turns within the step, as on a pendulum with a
+/// than 16 sweeps. Derivatives at one point cannot do for all stages where a stiff direction turns within the step, as on a pendulum with a
 /// spring of frequency ω if `h²ω` is above 1. If renewed ones still contract too slowly, the step starts again by full Newton, with the
 /// derivatives of every stage in every sweep ([`LinearSolver::correct`]), and so do the next 16 steps.
 ///
