@@ -202,6 +202,7 @@ fn text_is_for_people() {
           unique       the only one within 0.0018 of the printed unknowns
           next order   refuted
           wrong digits in 8 of 14 coefficients, marked below
+                       proved: no symmetric splitting of order 4 for separable H rounds to all printed digits
 
           kick[0]   0.0792036964311957056736295639756  (the print is off by 5.7e-18)
           kick[1]   0.353172906049774000000000000000
@@ -247,6 +248,8 @@ fn json_is_for_programs() {
           "uniqueness_radius": "0.031",
           "next_order_refuted": true,
           "wrong_digits": [],
+          "printed_digits": "all",
+          "could_be_wrong_instead": [],
           "digits": 30,
           "weights": [
             {
@@ -471,4 +474,114 @@ fn digits_that_are_not_those_of_a_method_are_told() {
         5 | weights = ["0.41449077", "0.41449077", "-0.65796209", "0.41449077", "0.41449077"]
           |           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
     "#]].assert_eq(&refused("weights", &weights, Some(1)));
+}
+
+/// All four are roundings of `kick = (1 − x, x)`, `drift = (1/(2x), 1 − 1/(2x))` with `x = 0.750251234`.
+const COARSE: &str = r#"[claim]
+class = "separable"
+order = 2
+
+[printed]
+kick = ["0.2497", "0.7503"]
+drift = ["0.666443422", "0.333556578"]
+"#;
+
+/// Predescu et al. 2012 and Omelyan, Mryglod & Folk 2003, 4MN5FV, as lattice codes have it: the two in the middle are
+/// what is left of 1 in doubles.
+const LATTICE: &str = r#"[claim]
+class = "separable"
+order = 4
+
+[printed]
+kick = ["0.08398315262876693", "0.6822365335719091", "-0.26621968620067603", "-0.26621968620067603", "0.6822365335719091", "0.08398315262876693"]
+drift = ["0.2539785108410595", "-0.03230286765269967", "0.55664871362328034", "-0.03230286765269967", "0.2539785108410595", "0"]
+"#;
+
+fn refined(name: &str, text: &str) -> Value {
+    let path = written(name, text);
+    let json = stdout(&["refine", &path, "--digits", "30", "--format", "json"]);
+    serde_json::from_str(&json).expect("JSON")
+}
+
+/// Which coefficients have wrong digits, and whether it is known that no method has all.
+fn wrong(found: &Value) -> (Vec<&str>, &str) {
+    let wrong = found["wrong_digits"].as_array().expect("a list").iter();
+    let names = wrong.map(|wrong| wrong["coefficient"].as_str().expect("a name"));
+    (
+        names.collect(),
+        found["printed_digits"].as_str().expect("a word"),
+    )
+}
+
+#[test]
+fn free_coefficients_move_within_their_last_place() {
+    let found = refined("coarse", COARSE);
+    assert_eq!(wrong(&found), (vec![], "all"));
+    // Each coefficient rounds to its print.
+    for (key, places) in [("kick", 4), ("drift", 9)] {
+        for entry in found[key].as_array().expect("a list") {
+            let value = |key: &str| -> f64 {
+                let text = entry[key].as_str().expect("a text");
+                text.parse().expect(text)
+            };
+            let distance = (value("decimal") - value("printed")).abs();
+            assert!(distance <= 0.5 * 10f64.powi(-places) + 1e-16, "{entry}");
+        }
+    }
+    // A unit more in the last place of one drift: 1/(2x) and 1 − 1/(2x) cannot round to both.
+    let twin = COARSE.replace("0.333556578", "0.333556580");
+    let found = refined("coarse-twin", &twin);
+    let (names, digits) = wrong(&found);
+    assert_eq!((names.len(), digits), (1, "excluded"), "{found}");
+    assert!(names[0].starts_with("drift"), "{names:?}");
+}
+
+#[test]
+fn digits_of_lattice_codes_are_not_blamed() {
+    let found = refined("lattice", LATTICE);
+    assert_eq!(wrong(&found), (vec!["drift[2]"], "excluded"));
+    assert_eq!(found["could_be_wrong_instead"][0], "kick[0]");
+    // The four that were published, with the middle ones to fewer places.
+    let published = LATTICE
+        .replace("-0.26621968620067603", "-0.266219686200676")
+        .replace("0.55664871362328034", "0.556648713623280");
+    assert_eq!(
+        wrong(&refined("lattice-published", &published)),
+        (vec![], "all")
+    );
+}
+
+#[test]
+fn a_wrong_digit_is_found_among_right_ones() {
+    // The method has a free coefficient with four places, so that a proof for all that round to them would take smaller
+    // boxes.
+    let path = path("mclachlan-1995-ss9");
+    let text = std::fs::read_to_string(&path).expect("a file");
+    assert_eq!(wrong(&refined("ss9", &text)), (vec![], "all"));
+    let file = parsed(&text);
+    let drift = file["printed"]["drift"][1].as_str().expect("a decimal");
+    let changed = format!("{}7{}", &drift[..14], &drift[15..]);
+    assert_ne!(drift, changed);
+    let found = refined("ss9-wrong", &text.replace(drift, &changed));
+    assert_eq!(
+        wrong(&found),
+        (vec!["drift[1]", "drift[7]"], "not found"),
+        "{found}"
+    );
+}
+
+/// What is left of 1 beside a fraction is exactly that.
+#[test]
+fn fractions_are_exact() {
+    let fraction = "[claim]\nclass = \"separable\"\norder = 4\n\n[printed]\nkick = [\"0\", \"7/10\", \"-1/5\", \"-1/5\", \"7/10\"]\ndrift = [\"0.17803803316981432\", \"-0.071071040644672856\", \"0.78606601494971706\", \"-0.071071040644672856\", \"0.17803803316981432\"]\n";
+    let found = refined("fraction", fraction);
+    assert_eq!(wrong(&found), (vec![], "all"));
+    assert_eq!(found["kick"][1]["exact"], "7/10");
+    let decimals = fraction.replace("7/10", "0.7").replace("-1/5", "-0.2");
+    let found = refined("decimals", &decimals);
+    assert_eq!(wrong(&found), (vec![], "all"));
+    // A fraction that is not the exact number, however near: there is one free kick, and it is −1/5.
+    let near = fraction.replace("7/10", "700000000000001/1000000000000000");
+    let found = refined("near-fraction", &near);
+    assert!(!wrong(&found).0.is_empty(), "{found}");
 }

@@ -4,12 +4,12 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::Zero;
 
 use super::CertifyError;
 use super::conditions::Claim;
-use super::linear::magnitude;
-use super::printed::MAX_DIGITS;
+use super::digits::{Digits, Distance, distances};
+use super::printed::{MAX_DIGITS, Printed};
 use super::proof::{LOST_BITS, Proof};
 use super::structure::{Coefficient, Structure, Target};
 use crate::arithmetic::interval::Interval;
@@ -35,6 +35,10 @@ pub(super) struct Facts {
     pub distance: BigRational,
     /// The binary places with which digits are compared.
     pub digit_bits: u32,
+    /// Whether an exact method has all printed digits.
+    pub digits: Digits,
+    /// Other printed numbers that could be the wrong one.
+    pub suspects: Vec<Coefficient>,
     pub uniqueness: Option<Uniqueness>,
     pub solution: Solution,
 }
@@ -65,7 +69,8 @@ pub struct Fixed {
     pub coefficient: Coefficient,
     /// The exact value.
     pub value: BigRational,
-    /// Whether the value is that of the printed text, and not a simpler fraction which the text rounds.
+    /// Whether the value is that of the printed text, and not another number which the text rounds: a simple fraction, or
+    /// one with which the other coefficients round to their prints.
     pub as_printed: bool,
 }
 
@@ -82,6 +87,8 @@ pub(super) enum Solution {
 #[derive(Debug)]
 pub(super) struct Enclosed {
     proof: Proof,
+    /// The unknowns that are rational: those that are fixed, and those that they determine linearly.
+    known: Vec<Option<BigRational>>,
     levels: Mutex<Vec<Level>>,
 }
 
@@ -101,6 +108,7 @@ impl Enclosed {
             solution: Arc::new(solution),
         };
         Enclosed {
+            known: proof.square.linear_values(),
             proof,
             levels: Mutex::new(vec![first]),
         }
@@ -145,13 +153,31 @@ impl Solution {
                 let free = enclosed.free(bits);
                 let places = free.first().map_or(bits, Interval::bits);
                 let all = enclosed.proof.square.arguments(&free, places);
-                all.iter().map(|x| x.with_bits(bits)).collect()
+                let known = enclosed.known.iter().zip(&all);
+                known
+                    .map(|(known, enclosure)| match known {
+                        Some(value) => Interval::enclosing(value, bits),
+                        None => enclosure.with_bits(bits),
+                    })
+                    .collect()
             }
         }
     }
 }
 
 impl Target {
+    /// The exact value, if that of each of its unknowns is known.
+    pub(super) fn rational(&self, solution: &Solution) -> Option<BigRational> {
+        let known = |index: usize| match solution {
+            Solution::Exact(values) => values.get(index).cloned(),
+            Solution::Enclosed(enclosed) => enclosed.known.get(index).cloned()?,
+        };
+        let mut terms = self.terms.iter();
+        terms.try_fold(BigRational::zero(), |sum, (index, factor)| {
+            Some(sum + known(*index)? * factor)
+        })
+    }
+
     pub(super) fn enclosed(&self, unknowns: &[Interval], bits: u32) -> Interval {
         let zero = Interval::enclosing(&BigRational::zero(), bits);
         self.terms.iter().fold(zero, |sum, (index, factor)| {
@@ -205,17 +231,38 @@ impl Certificate {
         Decimal::round(&self.0.distance, 2).to_string()
     }
 
-    /// The coefficients that are more than a unit of their last printed place away from the print, with upper
-    /// bounds on how far.
+    /// The coefficients that do not round to their print, proved to be more than half a unit of its last place away from
+    /// it, with upper bounds on how far. What is printed as a fraction or an integer is exact.
     pub fn wrong_digits(&self) -> Vec<(Coefficient, BigRational)> {
         let distances = distances(&self.0.targets, &self.0.solution, self.0.digit_bits);
         let pairs = self.0.targets.iter().zip(distances);
         let mut wrong: Vec<(Coefficient, BigRational)> = pairs
-            .filter(|(target, distance)| *distance > target.unit)
-            .map(|(target, distance)| (target.name, distance))
+            .filter(|(target, distance)| distance.at_least > target.half)
+            .map(|(target, distance)| (target.name, distance.at_most))
             .collect();
         wrong.sort_unstable();
         wrong
+    }
+
+    /// Whether every coefficient is as near to its print as its own last place or a tolerance allows.
+    pub(super) fn is_near(&self, tolerance: &BigRational) -> bool {
+        let distances = distances(&self.0.targets, &self.0.solution, self.0.digit_bits);
+        let mut pairs = self.0.targets.iter().zip(distances);
+        pairs.all(|(target, distance)| {
+            let allowed = &target.half;
+            distance.at_most <= *tolerance || distance.at_most <= *allowed
+        })
+    }
+
+    /// Whether an exact method has all printed digits: this one, none, or none that was found.
+    pub fn digits(&self) -> Digits {
+        self.0.digits
+    }
+
+    /// The printed numbers that could be the wrong one instead of that in [`Certificate::wrong_digits`]: some exact method
+    /// has all other digits.
+    pub fn suspects(&self) -> &[Coefficient] {
+        &self.0.suspects
     }
 
     /// How far around the printed values of the free unknowns the solution is the only one, with the others
@@ -246,20 +293,10 @@ impl Certificate {
         self.0.targets.iter().find(|t| t.name == coefficient)
     }
 
-    /// The value of a coefficient, if it is known to be a rational number: one that is fixed, or any of a
-    /// method all of whose coefficients are.
+    /// The value of a coefficient, if it is known to be a rational number: one that is fixed, what is left of 1 beside
+    /// fixed ones, or any of a method all of whose coefficients are.
     pub fn rational(&self, coefficient: Coefficient) -> Option<BigRational> {
-        let target = self.target(coefficient)?;
-        let known = |index: usize| match &self.0.solution {
-            Solution::Exact(values) => values.get(index).cloned(),
-            Solution::Enclosed(enclosed) => enclosed.proof.square.fixed.get(index).cloned()?,
-        };
-        target
-            .terms
-            .iter()
-            .try_fold(BigRational::zero(), |sum, (index, factor)| {
-                Some(sum + known(*index)? * factor)
-            })
+        self.target(coefficient)?.rational(&self.0.solution)
     }
 
     /// Whether two coefficients are equal by symmetry or structure.
@@ -280,6 +317,12 @@ impl Certificate {
         let fine = bits.saturating_add(8);
         let unknowns = self.0.solution.unknowns(fine);
         Some(target.enclosed(&unknowns, fine).with_bits(bits))
+    }
+
+    /// A coefficient with as many digits as its print has; `None` if there is none of that name.
+    pub fn as_printed(&self, coefficient: Coefficient, printed: &Printed) -> Option<Decimal> {
+        self.decimal(coefficient, printed.significant_digits())
+            .ok()?
     }
 
     /// A coefficient, correctly rounded to some significant digits; `None` if there is none of that name.
@@ -320,29 +363,9 @@ impl Certificate {
     }
 }
 
-/// Upper bounds on the distances of the targets from what is printed.
-fn distances(targets: &[Target], solution: &Solution, bits: u32) -> Vec<BigRational> {
-    if let Solution::Exact(values) = solution {
-        let distance = |target: &Target| {
-            let terms = target.terms.iter();
-            let value: BigRational = terms.map(|(index, factor)| &values[*index] * factor).sum();
-            (value - &target.printed).abs()
-        };
-        return targets.iter().map(distance).collect();
-    }
-    let unknowns = solution.unknowns(bits);
-    let distance = |target: &Target| {
-        let printed = Interval::enclosing(&target.printed, bits);
-        let difference = target.enclosed(&unknowns, bits).subtract(&printed);
-        BigRational::new(magnitude(&difference), BigInt::one() << bits)
-    };
-    targets.iter().map(distance).collect()
-}
-
 /// An upper bound on the distance of any target from what is printed.
 pub(super) fn distance(targets: &[Target], solution: &Solution, bits: u32) -> BigRational {
-    let zero = BigRational::zero();
-    distances(targets, solution, bits)
-        .into_iter()
-        .fold(zero, BigRational::max)
+    let distances = distances(targets, solution, bits).into_iter();
+    let bounds = distances.map(|Distance { at_most, .. }| at_most);
+    bounds.fold(BigRational::zero(), BigRational::max)
 }

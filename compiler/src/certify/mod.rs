@@ -34,14 +34,17 @@
 
 mod certificate;
 mod conditions;
+mod digits;
 mod error;
 mod linear;
+mod minimax;
 mod newton;
 mod nystrom;
 mod printed;
 mod proof;
 mod search;
 mod selection;
+mod settle;
 mod splitting;
 mod structure;
 mod system;
@@ -49,6 +52,7 @@ mod words;
 
 pub use certificate::{Certificate, Fixed};
 pub use conditions::{Claim, Condition, Conditions, MAX_ORDER, MAX_PERTURBED_ORDER};
+pub use digits::Digits;
 pub use error::CertifyError;
 pub use printed::{MAX_DIGITS, Printed};
 pub use search::{certify, certify_composition};

@@ -37,6 +37,18 @@ impl Square {
         self.fixed.iter().map(value).collect()
     }
 
+    /// The arguments that are rational numbers: those that are fixed, and those that a linear condition determines when all
+    /// others in it are.
+    pub fn linear_values(&self) -> Vec<Option<BigRational>> {
+        let mut known = self.fixed.clone();
+        let sums = self.system.linear_conditions();
+        // Each pass that finds one may make another one findable.
+        while let Some((argument, value)) = sums.iter().find_map(|sum| sum.missing(&known)) {
+            known[argument] = Some(value);
+        }
+        known
+    }
+
     /// Enclosures of the residuals for free arguments in a box.
     pub fn residuals(&self, free: &[Interval], bits: u32) -> Vec<Interval> {
         self.system.residuals(&self.arguments(free, bits))

@@ -19,7 +19,7 @@ const EXACT_DIGITS: u64 = 6;
 pub struct Printed {
     text: String,
     value: BigRational,
-    /// The decimal places; `None` for a fraction, which is exact.
+    /// The decimal places; `None` for a fraction or an integer, which is exact.
     places: Option<u32>,
 }
 
@@ -47,8 +47,10 @@ impl Printed {
         }
         let (value, places) = match text.split_once('/') {
             None => {
-                let (value, places) = decimal(text.trim()).ok_or_else(wrong)?;
-                (value, Some(places))
+                let text = text.trim();
+                let (value, places) = decimal(text).ok_or_else(wrong)?;
+                let integer = !text.contains(['.', 'e', 'E']);
+                (value, (!integer).then_some(places))
             }
             Some((above, below)) => {
                 let (above, _) = decimal(above.trim()).ok_or_else(wrong)?;
@@ -71,7 +73,7 @@ impl Printed {
         Printed {
             text: "0".to_owned(),
             value: BigRational::zero(),
-            places: Some(0),
+            places: None,
         }
     }
 
@@ -85,9 +87,32 @@ impl Printed {
         &self.value
     }
 
-    /// The number of decimal places; `None` for a fraction.
+    /// The number of decimal places; `None` for a fraction or an integer, which is exact.
     pub fn places(&self) -> Option<u32> {
         self.places
+    }
+
+    /// Half a unit of the last decimal place: how far a number may be from the print that rounds it. Zero for a fraction
+    /// or an integer, and for a printed zero, which means that the step is left out.
+    pub fn half_unit(&self) -> BigRational {
+        match self.places {
+            Some(places) if !self.value.is_zero() => {
+                BigRational::new(BigInt::one(), power_of_ten(places) * 2u32)
+            }
+            _ => BigRational::zero(),
+        }
+    }
+
+    /// The digits from the first one that is not zero to the last place; some of an exact fraction.
+    pub fn significant_digits(&self) -> usize {
+        const OF_FRACTIONS: usize = 20;
+        let digits = self.places.map(|places| {
+            let scaled = &self.value * BigRational::from_integer(power_of_ten(places));
+            decimal_length(&scaled.to_integer())
+        });
+        digits.map_or(OF_FRACTIONS, |digits| {
+            usize::try_from(digits).unwrap_or(1).max(1)
+        })
     }
 
     /// The exact number that the digits seem to stand for, if it is a simple one: the value of a fraction, of
@@ -174,7 +199,8 @@ mod tests {
             ("0.5", ratio(1, 2), Some(1)),
             ("-1.250", ratio(-5, 4), Some(3)),
             (".25", ratio(1, 4), Some(2)),
-            ("3", ratio(3, 1), Some(0)),
+            ("3", ratio(3, 1), None),
+            ("3.", ratio(3, 1), Some(0)),
             ("12.5e-3", ratio(1, 80), Some(4)),
             ("2e2", ratio(200, 1), Some(0)),
             ("-2.0 / 3.0", ratio(-2, 3), None),

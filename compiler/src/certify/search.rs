@@ -5,11 +5,13 @@ use num_traits::{Signed, Zero};
 
 use super::certificate::{Certificate, Enclosed, Facts, Fixed, Solution, Uniqueness, distance};
 use super::conditions::{Claim, Conditions};
+use super::digits::{Digits, distances};
 use super::error::CertifyError;
 use super::newton::Square;
 use super::printed::Printed;
 use super::proof::Proof;
 use super::selection::free_unknowns;
+use super::settle::{Settled, settle};
 use super::splitting::{Splitting, check, tolerance, wrong_sum};
 use super::structure::{Coefficient, Reading, Target, composition_readings, readings};
 use super::system::{Kind, Step, System};
@@ -89,6 +91,11 @@ fn check_sum(
     tolerance: &BigRational,
     found: &Result<Certificate, CertifyError>,
 ) -> Result<(), CertifyError> {
+    // Coarse digits that are all right need not sum to 1.
+    let right = |certificate: &Certificate| certificate.digits() == Digits::All;
+    if found.as_ref().is_ok_and(right) {
+        return Ok(());
+    }
     let Some(sum) = wrong_sum(list, tolerance) else {
         return Ok(());
     };
@@ -117,9 +124,15 @@ fn first_certified(
     bits: u32,
 ) -> Result<Certificate, CertifyError> {
     let mut worst: Option<CertifyError> = None;
+    // The first one that is near, unless another one has all printed digits.
+    let mut near: Option<Certificate> = None;
     for reading in readings {
         let error = match certified(reading, claim, bits) {
-            Ok(certificate) if certificate.distance() <= tolerance => return Ok(certificate),
+            Ok(certificate) if certificate.digits() == Digits::All => return Ok(certificate),
+            Ok(certificate) if certificate.is_near(tolerance) => {
+                near.get_or_insert(certificate);
+                continue;
+            }
             Ok(certificate) => CertifyError::DifferentSolution {
                 allowed: Decimal::round(tolerance, 2).to_string(),
                 certificate: Box::new(certificate),
@@ -130,7 +143,10 @@ fn first_certified(
             worst = Some(error);
         }
     }
-    Err(worst.unwrap_or(CertifyError::NotAComposition))
+    match near {
+        Some(certificate) => Ok(certificate),
+        None => Err(worst.unwrap_or(CertifyError::NotAComposition)),
+    }
 }
 
 /// A solution tells more than none, the nearer the more; then that one was looked for; then how many
@@ -182,7 +198,7 @@ fn certified(
         conditions,
     };
     let counts = (system.conditions.conditions().len(), reading.unknowns.len());
-    let certificate = |fixed, uniqueness, solution| {
+    let certificate = |fixed, uniqueness, solution, digits, suspects| {
         let sharp = sharp(reading, claim, &solution);
         Certificate::new(Facts {
             claim: claim.clone(),
@@ -194,6 +210,8 @@ fn certified(
             sharp,
             distance: distance(&reading.targets, &solution, digit_bits),
             digit_bits,
+            digits,
+            suspects,
             uniqueness,
             solution,
         })
@@ -205,7 +223,14 @@ fn certified(
         .map(|x| x.simple.clone().unwrap_or(x.start.clone()));
     for values in [printed.clone(), simple.collect()] {
         if short(&values) && system.holds_exactly(&values) {
-            return Ok(certificate(Vec::new(), None, Solution::Exact(values)));
+            let solution = Solution::Exact(values);
+            return Ok(certificate(
+                Vec::new(),
+                None,
+                solution,
+                Digits::All,
+                Vec::new(),
+            ));
         }
     }
     if counts.0 > counts.1 {
@@ -237,38 +262,78 @@ fn certified(
         conditions: counts.0,
         rank,
     })?;
-    let mut fixed = Vec::new();
-    let mut values = Vec::new();
-    for (index, unknown) in reading.unknowns.iter().enumerate() {
-        if free.contains(&index) {
-            values.push(None);
-            continue;
-        }
-        let value = unknown.simple.clone().unwrap_or(unknown.start.clone());
-        fixed.push(Fixed {
-            coefficient: unknown.name,
-            as_printed: value == unknown.start,
-            value: value.clone(),
-        });
-        values.push(Some(value));
-    }
-    let start: Vec<BigRational> = free.iter().map(|&index| printed[index].clone()).collect();
+    let values = reading.unknowns.iter().enumerate().map(|(index, unknown)| {
+        let value = || unknown.simple.clone().unwrap_or(unknown.start.clone());
+        (!free.contains(&index)).then(value)
+    });
     let square = Square {
+        fixed: values.collect(),
         system,
-        fixed: values,
         free,
     };
-    let Some(center) = square.solve(&start, PROOF_BITS) else {
-        return Err(not_found(&square.system));
+    let solved = |square: Square| {
+        let unknowns = square.free.iter().map(|&index| printed[index].clone());
+        let start: Vec<BigRational> = unknowns.collect();
+        let center = square.solve(&start, PROOF_BITS)?;
+        let fixed = fixed(reading, &square);
+        let proof = Proof::new(square, center, PROOF_BITS)?;
+        let uniqueness = Some(Uniqueness::around(start, proof.clone()));
+        let solution = match recognised(&proof) {
+            Some(values) => Solution::Exact(values),
+            None => Solution::Enclosed(Box::new(Enclosed::new(proof))),
+        };
+        Some((fixed, uniqueness, solution))
     };
-    let system = square.system.clone();
-    let proof = Proof::new(square, center, PROOF_BITS).ok_or_else(|| not_found(&system))?;
-    let uniqueness = Some(Uniqueness::around(start, proof.clone()));
-    if let Some(values) = recognised(&proof) {
-        return Ok(certificate(fixed, uniqueness, Solution::Exact(values)));
+    let first = solved(square.clone()).ok_or_else(|| not_found(&square.system))?;
+    let right = |solution: &Solution| {
+        let distances = distances(&reading.targets, solution, digit_bits).into_iter();
+        let mut pairs = reading.targets.iter().zip(distances);
+        pairs.all(|(target, distance)| distance.at_least <= target.half)
+    };
+    let with = |(fixed, uniqueness, solution), digits, suspects| {
+        Ok(certificate(fixed, uniqueness, solution, digits, suspects))
+    };
+    if right(&first.2) {
+        return with(first, Digits::All, Vec::new());
     }
-    let solution = Solution::Enclosed(Box::new(Enclosed::new(proof)));
-    Ok(certificate(fixed, uniqueness, solution))
+    let again = |values: Vec<Option<BigRational>>| {
+        let mut moved = square.clone();
+        moved.fixed = values;
+        solved(moved)
+    };
+    match settle(&square, reading, digit_bits, PROOF_BITS) {
+        Settled::All(values) => match again(values) {
+            Some(moved) if right(&moved.2) => with(moved, Digits::All, Vec::new()),
+            _ => with(first, Digits::NotFound, Vec::new()),
+        },
+        Settled::Wrong { excluded, suspects } => {
+            let mut names = suspects.iter().map(|suspect| suspect.coefficient);
+            names.next();
+            let names: Vec<Coefficient> = names.collect();
+            let best = suspects.into_iter().next();
+            let digits = match excluded {
+                true => Digits::Excluded,
+                false => Digits::NotFound,
+            };
+            let found = best.and_then(|suspect| again(suspect.fixed));
+            with(found.unwrap_or(first), digits, names)
+        }
+    }
+}
+
+/// The unknowns that are fixed, with their values.
+fn fixed(reading: &Reading, square: &Square) -> Vec<Fixed> {
+    let pairs = reading.unknowns.iter().zip(&square.fixed);
+    pairs
+        .filter_map(|(unknown, value)| {
+            let value = value.clone()?;
+            Some(Fixed {
+                coefficient: unknown.name,
+                as_printed: value == unknown.start,
+                value,
+            })
+        })
+        .collect()
 }
 
 /// Whether exact arithmetic with some numbers is cheap.

@@ -11,8 +11,8 @@ const RANK_THRESHOLD: f64 = 1e-12;
 /// The unknowns to solve for, as many as there are conditions.
 ///
 /// The derivatives of the conditions at the printed point are eliminated with full pivoting. Columns whose
-/// digits look exact come after all others, so that `0.28` and `6/11` stay what they are where that leaves
-/// enough unknowns. Only what is proved later depends on floating-point numbers here, not whether it is true.
+/// digits look exact come after all others, and those that are printed exactly come last, so that `0.28` and `6/11` stay
+/// what they are where that leaves enough unknowns. Only what is proved later depends on floating-point numbers here, not whether it is true.
 ///
 /// # Errors
 /// The numerical rank, if it is smaller than the number of conditions.
@@ -25,14 +25,17 @@ pub fn free_unknowns(system: &System, reading: &Reading) -> Result<Vec<usize>, u
         .iter()
         .map(|row| normalised(row))
         .collect();
-    let exact = |column: usize| reading.unknowns[column].simple.is_some();
+    let class_of = |column: usize| {
+        let unknown = &reading.unknowns[column];
+        u8::from(unknown.simple.is_some()) + u8::from(unknown.exact)
+    };
     let mut free = Vec::new();
     let mut done = 0;
-    for class in [false, true] {
+    for class in 0..=2 {
         while done < rows.len() {
             let columns = all
                 .iter()
-                .filter(|&&c| exact(c) == class && !free.contains(&c));
+                .filter(|&&c| class_of(c) == class && !free.contains(&c));
             let candidates = columns.flat_map(|&c| (done..rows.len()).map(move |r| (r, c)));
             // The first of the largest, so that the choice does not depend on anything else.
             let best = candidates.fold(None, |best: Option<(usize, usize)>, (r, c)| match best {

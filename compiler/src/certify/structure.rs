@@ -2,11 +2,10 @@
 
 use std::fmt;
 
-use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::printed::{Printed, power_of_ten};
+use super::printed::Printed;
 use super::splitting::Splitting;
 use super::system::{Kind, Step};
 use super::words::{DRIFT, KICK};
@@ -84,6 +83,8 @@ pub struct Unknown {
     pub start: BigRational,
     /// The exact value that the digits seem to stand for.
     pub simple: Option<BigRational>,
+    /// Whether the print is a fraction or an integer.
+    pub exact: bool,
 }
 
 /// A printed coefficient as a combination of unknowns.
@@ -91,8 +92,8 @@ pub struct Unknown {
 pub struct Target {
     pub name: Coefficient,
     pub printed: BigRational,
-    /// A unit of the last printed place; zero for a fraction.
-    pub unit: BigRational,
+    /// Half a unit of the last printed place; zero for what is printed exactly.
+    pub half: BigRational,
     pub terms: Vec<(usize, BigRational)>,
 }
 
@@ -119,11 +120,10 @@ impl Factor<'_> {
     }
 
     fn target(&self, terms: Vec<(usize, BigRational)>) -> Target {
-        let unit = |places| BigRational::new(BigInt::one(), power_of_ten(places));
         Target {
             name: self.name,
             printed: self.value().clone(),
-            unit: self.printed.places().map_or_else(BigRational::zero, unit),
+            half: self.printed.half_unit(),
             terms,
         }
     }
@@ -224,6 +224,7 @@ fn read(factors: &[Factor<'_>], structure: Structure, equal: bool) -> Reading {
                 name: factor.name,
                 start: factor.value().clone(),
                 simple: factor.printed.simple(),
+                exact: factor.printed.places().is_none(),
             };
             unknowns.push((factor.kind, unknown));
             unknowns.len() - 1

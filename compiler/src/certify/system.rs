@@ -11,12 +11,15 @@
 //! possibly empty, as there are steps. Prefixes of `w` in the product of the first `i` steps, and suffixes in
 //! that of the others, are found step by step; both together give the derivative by the argument of each step.
 
+use std::collections::BTreeMap;
+
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use super::conditions::{Condition, Conditions};
 use crate::arithmetic::interval::Interval;
+use crate::arithmetic::rational::ratio;
 
 /// One factor of the product.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,6 +44,34 @@ pub enum Kind {
 pub struct System {
     pub steps: Vec<Step>,
     pub conditions: Conditions,
+}
+
+/// A linear condition, `Σ_j m_j x_j = w`: the kicks, the drifts or the weights sum to 1.
+#[derive(Debug, Clone)]
+pub struct Sum {
+    /// Arguments with how often they occur.
+    terms: BTreeMap<usize, i64>,
+    wanted: BigRational,
+}
+
+impl Sum {
+    /// The argument that is determined by the others, if all of these are known.
+    pub fn missing(&self, known: &[Option<BigRational>]) -> Option<(usize, BigRational)> {
+        let mut unknown = self
+            .terms
+            .iter()
+            .filter(|(index, _)| known[**index].is_none());
+        let (argument, count) = unknown.next()?;
+        if unknown.next().is_some() {
+            return None;
+        }
+        let others = self.terms.iter().filter_map(|(index, count)| {
+            let value = known[*index].as_ref()?;
+            Some(value * ratio(*count, 1))
+        });
+        let rest = others.fold(self.wanted.clone(), |rest, value| rest - value);
+        Some((*argument, rest / ratio(*count, 1)))
+    }
 }
 
 /// `x^n/m!` for an argument `x`: the coefficients of blocks.
@@ -82,6 +113,31 @@ impl System {
             Kind::Letter(own) => block.iter().all(|&l| l == own).then_some(block.len()),
             Kind::Base => Some(self.conditions.alphabet().degree(block)),
         }
+    }
+
+    /// The conditions of degree 1 that are about one letter.
+    pub fn linear_conditions(&self) -> Vec<Sum> {
+        let conditions = self.conditions.conditions().iter();
+        let linear = conditions.filter_map(|condition| match &*condition.terms {
+            [(word, factor)] if condition.degree == 1 && factor.is_one() => {
+                Some((&self.conditions.words()[*word], &condition.wanted))
+            }
+            _ => None,
+        });
+        linear
+            .map(|(word, wanted)| {
+                let mut terms = BTreeMap::new();
+                for step in &self.steps {
+                    if self.block(*step, word) == Some(1) {
+                        *terms.entry(step.argument).or_insert(0) += 1;
+                    }
+                }
+                Sum {
+                    terms,
+                    wanted: wanted.clone(),
+                }
+            })
+            .collect()
     }
 
     fn longest(&self) -> usize {

@@ -98,7 +98,8 @@ impl Refinement {
     /// ```text
     /// {"name", "source", "claim": string, "evidence": "certified", "distance": D, "structure", "conditions", "unknowns",
     ///  "fixed": [{"coefficient", "value", "as_printed": bool}], "exact": bool, "uniqueness_radius": D or null,
-    ///  "next_order_refuted": bool or null, "wrong_digits": [{"coefficient", "distance": D}], "digits",
+    ///  "next_order_refuted": bool or null, "wrong_digits": [{"coefficient", "distance": D}],
+    ///  "printed_digits": "all", "excluded" or "not found", "could_be_wrong_instead": [coefficient], "digits",
     ///  "kick": [C], "drift": [C]} or {…, "weights": [C]}
     ///
     /// C = {"printed": string, "exact": string or null, "decimal": string}, D = "1.9e-15"

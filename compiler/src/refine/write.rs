@@ -1,12 +1,14 @@
 //! What is known of a refined method, as text and as data.
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
+use num_traits::Signed;
 use serde::Serialize;
 
 use super::Refinement;
 use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::Decimal;
-use crate::certify::{CertifyError, Coefficient};
+use crate::certify::{CertifyError, Coefficient, Digits};
 use crate::error::{Error, ErrorKind};
 
 /// Exact values with more characters than this are not shown beside decimals.
@@ -28,6 +30,8 @@ pub(super) struct Report {
     uniqueness_radius: Option<String>,
     next_order_refuted: Option<bool>,
     wrong_digits: Vec<WrongDigits>,
+    printed_digits: &'static str,
+    could_be_wrong_instead: Vec<String>,
     digits: usize,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     kick: Vec<Entry>,
@@ -115,6 +119,15 @@ pub(super) fn report(refinement: &Refinement, digits: usize) -> Result<Report, E
         uniqueness_radius: certificate.uniqueness_radius().map(at_least),
         next_order_refuted: certificate.sharp(),
         wrong_digits: wrong.collect(),
+        printed_digits: match certificate.digits() {
+            Digits::All => "all",
+            Digits::Excluded => "excluded",
+            Digits::NotFound => "not found",
+        },
+        could_be_wrong_instead: {
+            let suspects = certificate.suspects().iter();
+            suspects.map(Coefficient::to_string).collect()
+        },
         digits,
         kick: Vec::new(),
         drift: Vec::new(),
@@ -193,6 +206,22 @@ pub(super) fn text(refinement: &Refinement, digits: usize) -> Result<String, Err
         count => format!("in {count} of {all} coefficients, marked below"),
     };
     line("wrong digits", &wrong);
+    let method = format!("{} of {}", report.structure, report.claim);
+    match refinement.certificate.digits() {
+        Digits::All => {}
+        Digits::Excluded => line(
+            "",
+            &format!("proved: no {method} rounds to all printed digits"),
+        ),
+        Digits::NotFound => line(
+            "",
+            &format!("no {method} was found that rounds to all printed digits; that is not proved"),
+        ),
+    }
+    if !report.could_be_wrong_instead.is_empty() {
+        let others = report.could_be_wrong_instead.join(" or ");
+        line("", &format!("the wrong number could be {others} instead"));
+    }
     for list in [&report.kick, &report.drift, &report.weights] {
         let width = list.iter().map(|entry| entry.name.to_string().len());
         let width = width.max().unwrap_or(0);
@@ -235,8 +264,54 @@ fn fixed(refinement: &Refinement, report: &Report) -> Vec<String> {
             Some((_, printed)) if fixed.as_printed => {
                 format!("{} = {}", fixed.coefficient, printed.text())
             }
+            Some((_, printed))
+                if printed
+                    .simple()
+                    .is_none_or(|x| x.to_string() != fixed.value) =>
+            {
+                format!(
+                    "{} = {}, within its last place",
+                    fixed.coefficient,
+                    moved(fixed)
+                )
+            }
             _ => format!("{} = {}", fixed.coefficient, fixed.value),
         }
     };
     report.fixed.iter().map(words).collect()
+}
+
+/// The value of a coefficient that was moved, which is a decimal.
+fn moved(fixed: &FixedEntry) -> String {
+    let value = fixed.value.parse::<BigRational>();
+    let decimal = value.map(|value| terminating(&value));
+    decimal
+        .ok()
+        .flatten()
+        .unwrap_or_else(|| fixed.value.clone())
+}
+
+/// A number as a decimal with all its places; `None` if there is no end.
+fn terminating(value: &BigRational) -> Option<String> {
+    // A denominator below 2ⁿ has at most n factors 2 or 5.
+    let places = u32::try_from(value.denom().bits()).ok()?;
+    let scale = BigInt::from(10).pow(places);
+    let digits = value * BigRational::from_integer(scale);
+    if !digits.is_integer() {
+        return None;
+    }
+    let text = format!(
+        "{:0>width$}",
+        digits.numer().abs(),
+        width = places as usize + 1
+    );
+    let (whole, fraction) = text.split_at(text.len() - places as usize);
+    let sign = if value.is_negative() { "-" } else { "" };
+    let decimal = format!("{sign}{whole}.{fraction}");
+    Some(
+        decimal
+            .trim_end_matches('0')
+            .trim_end_matches('.')
+            .to_owned(),
+    )
 }

@@ -96,7 +96,7 @@ fn residuals(certificate: &Certificate, claim: &Claim, bits: u32) -> Vec<Interva
         targets.push(Target {
             name,
             printed: BigRational::zero(),
-            unit: BigRational::zero(),
+            half: BigRational::zero(),
             terms: vec![(targets.len(), ratio(1, 1))],
         });
     }

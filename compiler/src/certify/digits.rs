@@ -1,0 +1,61 @@
+//! Printed digits held against those of an exact method.
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::certificate::Solution;
+use super::linear::magnitude;
+use super::structure::Target;
+use crate::arithmetic::interval::Interval;
+
+/// Whether an exact method of the claimed order, with the structure that was read, has all printed digits: each of its
+/// coefficients rounds to its print, and is equal to what is printed as a fraction or an integer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Digits {
+    /// The method of the certificate has all of them.
+    All,
+    /// It is proved that no method has.
+    Excluded,
+    /// None was found that has. Whether there is one is not decided.
+    NotFound,
+}
+
+/// Bounds on the distance of a coefficient from its print.
+#[derive(Debug, Clone)]
+pub(super) struct Distance {
+    pub at_least: BigRational,
+    pub at_most: BigRational,
+}
+
+/// The distances of some targets from what is printed.
+pub(super) fn distances(targets: &[Target], solution: &Solution, bits: u32) -> Vec<Distance> {
+    let mut enclosed: Option<Vec<Interval>> = None;
+    let distance = |target: &Target| {
+        if let Some(value) = target.rational(solution) {
+            let exact = (value - &target.printed).abs();
+            return Distance {
+                at_least: exact.clone(),
+                at_most: exact,
+            };
+        }
+        let unknowns = enclosed.get_or_insert_with(|| solution.unknowns(bits));
+        let printed = Interval::enclosing(&target.printed, bits);
+        let difference = target.enclosed(unknowns, bits).subtract(&printed);
+        let in_units = |units| BigRational::new(units, BigInt::one() << bits);
+        Distance {
+            at_least: in_units(smallest(&difference)),
+            at_most: in_units(magnitude(&difference)),
+        }
+    };
+    targets.iter().map(distance).collect()
+}
+
+/// A lower bound on the absolute values in an interval, in units of `2⁻ᵇⁱᵗˢ`.
+pub(super) fn smallest(interval: &Interval) -> BigInt {
+    let straddles = !interval.low.is_positive() && !interval.high.is_negative();
+    match straddles {
+        true => BigInt::zero(),
+        false => interval.low.abs().min(interval.high.abs()),
+    }
+}

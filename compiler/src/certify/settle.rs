@@ -1,0 +1,407 @@
+//! Where to fix the coefficients that the conditions leave free: within their last places, so that all others round to
+//! their prints too.
+//!
+//! The exact methods near the digits are a manifold. Let `F` be the conditions, `B` the free unknowns, as many as there
+//! are conditions, and `N` the others, which are fixed. A shift `y` of those fixed moves the printed number `i`, a linear
+//! form `L_i` of the unknowns, along the manifold by
+//!
+//! ```text
+//! A_i y = (L_iN − L_iB F_B⁻¹ F_N) y.
+//! ```
+//!
+//! [`minimax`] finds the shift that brings all of them nearest to their prints, each measured by its own last place;
+//! Newton's iteration leads back to the manifold, and so on until all round to their prints or no shift can help.
+//!
+//! **No method has all digits.** Let `p` be the print, `X` the box of all `x` that round to it, and `h` its half edges. For
+//! any numbers `μ` and `λ` let `φ(x) = Σ μ_i (L_i x − p_i) − λᵀF(x)`. At a method in `X`, `|φ(x)| ≤ Σ |μ_i| h_i`. But
+//! `|φ(x)| ≥ |φ(p)| − Σ_j |∂_jφ(X)| h_j` in all of `X`. If the second bound is larger than the first, no method has all
+//! digits: interval arithmetic proves it, and the `μ` of the linear programme with `λᵀF_B = Σ μ_i L_iB` are the numbers
+//! which show it.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::digits::smallest;
+use super::linear::{Dyadics, ball, magnitude, middle, point};
+use super::minimax::{Best, Row, minimax};
+use super::newton::{Square, points};
+use super::printed::power_of_ten;
+use super::structure::{Coefficient, Reading, Target};
+use crate::arithmetic::interval::Interval;
+
+/// The most shifts; a few suffice, because each one squares what is left.
+const MAX_SHIFTS: usize = 8;
+/// Longer digits are not searched: one step of Newton's iteration would take seconds.
+const MAX_BITS: u32 = 8192;
+/// How many of the prints that could be the wrong one are looked at.
+const MAX_SUSPECTS: usize = 4;
+/// Binary places of the linear programme beyond the finest half unit.
+const GUARD_BITS: u64 = 40;
+
+/// What was found.
+pub(super) enum Settled {
+    /// Values of the fixed unknowns with which all numbers round to their prints.
+    All(Vec<Option<BigRational>>),
+    /// None.
+    Wrong {
+        /// Whether it is proved that there is none.
+        excluded: bool,
+        /// The printed numbers apart from which some method has all digits.
+        suspects: Vec<Suspect>,
+    },
+}
+
+/// A printed number that could be the wrong one.
+pub(super) struct Suspect {
+    pub coefficient: Coefficient,
+    /// Values of the fixed unknowns with which all others round to their prints.
+    pub fixed: Vec<Option<BigRational>>,
+}
+
+/// Looks for an exact method near that of `square` which has all printed digits.
+pub(super) fn settle(square: &Square, reading: &Reading, digit_bits: u32, bits: u32) -> Settled {
+    let nothing = Settled::Wrong {
+        excluded: false,
+        suspects: Vec::new(),
+    };
+    let bits = digit_bits.max(bits);
+    if bits > MAX_BITS {
+        return nothing;
+    }
+    let search = Search {
+        reading,
+        prints: prints(reading),
+        bits,
+    };
+    let Some(start) = search.solved(square.clone()) else {
+        return nothing;
+    };
+    let best = match search.shifted(start.clone(), None) {
+        Outcome::Reached(found) => return Settled::All(found.square.fixed),
+        Outcome::OutOfReach(best) => best,
+    };
+    let excluded = best.is_some_and(|(at, best)| search.excluded(&at, &best) == Some(true));
+    Settled::Wrong {
+        excluded,
+        suspects: search.suspects(&start),
+    }
+}
+
+/// The printed numbers, equal ones once.
+fn prints(reading: &Reading) -> Vec<Target> {
+    let mut prints: Vec<Target> = Vec::new();
+    for target in &reading.targets {
+        let same = |other: &Target| {
+            (&other.terms, &other.printed, &other.half)
+                == (&target.terms, &target.printed, &target.half)
+        };
+        if !target.terms.is_empty() && !prints.iter().any(same) {
+            prints.push(target.clone());
+        }
+    }
+    prints
+}
+
+struct Search<'a> {
+    reading: &'a Reading,
+    prints: Vec<Target>,
+    bits: u32,
+}
+
+/// A method: the conditions with what is fixed, and the solution.
+#[derive(Clone)]
+struct Method {
+    square: Square,
+    free: Vec<BigInt>,
+}
+
+enum Outcome {
+    Reached(Method),
+    /// With the method and the linear programme in which it was seen.
+    OutOfReach(Option<(Method, Best)>),
+}
+
+impl Search<'_> {
+    /// The solution with what is fixed in `square`, from the printed digits.
+    fn solved(&self, square: Square) -> Option<Method> {
+        let unknowns = &self.reading.unknowns;
+        let start = square.free.iter().map(|&i| unknowns[i].start.clone());
+        let start: Vec<BigRational> = start.collect();
+        let free = square.solve(&start, self.bits)?;
+        Some(Method { square, free })
+    }
+
+    /// All unknowns of a method.
+    fn values(&self, method: &Method) -> Vec<BigInt> {
+        let free = points(&method.free, self.bits);
+        let all = method.square.arguments(&free, self.bits);
+        all.iter().map(middle).collect()
+    }
+
+    /// The print less one, in units of `2⁻ᵇⁱᵗˢ`.
+    fn residual(&self, print: &Target, values: &[BigInt]) -> BigInt {
+        let terms = print.terms.iter();
+        let value = terms.fold(BigInt::zero(), |sum, (index, factor)| {
+            sum + (&values[*index] * factor.numer()).div_floor(factor.denom())
+        });
+        value - units(&print.printed, self.bits)
+    }
+
+    /// Whether all numbers round to their prints, apart from one; those printed exactly are left to the certificate.
+    fn reached(&self, method: &Method, apart_from: Option<usize>) -> bool {
+        let values = self.values(method);
+        let mut prints = self.prints.iter().enumerate();
+        prints.all(|(index, print)| {
+            let half = units(&print.half, self.bits);
+            let exact = half.is_zero();
+            exact || Some(index) == apart_from || self.residual(print, &values).abs() <= half
+        })
+    }
+
+    /// Shifts what is fixed until all numbers round to their prints, apart from one.
+    fn shifted(&self, start: Method, apart_from: Option<usize>) -> Outcome {
+        let mut method = start;
+        let mut last: Option<(Method, Best)> = None;
+        for _ in 0..MAX_SHIFTS {
+            if self.reached(&method, apart_from) {
+                return Outcome::Reached(method);
+            }
+            let movable = self.movable(&method.square, apart_from);
+            let Some(best) = self.best(&method, &movable, apart_from) else {
+                break;
+            };
+            let hopeless = best.level > BigRational::one();
+            let again = last
+                .as_ref()
+                .is_some_and(|(_, known)| known.level > BigRational::one());
+            let moved = self.moved(&method.square, &movable, &best);
+            last = Some((method, best));
+            if hopeless && again || movable.is_empty() {
+                break;
+            }
+            match self.solved(moved) {
+                Some(next) => method = next,
+                None => break,
+            }
+        }
+        Outcome::OutOfReach(last)
+    }
+
+    /// The unknowns that are fixed and may move: not those that are printed exactly.
+    fn movable(&self, square: &Square, apart_from: Option<usize>) -> Vec<usize> {
+        let unknowns = self.reading.unknowns.iter().enumerate();
+        let wrong = apart_from.map(|index| &self.prints[index].terms);
+        let may_move = |index: usize| {
+            let is_wrong = wrong.is_some_and(|terms| terms.iter().any(|(i, _)| *i == index));
+            !self.reading.unknowns[index].exact || is_wrong
+        };
+        let movable = unknowns.map(|(index, _)| index);
+        movable
+            .filter(|&index| !square.free.contains(&index) && may_move(index))
+            .collect()
+    }
+
+    /// The unit in which shifts are measured: the coarsest half unit.
+    fn coarsest(&self) -> BigRational {
+        let halves = self.prints.iter().map(|print| print.half.clone());
+        halves.fold(BigRational::zero(), BigRational::max)
+    }
+
+    /// The best shift at a method.
+    fn best(&self, method: &Method, movable: &[usize], apart_from: Option<usize>) -> Option<Best> {
+        let halves = self.prints.iter().map(|print| &print.half);
+        let finest = halves.filter(|half| half.is_positive()).min()?;
+        let places = (finest.denom() / finest.numer()).bits() + GUARD_BITS;
+        let coarse = u32::try_from(places).unwrap_or(u32::MAX).min(self.bits);
+        let down = self.bits - coarse;
+        let values = self.values(method);
+        let slopes = self.slopes(method, &values, movable)?;
+        let unit = units(&self.coarsest(), self.bits);
+        let row = |(print, slopes): (&Target, &Vec<BigInt>)| Row {
+            residual: self.residual(print, &values) >> down,
+            slopes: slopes
+                .iter()
+                .map(|slope| (slope * &unit) >> (self.bits + down))
+                .collect(),
+            half: units(&print.half, coarse),
+        };
+        let rows = self.prints.iter().zip(&slopes).enumerate();
+        let rows = rows
+            .filter(|(index, (print, _))| Some(*index) != apart_from && print.half.is_positive());
+        let (kept, rows): (Vec<usize>, Vec<Row>) =
+            rows.map(|(index, pair)| (index, row(pair))).unzip();
+        let mut best = minimax(&rows)?;
+        // One multiplier for each print, also for those that are not in the programme.
+        let mut multipliers = vec![BigRational::zero(); self.prints.len()];
+        for (index, multiplier) in kept.into_iter().zip(best.multipliers) {
+            multipliers[index] = multiplier;
+        }
+        best.multipliers = multipliers;
+        Some(best)
+    }
+
+    /// `A_i`, rounded, for every print.
+    fn slopes(&self, method: &Method, values: &[BigInt], movable: &[usize]) -> Option<Dyadics> {
+        let square = &method.square;
+        let at = points(values, self.bits);
+        let inverse = square.inverse_derivative(&method.free, self.bits)?;
+        let by_fixed = square.system.derivatives(&at, movable);
+        // F_B⁻¹ F_N.
+        let follows = |row: &Vec<BigInt>, column: usize| -> BigInt {
+            let entries = row.iter().zip(&by_fixed);
+            let sum: BigInt = entries.map(|(c, d)| c * middle(&d[column])).sum();
+            sum >> self.bits
+        };
+        let one = BigInt::one() << self.bits;
+        let slope = |print: &Target, column: usize| {
+            let terms = print.terms.iter();
+            terms.fold(BigInt::zero(), |sum, (index, factor)| {
+                let moves = match square.free.iter().position(|free| free == index) {
+                    Some(row) => -follows(&inverse[row], column),
+                    None if movable[column] == *index => one.clone(),
+                    None => return sum,
+                };
+                sum + (moves * factor.numer()).div_floor(factor.denom())
+            })
+        };
+        let prints = self.prints.iter();
+        Some(
+            prints
+                .map(|print| (0..movable.len()).map(|j| slope(print, j)).collect())
+                .collect(),
+        )
+    }
+
+    /// The conditions with what is fixed moved by a shift, to a few decimal places more than are printed.
+    fn moved(&self, square: &Square, movable: &[usize], best: &Best) -> Square {
+        let places = self.prints.iter().map(|print| print.half.denom().bits());
+        // A decimal place takes 3.32 binary ones.
+        let places = places.max().unwrap_or(0) * 3 / 10 + 4;
+        let scale = power_of_ten(u32::try_from(places).unwrap_or(u32::MAX));
+        let unit = self.coarsest();
+        let mut moved = square.clone();
+        for (&index, shift) in movable.iter().zip(&best.shift) {
+            if let Some(value) = &mut moved.fixed[index] {
+                let exact = (&*value + shift * &unit) * &scale;
+                *value = BigRational::new(exact.round().to_integer(), scale.clone());
+            }
+        }
+        moved
+    }
+
+    /// The printed numbers apart from which some method has all digits. The first one is the last in the step: papers
+    /// compute it from the others.
+    fn suspects(&self, start: &Method) -> Vec<Suspect> {
+        let level = |index: usize| {
+            let movable = self.movable(&start.square, Some(index));
+            Some((self.best(start, &movable, Some(index))?.level, index))
+        };
+        let mut levels: Vec<_> = (0..self.prints.len()).filter_map(level).collect();
+        levels.sort_unstable();
+        levels.truncate(MAX_SUSPECTS);
+        levels.sort_unstable_by_key(|(_, index)| std::cmp::Reverse(*index));
+        let suspect =
+            |(_, index): (BigRational, usize)| match self.shifted(start.clone(), Some(index)) {
+                Outcome::Reached(found) => Some(Suspect {
+                    coefficient: self.prints[index].name,
+                    fixed: found.square.fixed,
+                }),
+                Outcome::OutOfReach(_) => None,
+            };
+        levels.into_iter().filter_map(suspect).collect()
+    }
+
+    /// Whether it is proved that no method rounds to all prints.
+    fn excluded(&self, method: &Method, best: &Best) -> Option<bool> {
+        let square = &method.square;
+        let enclosing = |x: &BigRational| Interval::enclosing(x, self.bits);
+        // The printed unknowns, and the box of all that round to them.
+        let center: Vec<Interval> = {
+            let unknowns = self.reading.unknowns.iter();
+            unknowns.map(|unknown| enclosing(&unknown.start)).collect()
+        };
+        let halves: Vec<BigInt> = (0..center.len())
+            .map(|index| self.reach(index))
+            .collect::<Option<_>>()?;
+        let cube: Vec<Interval> = {
+            let pairs = center.iter().zip(&halves);
+            pairs
+                .map(|(x, half)| ball(&middle(x), &(half + 2u32), self.bits))
+                .collect()
+        };
+        let inverse = square.inverse_derivative(&method.free, self.bits)?;
+        let largest = best.multipliers.iter().map(|x| x.abs()).max()?;
+        if largest.is_zero() {
+            return None;
+        }
+        // Any numbers prove it; these are exact, whatever they were rounded from.
+        let weights: Vec<BigInt> = {
+            let all = best.multipliers.iter();
+            all.map(|x| units(&(x / &largest), self.bits)).collect()
+        };
+        let weighted = |index: usize| {
+            let prints = self.prints.iter().zip(&weights);
+            prints.fold(point(&BigInt::zero(), self.bits), |sum, (print, weight)| {
+                let terms = print.terms.iter().filter(|(i, _)| *i == index);
+                terms.fold(sum, |sum, (_, factor)| {
+                    sum.add(&point(weight, self.bits).scale(factor))
+                })
+            })
+        };
+        let gradient: Vec<Interval> = (0..center.len()).map(weighted).collect();
+        let multiplier = |condition: usize| -> BigInt {
+            let free = square.free.iter().zip(&inverse);
+            let sum: BigInt = free
+                .map(|(&i, row)| middle(&gradient[i]) * &row[condition])
+                .sum();
+            sum >> self.bits
+        };
+        let multipliers: Vec<Interval> = (0..inverse.len())
+            .map(|condition| point(&multiplier(condition), self.bits))
+            .collect();
+        let all: Vec<usize> = (0..center.len()).collect();
+        let derivatives = square.system.derivatives(&cube, &all);
+        let residuals = square.system.residuals(&center);
+        // |φ(p)| less what it can change in the box …
+        let combined = |entries: &mut dyn Iterator<Item = &Interval>, start: Interval| {
+            let pairs = multipliers.iter().zip(entries);
+            pairs.fold(start, |sum, (factor, x)| sum.subtract(&factor.multiply(x)))
+        };
+        let mut at_center = point(&BigInt::zero(), self.bits);
+        for (print, weight) in self.prints.iter().zip(&weights) {
+            let value = print.enclosed(&center, self.bits);
+            let difference = value.subtract(&enclosing(&print.printed));
+            at_center = at_center.add(&point(weight, self.bits).multiply(&difference));
+        }
+        let mut left = smallest(&combined(&mut residuals.iter(), at_center)) << self.bits;
+        for (index, own) in gradient.iter().enumerate() {
+            let mut column = derivatives.iter().map(|row| &row[index]);
+            let slope = combined(&mut column, own.clone());
+            left -= magnitude(&slope) * (&halves[index] + 2u32);
+        }
+        // … is more than what a method in it allows.
+        let pairs = self.prints.iter().zip(&weights);
+        let allowed: BigInt = pairs
+            .map(|(print, weight)| weight.abs() * (units(&print.half, self.bits) + 1u32))
+            .sum();
+        Some(left > allowed)
+    }
+
+    /// How far an unknown that rounds to its prints is from its printed value, at most, in units of `2⁻ᵇⁱᵗˢ`.
+    fn reach(&self, index: usize) -> Option<BigInt> {
+        let start = &self.reading.unknowns[index].start;
+        let alone = self
+            .prints
+            .iter()
+            .filter(|print| print.terms == [(index, BigRational::one())]);
+        let reach = alone.map(|print| &print.half + (&print.printed - start).abs());
+        Some(units(&reach.min()?, self.bits) + 1u32)
+    }
+}
+
+/// A number in units of `2⁻ᵇⁱᵗˢ`, rounded down.
+fn units(value: &BigRational, bits: u32) -> BigInt {
+    (value.numer() << bits).div_floor(value.denom())
+}
