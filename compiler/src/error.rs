@@ -306,6 +306,12 @@ pub enum ErrorKind {
         /// What it should say.
         expected: String,
     },
+    /// A printed number that the exact method of the claimed order does not round to. The method is right; its print is not.
+    #[error("{message}")]
+    WrongDigits {
+        /// Which one, and the right one.
+        message: String,
+    },
     /// Printed coefficients that are not those of a method with the claimed order.
     #[error("{message}")]
     NotCertified {

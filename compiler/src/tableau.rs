@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 use crate::algebra::{Constants, Dense, NodeAlgebra, Number, Reals, StageAlgebra};
 use crate::coefficients::Coefficients;
 use crate::definition::Definition;
+use crate::error::Error;
 use crate::order::{GivenOrder, OrderOptions, OrderReport, PerturbedOrder};
 use crate::pair::Pair;
 use crate::properties::{Evidence, Properties, SeparableProperties};
@@ -35,6 +36,7 @@ pub struct Tableau {
     pub(crate) exact: Exact,
     /// The order that follows from how the method is made, however well its coefficients are known.
     pub(crate) given: Option<GivenOrder>,
+    pub(crate) wrong_digits: Vec<Error>,
     properties: OnceLock<Properties>,
     separable: OnceLock<SeparableProperties>,
     orders: OnceLock<OrderReport>,
@@ -135,6 +137,7 @@ impl Tableau {
             },
             exact,
             given: None,
+            wrong_digits: Vec::new(),
             properties: OnceLock::new(),
             separable: OnceLock::new(),
             orders: OnceLock::new(),
@@ -142,6 +145,27 @@ impl Tableau {
             stability: OnceLock::new(),
             first_stable: OnceLock::new(),
         }
+    }
+
+    /// The printed numbers of a definition with a `claim` that the exact method does not round to, each at its place
+    /// ([`ErrorKind::WrongDigits`](crate::ErrorKind::WrongDigits)). The tableau is that of the exact method: these are faults
+    /// of the print.
+    ///
+    /// ```
+    /// use symplectic_compiler::{Definition, Limits};
+    ///
+    /// let jump = "kick: [0.675603595980, -0.175603595980], drift: [1.351207191960, -1.702414383919], symmetric: true, \
+    ///             claim: separable(4)";
+    /// assert!(Definition::parse(jump)?.derive(&Limits::default())?.wrong_digits().is_empty());
+    ///
+    /// let changed = jump.replace("0.675603595980", "0.675603595990");
+    /// let tableau = Definition::parse(&changed)?.derive(&Limits::default())?;
+    /// let told = tableau.wrong_digits()[0].to_string();
+    /// assert!(told.contains("`0.675603595990` is not the exact kick[0], rounded: that is 0.675603595980"), "{told}");
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    pub fn wrong_digits(&self) -> &[Error] {
+        &self.wrong_digits
     }
 
     /// All properties, decided at the first call.

@@ -187,3 +187,37 @@ fn facts_are_neither_hidden_nor_added_nor_left_out() {
         );
     }
 }
+
+/// A digit of a claim that is changed after the tenth place is told, in the definition and in a whole table.
+#[test]
+fn printed_digits_of_a_claim_are_checked() {
+    let right = "[provenance]\nkick = \"0.675603595979829, -0.175603595979829\"\ndrift = \"1.351207191959658, -1.702414383919315\"\nsymmetric = true\nclaim = \"separable(4)\"\n";
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let checked = |name: &str, text: &str| {
+        let path = folder.join(name).display().to_string();
+        std::fs::write(&path, text).expect("a file");
+        let output = symplectic(&["check", &path]);
+        assert!(output.status.success(), "{output:?}");
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        (
+            text(&output.stdout).replace(&path, name),
+            text(&output.stderr).replace(&path, name),
+        )
+    };
+    let (verdict, warnings) = checked("claim-right.toml", right);
+    assert!(verdict.starts_with("claim-right.toml: ok, "), "{verdict}");
+    assert_eq!(warnings, "");
+    let wrong = right.replace("0.675603595979829", "0.675603595989829");
+    let (verdict, warnings) = checked("claim-wrong.toml", &wrong);
+    assert!(
+        verdict.starts_with("claim-wrong.toml: ok apart from the digits of 1 printed number, "),
+        "{verdict}"
+    );
+    expect_test::expect![[r#"
+        warning: `0.675603595989829` is not the exact kick[0], rounded: that is 0.675603595979829; no method of this structure and order has all printed digits, which is proved
+         --> claim-wrong.toml:2:9
+          |
+        2 | kick = "0.675603595989829, -0.175603595979829"
+          |         ^^^^^^^^^^^^^^^^^
+    "#]].assert_eq(&warnings);
+}

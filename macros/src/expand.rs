@@ -113,9 +113,10 @@ fn expand_one(definition: &Definition, form: Form) -> syn::Result<TokenStream> {
                 name: definition.name.clone(),
             };
             let warning = inconsistent(&tableau, &definition.name);
+            let digits = wrong_digits(&tableau, definition);
             let code = method(&tableau.named(definition.name.to_string()), &header)
                 .map_err(|kind| syn::Error::new(definition.name.span(), kind.to_string()))?;
-            return Ok(quote!(#rebuild #warning #code));
+            return Ok(quote!(#rebuild #warning #digits #code));
         }
     }
     errors.0.map_or(Ok(TokenStream::new()), Err)
@@ -174,6 +175,29 @@ fn inconsistent(tableau: &Tableau, name: &Ident) -> Option<TokenStream> {
             };
         }
     })
+}
+
+/// A warning at each printed number of a claim that the exact method does not round to.
+fn wrong_digits(tableau: &Tableau, definition: &Definition) -> TokenStream {
+    let warning = |error: &symplectic_compiler::Error| {
+        let about = error.place.as_ref().map(|place| &*place.input);
+        let field = definition
+            .fields
+            .iter()
+            .find(|field| about.is_some_and(|about| field.key == about));
+        let span = field.map_or(definition.name.span(), |field| {
+            Source::new(field.value.clone()).locate(error).span()
+        });
+        let note = error.kind.to_string();
+        quote_spanned! {span=>
+            const _: () = {
+                #[deprecated(note = #note)]
+                const WRONG_DIGITS: () = ();
+                WRONG_DIGITS
+            };
+        }
+    };
+    tableau.wrong_digits().iter().map(warning).collect()
 }
 
 /// Derives the tableau of the parts of a definition, with errors at the tokens of each.

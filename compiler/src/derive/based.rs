@@ -50,6 +50,8 @@ struct Weights {
     given: Option<GivenOrder>,
     /// Whether the order is claimed of printed weights.
     claimed: bool,
+    /// The printed weights that the exact ones do not round to.
+    wrong_digits: Vec<Error>,
 }
 
 /// A step of the base method.
@@ -122,6 +124,13 @@ impl Based {
             }
         }
         parts
+    }
+
+    /// The printed weights that the exact ones do not round to.
+    pub fn wrong_digits(&self) -> &[Error] {
+        self.weights
+            .as_ref()
+            .map_or(&[], |weights| &weights.wrong_digits)
     }
 
     /// The order that follows from the weights, or for a base by itself from how that is made.
@@ -333,6 +342,7 @@ impl Weights {
             components: fractions.into_iter().map(component).collect(),
             given: None,
             claimed: false,
+            wrong_digits: Vec::new(),
         })
     }
 
@@ -355,6 +365,7 @@ impl Weights {
         let mut printed = claim::read_printed(Key::Weights, text)?;
         let texts: Vec<&str> = printed.iter().map(Printed::text).collect();
         let canonical = texts.join(", ");
+        let written = printed.len();
         if symmetric {
             mirror(&mut printed);
         }
@@ -364,6 +375,8 @@ impl Weights {
         base.proved_symmetric_splitting(definition)?;
         let certificate = certify_composition(&printed, order)
             .map_err(|error| claim::refused(definition, &error))?;
+        let items = (0..written).map(|i| (Key::Weights, i, Coefficient::Weight(i)));
+        let wrong_digits = claim::wrong_digits(definition, &certificate, items);
         let mut factors = Factors::new(certificate);
         let component = |index| Component {
             fraction: factors.get(Coefficient::Weight(index)),
@@ -375,6 +388,7 @@ impl Weights {
             components: (0..printed.len()).map(component).collect(),
             given: Some(GivenOrder::certified(claim)),
             claimed: true,
+            wrong_digits,
         })
     }
 
@@ -427,6 +441,7 @@ impl Weights {
             components: fractions.into_iter().map(component).collect(),
             given: raised(&tableau, &orders_of_base, wanted),
             claimed: false,
+            wrong_digits: Vec::new(),
         })
     }
 }

@@ -7,6 +7,7 @@ use super::splitting::{Flow, Lists};
 use crate::algebra::Real;
 use crate::certify::{Certificate, Claim, Coefficient, Printed, Splitting, certify};
 use crate::definition::{Definition, Key};
+use crate::error::Error;
 use crate::limits::Limits;
 use crate::symbolic::Constant;
 
@@ -15,6 +16,7 @@ use crate::symbolic::Constant;
 pub struct Certified {
     printed: Lists<Printed>,
     certificate: Certificate,
+    wrong_digits: Vec<Error>,
 }
 
 impl Certified {
@@ -28,18 +30,37 @@ impl Certified {
         }
         let claim = errors.note(claim::read(definition));
         let printed = Lists::read(definition, limits, errors, claim::read_printed)?;
-        let (splitting, _) = whole(&printed);
+        let (splitting, flows) = whole(&printed);
         let certificate = certify(&splitting, &claim?);
         let certificate = certificate.map_err(|error| claim::refused(definition, &error));
+        let certificate = errors.note(certificate)?;
+        // The flows of a mirrored list come back after those that are written.
+        let (mut kicks, mut drifts) = (0.., 0..);
+        let written = flows.into_iter().filter_map(|(flow, name)| match flow {
+            Flow::Kick => Some((Key::Kick, kicks.next()?, name)),
+            Flow::Drift => Some((Key::Drift, drifts.next()?, name)),
+        });
+        let count = |key: Key| match key {
+            Key::Kick => printed.list(Flow::Kick).len(),
+            _ => printed.list(Flow::Drift).len(),
+        };
+        let written = written.filter(|(key, index, _)| *index < count(*key));
+        let wrong_digits = claim::wrong_digits(definition, &certificate, written);
         Some(Certified {
             printed,
-            certificate: errors.note(certificate)?,
+            certificate,
+            wrong_digits,
         })
     }
 
     /// What is proved of the method.
     pub fn claim(&self) -> &Claim {
         self.certificate.claim()
+    }
+
+    /// The printed numbers that the exact method does not round to.
+    pub fn wrong_digits(&self) -> &[Error] {
+        &self.wrong_digits
     }
 
     /// What the step does.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::composition::separated;
 use super::problem::misfit_at;
-use crate::certify::{CertifyError, Claim, Printed};
+use crate::certify::{Certificate, CertifyError, Claim, Coefficient, Digits, Printed};
 use crate::definition::{Definition, Key, trimmed};
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Input, parse_list, shown};
@@ -49,12 +49,6 @@ pub fn text(claim: &Claim) -> String {
 
 /// Reads a list of decimals, which may stand in brackets.
 pub fn read_printed(key: Key, text: &str) -> Result<Vec<Printed>, Error> {
-    let whole = trimmed(text, 0..text.len());
-    let inner = text[whole.clone()].strip_prefix('[');
-    let inside = match inner.and_then(|rest| rest.strip_suffix(']')) {
-        Some(_) => whole.start + 1..whole.end - 1,
-        None => whole,
-    };
     let read = |range: Range<usize>| {
         let number: String = text[range.clone()].split_whitespace().collect();
         let name = key.name();
@@ -69,7 +63,10 @@ pub fn read_printed(key: Key, text: &str) -> Result<Vec<Printed>, Error> {
             Input { name, text }.error(&range, ErrorKind::Definition { message })
         })
     };
-    separated(text, inside).into_iter().map(read).collect()
+    separated(text, list_inside(text))
+        .into_iter()
+        .map(read)
+        .collect()
 }
 
 /// Why printed digits are not certified, at the part that it is about.
@@ -85,6 +82,69 @@ pub fn refused(definition: &Definition, error: &CertifyError) -> Error {
         _ => Key::Claim,
     };
     at(definition, key, ErrorKind::NotCertified { message })
+}
+
+/// The printed numbers that the exact method does not round to, each at its place in the definition.
+///
+/// `items` are the numbers as they are written: the key and the index in its list.
+pub fn wrong_digits(
+    definition: &Definition,
+    certificate: &Certificate,
+    items: impl IntoIterator<Item = (Key, usize, Coefficient)>,
+) -> Vec<Error> {
+    let all = certificate.wrong_digits();
+    let wrong = |name: Coefficient| all.iter().any(|(other, _)| *other == name);
+    let items = items.into_iter().filter(|(_, _, name)| wrong(*name));
+    items
+        .map(|(key, index, name)| {
+            let text = definition.get(key).unwrap_or_default();
+            let range = separated(text, list_inside(text)).get(index).cloned();
+            let range = range.unwrap_or(0..text.len());
+            let message = wrong_number(certificate, name, &text[range.clone()]);
+            let kind = ErrorKind::WrongDigits { message };
+            Input {
+                name: key.name(),
+                text,
+            }
+            .error(&range, kind)
+        })
+        .collect()
+}
+
+/// What is wrong with one printed number.
+fn wrong_number(certificate: &Certificate, name: Coefficient, text: &str) -> String {
+    let number: String = text.split_whitespace().collect();
+    let printed = Printed::parse(&number).ok();
+    let exact = printed.and_then(|printed| certificate.as_printed(name, &printed));
+    let mut message = format!("`{}` is not the exact {name}, rounded", shown(text));
+    if let Some(exact) = exact {
+        message.push_str(&format!(": that is {exact}"));
+    }
+    let suspects = certificate.suspects();
+    if !suspects.is_empty() {
+        let names: Vec<String> = suspects.iter().map(Coefficient::to_string).collect();
+        message.push_str(&format!(", unless {} is wrong instead", names.join(" or ")));
+    }
+    message.push_str(match certificate.digits() {
+        Digits::All => "",
+        Digits::Excluded => {
+            "; no method of this structure and order has all printed digits, which is proved"
+        }
+        Digits::NotFound => {
+            "; no method was found that has all printed digits, which is not proved"
+        }
+    });
+    message
+}
+
+/// What stands in the brackets of a list, or the whole.
+fn list_inside(text: &str) -> Range<usize> {
+    let whole = trimmed(text, 0..text.len());
+    let inner = text[whole.clone()].strip_prefix('[');
+    match inner.and_then(|rest| rest.strip_suffix(']')) {
+        Some(_) => whole.start + 1..whole.end - 1,
+        None => whole,
+    }
 }
 
 /// An error about a whole part.

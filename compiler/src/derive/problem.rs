@@ -225,6 +225,23 @@ impl Problem {
         (separable || !self.exchange).then_some(given)
     }
 
+    /// The printed numbers that the exact method does not round to: each at its place, or in steps of a composition
+    /// without one.
+    pub fn wrong_digits(&self) -> Vec<Error> {
+        match &self.construction {
+            Construction::Certified(certified) => certified.wrong_digits().to_vec(),
+            Construction::Based(based) => based.wrong_digits().to_vec(),
+            Construction::Composition { steps } => {
+                let all = steps.iter().flat_map(|step| step.method.wrong_digits());
+                all.map(|error| (*error.kind).into()).collect()
+            }
+            Construction::Collocation { .. }
+            | Construction::Galerkin { .. }
+            | Construction::Given { .. }
+            | Construction::Splitting(_) => Vec::new(),
+        }
+    }
+
     /// The number of stages of the method, or a bound for it.
     pub fn stages(&self) -> usize {
         match &self.construction {

@@ -94,7 +94,8 @@ impl<T> Lists<T> {
         Some(lists)
     }
 
-    fn list(&self, flow: Flow) -> &[T] {
+    /// The list of a flow, as it is written.
+    pub fn list(&self, flow: Flow) -> &[T] {
         match flow {
             Flow::Kick => &self.kick,
             Flow::Drift => &self.drift,

@@ -33,6 +33,7 @@ impl Problem {
             }),
             ..given
         });
+        tableau.wrong_digits = self.wrong_digits();
         Ok(tableau)
     }
 

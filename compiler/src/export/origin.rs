@@ -40,6 +40,8 @@ impl Origin {
     pub fn derive(&self, file: Input<'_>, limits: &Limits) -> Result<Tableau, Error> {
         let derived = self.definition().derive(limits);
         let mut tableau = derived.map_err(|error| self.in_file(file, error))?;
+        let wrong = std::mem::take(&mut tableau.wrong_digits).into_iter();
+        tableau.wrong_digits = wrong.map(|error| self.in_file(file, error)).collect();
         tableau.name.clone_from(&self.name);
         tableau.provenance.source.clone_from(&self.source);
         Ok(tableau)

@@ -13,6 +13,9 @@ use crate::output;
 use crate::report;
 
 /// Derive the tableaux of files anew, prove their properties and compare every entry.
+///
+/// The printed numbers of a `claim` are held against the exact method: a warning shows each one that is not the exact
+/// coefficient, rounded to as many places, and the verdict counts them.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// Files written by `derive` or `show` with `--format toml` or `--format json`.
@@ -41,16 +44,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     for path in &arguments.files {
         let name = path.display().to_string();
         let outcome = check_file(path, &limits);
-        if let Err(error) = &outcome {
-            report::to_stderr(error);
-            status = report::status(error).max(status);
+        match &outcome {
+            Ok(tableau) => output::warn_of_wrong_digits(tableau),
+            Err(error) => {
+                report::to_stderr(error);
+                status = report::status(error).max(status);
+            }
         }
         if arguments.format == Format::Json {
             results.push(entry(&name, &outcome));
             continue;
         }
         let verdict = match &outcome {
-            Ok(tableau) => format!("ok, {}", facts(tableau)),
+            Ok(tableau) => format!("{}, {}", verdict(tableau), facts(tableau)),
             Err(error) => format!("FAILED, {}", error.kind),
         };
         // A name may hold anything, a line break that makes it two lines too.
@@ -82,9 +88,11 @@ fn is_direction(c: char) -> bool {
 fn entry(name: &str, outcome: &Result<Tableau, Error>) -> Value {
     match outcome {
         Ok(tableau) => {
+            let wrong = tableau.wrong_digits().iter();
+            let wrong: Vec<String> = wrong.map(ToString::to_string).collect();
             let text = export::json::write(tableau, export::DEFAULT_DIGITS);
             let tableau: Value = serde_json::from_str(&text).unwrap_or_default();
-            json!({ "file": name, "ok": true, "tableau": tableau })
+            json!({ "file": name, "ok": true, "wrong_digits": wrong, "tableau": tableau })
         }
         Err(error) => json!({ "file": name, "ok": false, "error": error.to_string() }),
     }
@@ -94,6 +102,15 @@ fn check_file(path: &Path, limits: &Limits) -> Result<Tableau, Error> {
     let name = path.display().to_string();
     let text = export::read_text(path)?;
     check(&name, &text, limits)
+}
+
+/// Whether the file is right, and how many of the numbers of its claim are not.
+fn verdict(tableau: &Tableau) -> String {
+    match tableau.wrong_digits().len() {
+        0 => "ok".to_owned(),
+        1 => "ok apart from the digits of 1 printed number".to_owned(),
+        count => format!("ok apart from the digits of {count} printed numbers"),
+    }
 }
 
 /// The name, the orders and the stability of a tableau, in a line.

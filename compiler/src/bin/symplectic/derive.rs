@@ -94,6 +94,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         tableau = tableau.named(name);
     }
     output::warn_if_inconsistent(&tableau);
+    output::warn_of_wrong_digits(&tableau);
     output::print(&arguments.output.write(&tableau))
 }
 

@@ -87,6 +87,11 @@ pub(crate) fn warn_if_inconsistent(tableau: &Tableau) {
     }
 }
 
+/// Says on standard error which printed numbers of a claim the exact method does not round to.
+pub(crate) fn warn_of_wrong_digits(tableau: &Tableau) {
+    tableau.wrong_digits().iter().for_each(report::warning_at);
+}
+
 /// Prints to standard output. A reader that has gone away is no error.
 pub(crate) fn print(text: &str) -> Result<ExitCode, Error> {
     let mut stdout = std::io::stdout().lock();

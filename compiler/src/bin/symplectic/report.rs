@@ -26,6 +26,12 @@ pub(crate) fn warning(message: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
+/// Writes an error to standard error as a warning.
+pub(crate) fn warning_at(error: &Error) {
+    let text = render_as(Level::WARNING, error, in_colour());
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}
+
 fn in_colour() -> bool {
     std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none()
 }
@@ -39,9 +45,13 @@ fn renderer(colour: bool) -> Renderer {
 }
 
 fn render(error: &Error, colour: bool) -> String {
+    render_as(Level::ERROR, error, colour)
+}
+
+fn render_as(level: Level<'_>, error: &Error, colour: bool) -> String {
     let renderer = renderer(colour);
     let message = error.kind.to_string();
-    let title = Level::ERROR.primary_title(message);
+    let title = level.primary_title(message);
     match &error.place {
         None => renderer.render(&[Group::with_title(title)]),
         Some(place) => {
