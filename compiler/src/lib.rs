@@ -25,7 +25,7 @@
 //! | what a user requires of a method | [`Requirement`], [`Tableau::require`], [`assert_order!`] |
 //! | text, JSON, TOML; reading and checking files | [`export`], [`check`] |
 //! | known methods | [`catalogue`] |
-//! | explicit methods from printed digits, with a proof that an exact method is near | [`certify`], [`refine()`] for files |
+//! | explicit methods from printed digits, with a proof that an exact method is near | [`certify`], [`refine()`] for files, [`refine_table()`] for Butcher arrays |
 //! | Rust code | [`emit`], from the order of computation found in [`schedule`] |
 //!
 //! Statements about a tableau are decided in exact arithmetic where its coefficients are functions of the
@@ -70,6 +70,6 @@ pub use error::{Error, ErrorKind, Place};
 pub use limits::Limits;
 pub use properties::{Evidence, Properties, Property, SeparableProperties};
 pub use quadrature::{FAMILIES, Family, Nodes, QuadratureRule};
-pub use refine::{Refinement, refine};
+pub use refine::{RefinedTable, Refinement, refine, refine_table};
 pub use requirement::{Requirement, require};
 pub use tableau::{Provenance, Tableau, Tier};

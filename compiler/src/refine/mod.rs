@@ -17,7 +17,10 @@
 //! order 2; then the claim is an `order` alone.
 
 mod file;
+mod table;
 mod write;
+
+pub use table::{RefinedTable, refine_table};
 
 use serde::Serialize as _;
 

@@ -64,7 +64,7 @@ struct Entry {
 }
 
 /// A bound from above with two digits: not smaller than the value.
-fn at_most(value: &BigRational) -> String {
+pub(super) fn at_most(value: &BigRational) -> String {
     let nearest = Decimal::round(value, 2);
     // Two digits are off by at most 1/20.
     let up = || Decimal::round(&(value * ratio(11, 10)), 2);

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use symplectic_compiler::export::{self, DEFAULT_DIGITS};
-use symplectic_compiler::{Error, refine};
+use symplectic_compiler::{Error, refine, refine_table};
 
 use crate::output;
 
@@ -14,6 +14,14 @@ use crate::output;
 /// The file is TOML: `name` and `source`; `[claim]` with `class = "separable"` or `"nystrom"` and `order = 6`, or with
 /// `perturbed = [8, 4]`; `[printed]` with `kick` and `drift`, lists of decimals as texts, or with `weights`, those of a
 /// composition of any symmetric method of order 2, which claims an `order` without a class.
+///
+/// Digits are wrong if no exact method was found that rounds to all of them: coefficients that the conditions leave free
+/// may move within their last place. What is printed as a fraction or an integer is exact.
+///
+/// Butcher arrays: `[printed]` with `a` and `b`, perhaps `c`, `a_tilde`, `b_tilde`, `c_tilde`; `[claim]` with `class =
+/// "general"`, `"separable"` or `"nystrom"`, `order = 6`, and perhaps `properties = ["symplectic", "symmetric",
+/// "collocation"]`. Refined are collocation methods with polynomials, alone or with their symplectic partner, steps of the
+/// implicit midpoint rule, and explicit symplectic pairs, of at most 16 stages. A `c` that is not the row sum is an error.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// The file.
@@ -38,8 +46,15 @@ enum Format {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let path = &arguments.file;
-    let refinement = refine(&path.display().to_string(), &export::read_text(path)?)?;
+    let (name, text) = (path.display().to_string(), export::read_text(path)?);
     let digits = arguments.digits.unwrap_or(DEFAULT_DIGITS);
+    if let Some(table) = refine_table(&name, &text)? {
+        return output::print(&match arguments.format {
+            Format::Text => table.text(digits)?,
+            Format::Json => table.json(digits)?,
+        });
+    }
+    let refinement = refine(&name, &text)?;
     output::print(&match arguments.format {
         Format::Text => refinement.text(digits)?,
         Format::Json => refinement.json(digits)?,

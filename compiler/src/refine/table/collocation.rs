@@ -1,0 +1,222 @@
+//! The polynomial of the nodes, from linear conditions on its coefficients.
+
+use num_integer::binomial;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use crate::arithmetic::polynomial::Polynomial;
+use crate::arithmetic::rational::ratio;
+use crate::limits::Limits;
+use crate::quadrature::{FAMILIES, QuadratureRule};
+
+/// What is known of the nodes.
+pub(super) struct Nodes {
+    /// The printed values.
+    pub printed: Vec<BigRational>,
+    /// Those that are printed exactly.
+    pub exact: Vec<BigRational>,
+    /// Whether they are symmetric.
+    pub symmetric: bool,
+    /// The order of the quadrature.
+    pub order: usize,
+}
+
+/// A polynomial whose roots are nodes as wanted.
+pub(super) struct Found {
+    pub polynomial: Polynomial,
+    /// Whether it is the only one.
+    pub only_one: bool,
+}
+
+/// `Σ_k coefficients_k m_k = right` for the coefficients of `M = x^s + m_{s−1} x^{s−1} + ⋯ + m_0`.
+struct Equation {
+    coefficients: Vec<BigRational>,
+    right: BigRational,
+}
+
+/// The polynomial nearest in its free coefficients to the printed nodes; `None` if the conditions contradict one another.
+pub(super) fn node_polynomial(nodes: &Nodes) -> Option<Found> {
+    let degree = nodes.printed.len();
+    let mut rows = echelon(equations(nodes), degree)?;
+    let printed = nodes
+        .printed
+        .iter()
+        .fold(Polynomial::one(), |product, node| {
+            let factor = Polynomial::from_rationals(&[-node, BigRational::one()]);
+            &product * &factor
+        });
+    // Rows are reduced: each pivot is the printed value of the free ones apart from it.
+    let mut coefficients: Vec<BigRational> = (0..degree).map(|k| printed.coefficient(k)).collect();
+    let only_one = rows.len() == degree;
+    for (pivot, row) in rows.drain(..) {
+        let free = (0..degree).filter(|k| *k != pivot);
+        let rest = free.map(|k| &row.coefficients[k] * &printed.coefficient(k));
+        coefficients[pivot] = rest.fold(row.right.clone(), |rest, x| rest - x);
+    }
+    coefficients.push(BigRational::one());
+    Some(Found {
+        polynomial: Polynomial::from_rationals(&coefficients),
+        only_one,
+    })
+}
+
+fn equations(nodes: &Nodes) -> Vec<Equation> {
+    let degree = nodes.printed.len();
+    let whole = |n: usize| ratio(i64::try_from(n).unwrap_or(i64::MAX), 1);
+    let monic = |entry: &dyn Fn(usize) -> BigRational| Equation {
+        coefficients: (0..degree).map(entry).collect(),
+        right: -entry(degree),
+    };
+    // ∫M x^k = 0.
+    let quadrature =
+        (0..nodes.order.saturating_sub(degree)).map(|k| monic(&|j| whole(j + k + 1).recip()));
+    let roots = nodes
+        .exact
+        .iter()
+        .map(|node| monic(&|j| num_traits::pow(node.clone(), j)));
+    // M(1 − x) = (−1)^s M(x), for each power of x.
+    let sign = |n: usize| {
+        if n.is_multiple_of(2) {
+            ratio(1, 1)
+        } else {
+            ratio(-1, 1)
+        }
+    };
+    let mirrored = |power: usize| {
+        monic(&|j| {
+            let above = match j >= power {
+                true => sign(power) * whole(binomial(j, power)),
+                false => BigRational::zero(),
+            };
+            match j == power {
+                true => above - sign(degree),
+                false => above,
+            }
+        })
+    };
+    let powers = if nodes.symmetric { 0..degree } else { 0..0 };
+    let mirrored = powers.map(mirrored);
+    quadrature.chain(roots).chain(mirrored).collect()
+}
+
+/// The reduced echelon form, with its pivots; `None` for a contradiction.
+fn echelon(equations: Vec<Equation>, degree: usize) -> Option<Vec<(usize, Equation)>> {
+    let mut rows: Vec<(usize, Equation)> = Vec::new();
+    for mut equation in equations {
+        for (pivot, row) in &rows {
+            let factor = equation.coefficients[*pivot].clone();
+            subtract(&mut equation, row, &factor);
+        }
+        let pivot = (0..degree)
+            .rev()
+            .find(|&k| !equation.coefficients[k].is_zero());
+        let Some(pivot) = pivot else {
+            if equation.right.is_zero() {
+                continue;
+            }
+            return None;
+        };
+        let scale = equation.coefficients[pivot].recip();
+        equation.coefficients.iter_mut().for_each(|x| *x *= &scale);
+        equation.right *= scale;
+        for (_, row) in &mut rows {
+            let factor = row.coefficients[pivot].clone();
+            subtract(row, &equation, &factor);
+        }
+        rows.push((pivot, equation));
+    }
+    Some(rows)
+}
+
+fn subtract(from: &mut Equation, row: &Equation, factor: &BigRational) {
+    if factor.is_zero() {
+        return;
+    }
+    for (entry, other) in from.coefficients.iter_mut().zip(&row.coefficients) {
+        *entry -= factor * other;
+    }
+    from.right -= factor * &row.right;
+}
+
+/// The rule with these nodes: that of a family, if it is one.
+pub(super) fn rule(polynomial: &Polynomial) -> Result<(QuadratureRule, bool), String> {
+    let stages = polynomial.degree().unwrap_or(0);
+    let limits = Limits::default();
+    for family in FAMILIES {
+        let named = QuadratureRule::parse(&format!("{}({stages})", family.name), &limits);
+        if let Ok(rule) = named
+            && rule.algebra().modulus().primitive() == polynomial.primitive()
+        {
+            return Ok((rule, true));
+        }
+    }
+    let name = format!("the roots of {}", polynomial.display("x"));
+    let rule = QuadratureRule::with_nodes(name, polynomial).map_err(|kind| kind.to_string())?;
+    Ok((rule, false))
+}
+
+/// Whether numbers with their mirror images are the same, exactly.
+pub(super) fn symmetric(values: &[BigRational]) -> bool {
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable();
+    let pairs = sorted.iter().zip(sorted.iter().rev());
+    let mut sums = pairs.map(|(x, y)| x + y);
+    sums.all(|sum| sum.is_one())
+}
+
+/// How far values are from those of a polynomial collocation method: the largest `|Σ_j a_ij c_j^k − c_i^{k+1}/(k + 1)|`.
+pub(super) fn off_collocation(
+    stages: usize,
+    a: impl Fn(usize, usize) -> BigRational,
+    c: impl Fn(usize) -> BigRational,
+) -> BigRational {
+    let mut largest = BigRational::zero();
+    for i in 0..stages {
+        for k in 0..stages {
+            let power = |x: BigRational, n: usize| num_traits::pow(x, n);
+            let sum =
+                (0..stages).fold(BigRational::zero(), |sum, j| sum + a(i, j) * power(c(j), k));
+            let n = i64::try_from(k + 1).unwrap_or(i64::MAX);
+            let wanted = power(c(i), k + 1) * ratio(1, n);
+            largest = largest.max((sum - wanted).abs());
+        }
+    }
+    largest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(printed: &[i64], exact: &[i64], symmetric: bool, order: usize) -> Option<Found> {
+        node_polynomial(&Nodes {
+            printed: printed.iter().map(|&x| ratio(x, 1000)).collect(),
+            exact: exact.iter().map(|&x| ratio(x, 1)).collect(),
+            symmetric,
+            order,
+        })
+    }
+
+    #[test]
+    fn polynomials_of_the_families_are_found() {
+        for (printed, exact, order, name) in [
+            (&[113, 500, 887][..], &[][..], 6, "gauss(3)"),
+            (&[0, 500, 1000], &[0, 1], 4, "lobatto(3)"),
+            (&[155, 645, 1000], &[1], 5, "radau-right(3)"),
+            (&[0, 355, 845], &[0], 5, "radau-left(3)"),
+        ] {
+            let found = found(printed, exact, false, order).expect(name);
+            assert!(found.only_one, "{name}");
+            let (rule, named) = rule(&found.polynomial).expect(name);
+            assert!(named && rule.name() == name, "{}", rule.name());
+        }
+        // One order more is a contradiction.
+        assert!(found(&[0, 500, 1000], &[0, 1], false, 5).is_none());
+        assert!(found(&[113, 500, 887], &[], false, 7).is_none());
+        // Three symmetric nodes have order 4, and one free number.
+        let free = found(&[200, 500, 800], &[], true, 4).expect("free");
+        assert!(!free.only_one);
+        let [low, high] = [ratio(1, 5), ratio(4, 5)].map(|x| free.polynomial.evaluate(&x));
+        assert!(low.is_zero() && high.is_zero());
+    }
+}

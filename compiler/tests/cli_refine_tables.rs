@@ -1,0 +1,314 @@
+//! Refining Butcher arrays on the command line.
+
+mod command;
+
+use std::path::Path;
+
+use command::{failure, stdout};
+use expect_test::expect;
+use serde_json::Value;
+use symplectic_compiler::arithmetic::rounding::Decimal;
+use symplectic_compiler::{Definition, Limits, Tableau};
+
+/// A file of this test.
+fn written(name: &str, text: &str) -> String {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let path = folder.join(format!("refine-table-{name}.toml"));
+    std::fs::write(&path, text).expect("a file");
+    path.display().to_string()
+}
+
+fn derive(definition: &str) -> Tableau {
+    let definition = Definition::parse(definition).expect("a definition");
+    definition.derive(&Limits::default()).expect("a tableau")
+}
+
+fn quoted(numbers: impl IntoIterator<Item = Decimal>) -> String {
+    let texts = numbers.into_iter().map(|number| format!("\"{number}\""));
+    format!("[{}]", texts.collect::<Vec<_>>().join(", "))
+}
+
+/// The arrays of a tableau to some significant digits: those for positions, and for a pair those for momenta.
+fn arrays(tableau: &Tableau, digits: usize, pair: bool) -> String {
+    let numbers = tableau.numbers().map(|number| number.decimal(digits));
+    let matrix = |rows: &[Vec<Decimal>]| {
+        let rows = rows.iter().map(|row| quoted(row.iter().cloned()));
+        format!("[{}]", rows.collect::<Vec<_>>().join(", "))
+    };
+    let mut text = format!(
+        "a = {}\nb = {}\nc = {}\n",
+        matrix(&numbers.a),
+        quoted(numbers.b.clone()),
+        quoted(numbers.c.clone()),
+    );
+    if pair {
+        text.push_str(&format!(
+            "a_tilde = {}\nb_tilde = {}\nc_tilde = {}\n",
+            matrix(&numbers.a_tilde),
+            quoted(numbers.b_tilde.clone()),
+            quoted(numbers.c_tilde.clone()),
+        ));
+    }
+    text
+}
+
+fn file(class: &str, order: usize, properties: &[&str], arrays: &str) -> String {
+    format!(
+        "[claim]\nclass = \"{class}\"\norder = {order}\nproperties = {properties:?}\n\n[printed]\n{arrays}"
+    )
+}
+
+fn refined(name: &str, text: &str) -> Value {
+    let json = stdout(&[
+        "refine",
+        &written(name, text),
+        "--digits",
+        "40",
+        "--format",
+        "json",
+    ]);
+    serde_json::from_str(&json).expect("JSON")
+}
+
+fn refused(name: &str, text: &str) -> String {
+    let path = written(name, text);
+    let (status, errors) = failure(&["refine", &path]);
+    assert_eq!(status, Some(1), "{errors}");
+    errors.replace(&path, "file")
+}
+
+/// Every number of a refined table is that of the tableau, to 40 digits.
+fn assert_numbers(found: &Value, tableau: &Tableau) {
+    let numbers = tableau
+        .numbers()
+        .map(|number| number.decimal(40).to_string());
+    let decimal = |cell: &Value| cell["decimal"].as_str().expect("a text").to_owned();
+    let list = |value: &Value| -> Vec<String> {
+        let cells = value.as_array().expect("a list").iter();
+        cells.map(decimal).collect()
+    };
+    assert_eq!(list(&found["b"]), numbers.b);
+    assert_eq!(list(&found["c"]), numbers.c);
+    for (key, rows) in [("a", &numbers.a), ("a_tilde", &numbers.a_tilde)] {
+        if let Some(found) = found[key].as_array() {
+            assert_eq!(&found.iter().map(list).collect::<Vec<_>>(), rows);
+        }
+    }
+}
+
+#[test]
+fn collocation_methods_are_those_of_their_nodes() {
+    for (nodes, order, pair, properties) in [
+        (
+            "gauss(2)",
+            4,
+            false,
+            &["symplectic", "symmetric", "collocation"][..],
+        ),
+        (
+            "gauss(3)",
+            6,
+            false,
+            &["symplectic", "symmetric", "collocation"],
+        ),
+        (
+            "gauss(4)",
+            8,
+            true,
+            &["symplectic", "symmetric", "collocation"],
+        ),
+        (
+            "gauss(10)",
+            20,
+            false,
+            &["symplectic", "symmetric", "collocation"],
+        ),
+        ("lobatto(3)", 4, true, &["symplectic", "symmetric"]),
+        (
+            "lobatto(5)",
+            8,
+            true,
+            &["symplectic", "symmetric", "collocation"],
+        ),
+        ("lobatto(4)", 6, false, &["symmetric", "collocation"]),
+        ("radau-right(3)", 5, false, &["collocation"]),
+        ("radau-right(2)", 3, true, &["symplectic"]),
+        ("chebyshev(3)", 4, false, &["symmetric", "collocation"]),
+    ] {
+        let (_, stages) = nodes.split_once('(').expect(nodes);
+        let tableau = derive(&format!("basis: polynomial({stages}, nodes: {nodes}"));
+        for digits in [12, 16, 20] {
+            let name = format!("{}-{digits}", nodes.replace(['(', ')'], "-"));
+            let text = file(
+                "general",
+                order,
+                properties,
+                &arrays(&tableau, digits, pair),
+            );
+            let found = refined(&name, &text);
+            assert_eq!(found["evidence"], "proved", "{name}");
+            let method = found["method"].as_str().expect("a method");
+            // Three equal weights: √2/4 is one free number, which the print fixes.
+            if !nodes.starts_with("chebyshev") {
+                assert_eq!(found["printed_digits"], "all", "{name}: {found}");
+                assert!(method.contains(nodes), "{method}");
+                assert_numbers(&found, &tableau);
+            }
+        }
+        // One order more is refuted.
+        let higher = file(
+            "general",
+            order + 1,
+            properties,
+            &arrays(&tableau, 16, pair),
+        );
+        let told = refused("higher", &higher);
+        assert!(
+            told.contains("order") || told.contains("away from"),
+            "{nodes}: {told}"
+        );
+    }
+}
+
+/// Positions and momenta exchanged, and stages in another order.
+#[test]
+fn pairs_are_found_in_any_order() {
+    let tableau = derive("basis: polynomial(3), nodes: lobatto(3), exchange: true");
+    let text = file("general", 4, &["symplectic"], &arrays(&tableau, 16, true));
+    let found = refined("exchanged", &text);
+    assert_eq!(found["printed_digits"], "all");
+    assert_numbers(&found, &tableau);
+    let reversed = "a = [[\"0.25\", \"0.538675134594813\"], [\"-0.038675134594813\", \"0.25\"]]\nb = [\"0.5\", \"0.5\"]\n";
+    let found = refined("reversed", &file("general", 4, &["symplectic"], reversed));
+    assert_eq!(found["printed_digits"], "all");
+    let entry = &found["a"][0][1]["decimal"];
+    assert_eq!(entry, "0.5386751345948128822545743902509787278238");
+}
+
+#[test]
+fn wrong_digits_are_named() {
+    let radau = derive("basis: polynomial(2), nodes: radau-right(2)");
+    let right = arrays(&radau, 16, false);
+    assert!(right.contains("-0.08333333333333333"), "{right}");
+    let wrong = right.replace("-0.08333333333333333", "-0.08333333333343333");
+    let path = written("radau-wrong", &file("general", 3, &["collocation"], &wrong));
+    expect![[r#"
+        proved: an exact method is within 1.0e-13 of the printed digits
+          method       polynomial(2) at radau-right(2)
+          claim        order 3 for general H, that of the quadrature, proved
+                       collocation, proved
+          wrong digits in 1 of 8 numbers, marked below
+                       proved: no method of this kind as claimed rounds to all printed digits
+          note         c[0] = 0.3333333333333333 is not the sum of row 0 of `a`, which is 0.33333333333323337000
+
+          a[0][0]   0.41666666666666666667
+          a[0][1]  -0.083333333333333333333  (the print is off by 1.0e-13)
+          a[1][0]   0.75000000000000000000
+          a[1][1]   0.25000000000000000000
+
+          b[0]      0.75000000000000000000
+          b[1]      0.25000000000000000000
+
+          c[0]      0.33333333333333333333
+          c[1]      1.0000000000000000000
+    "#]].assert_eq(&stdout(&["refine", &path, "--digits", "20"]));
+    // A digit too early to be one of this method.
+    let far = right.replace("-0.08333333333333333", "-0.0834333333333333");
+    expect![[r#"
+        error: c[0] = 0.3333333333333333 is not the sum of row 0 of `a`, which is 0.33323333333333340000
+         --> file:9:6
+          |
+        9 | c = ["0.3333333333333333", "1.000000000000000"]
+          |      ^^^^^^^^^^^^^^^^^^^^
+    "#]].assert_eq(&refused("radau-far", &file("general", 3, &[], &far)));
+    // A node that is not the row sum, and a claim that is too high.
+    let node = right.replace("c = [\"0.3333333333333333\"", "c = [\"0.3333333333433333\"");
+    expect![[r#"
+        error: c[0] = 0.3333333333433333 is not the sum of row 0 of `a`, which is 0.33333333333333337000
+         --> file:9:6
+          |
+        9 | c = ["0.3333333333433333", "1.000000000000000"]
+          |      ^^^^^^^^^^^^^^^^^^^^
+    "#]].assert_eq(&refused("radau-node", &file("general", 3, &[], &node)));
+    expect![[r#"
+        error: no collocation method with 2 nodes, 1 of them as printed exactly, has order 4
+         --> file:3:9
+          |
+        3 | order = 4
+          |         ^
+    "#]]
+    .assert_eq(&refused("radau-high", &file("general", 4, &[], &right)));
+    let symplectic = file("general", 3, &["symplectic"], &right);
+    expect![[r#"
+        error: the method is not symplectic, which is proved
+         --> file:4:15
+          |
+        4 | properties = ["symplectic"]
+          |               ^^^^^^^^^^^^
+    "#]]
+    .assert_eq(&refused("radau-symplectic", &symplectic));
+}
+
+/// Qin & Zhang 1992 with two stages, and Sanz-Serna & Abia 1991, three steps of the midpoint rule as in the triple jump.
+#[test]
+fn symplectic_diagonally_implicit_methods_are_certified() {
+    let qin_zhang = "a = [[\"0.25\", \"0.0\"], [\"0.5\", \"0.25\"]]\nb = [\"0.5\", \"0.5\"]\nc = [\"0.25\", \"0.75\"]\n";
+    let found = refined("qin-zhang", &file("general", 2, &["symplectic"], qin_zhang));
+    assert_eq!(found["printed_digits"], "all");
+    let abia = "a = [[\"0.675603595979829\", \"0\", \"0\"], [\"1.351207191959658\", \"-0.851207191959658\", \"0\"], [\"1.351207191959658\", \"-1.702414383919315\", \"0.675603595979829\"]]\nb = [\"1.351207191959658\", \"-1.702414383919315\", \"1.351207191959658\"]\nc = [\"0.675603595979829\", \"0.5\", \"0.324396404020171\"]\n";
+    let found = refined(
+        "abia",
+        &file("general", 4, &["symplectic", "symmetric"], abia),
+    );
+    assert_eq!(found["evidence"], "certified");
+    assert_eq!(found["printed_digits"], "all", "{found}");
+    // 1/(2 − ∛2).
+    let b = &found["b"][0]["decimal"];
+    assert_eq!(b, "1.351207191959657634047687808971460826922");
+    let told = refused("abia-high", &file("general", 6, &["symplectic"], abia));
+    assert!(told.contains("too few to certify"), "{told}");
+}
+
+#[test]
+fn explicit_pairs_are_splittings() {
+    let ruth = "a = [[\"0\", \"0\"], [\"1.0\", \"0\"]]\nb = [\"1.0\", \"0.0\"]\na_tilde = [[\"0.5\", \"0\"], [\"0.5\", \"0.5\"]]\nb_tilde = [\"0.5\", \"0.5\"]\n";
+    let found = refined("verlet", &file("separable", 2, &["symplectic"], ruth));
+    assert_eq!(found["evidence"], "certified");
+    assert_eq!(found["printed_digits"], "all", "{found}");
+    let told = refused("verlet-general", &file("general", 2, &[], ruth));
+    assert!(told.contains("class = \"separable\""), "{told}");
+}
+
+#[test]
+fn other_arrays_and_files_are_refused() {
+    let sdirk = "a = [[\"0.7886751345948129\", \"0\"], [\"-0.5773502691896258\", \"0.7886751345948129\"]]\nb = [\"0.5\", \"0.5\"]\n";
+    let told = refused("crouzeix", &file("general", 3, &[], sdirk));
+    assert!(told.contains("no exact method is looked for"), "{told}");
+    let told = refused(
+        "crouzeix-collocation",
+        &file("general", 3, &["collocation"], sdirk),
+    );
+    assert!(
+        told.contains("not the arrays of a collocation method"),
+        "{told}"
+    );
+    let bad = |name: &str, text: &str| {
+        let (status, errors) = failure(&["refine", &written(name, text)]);
+        assert_eq!(status, Some(2), "{errors}");
+        errors
+    };
+    let short = file("general", 1, &[], "a = [[\"1\"]]\nb = [\"1\", \"0\"]\n");
+    assert!(bad("short", &short).contains("a length of 1 in `a`, and `b` has 2"));
+    let class = file("everything", 1, &[], "a = [[\"1\"]]\nb = [\"1\"]\n");
+    assert!(bad("class", &class).contains("unknown class `everything`"));
+    let property = file("general", 1, &["stable"], "a = [[\"1\"]]\nb = [\"1\"]\n");
+    assert!(bad("property", &property).contains("unknown property `stable`"));
+    let missing = file("general", 1, &[], "a = [[\"1\"]]\n");
+    assert!(bad("missing", &missing).contains("missing field `b`"));
+    let many = vec!["\"0\""; 17].join(", ");
+    let many = file("general", 1, &[], &format!("a = []\nb = [{many}]\n"));
+    assert!(bad("many", &many).contains("tables of 1 to 16"));
+    let long = format!("\"0.{}\"", "1".repeat(500));
+    let long = file("general", 1, &[], &format!("a = [[{long}]]\nb = [\"1\"]\n"));
+    assert!(bad("long", &long).contains("more than 400 decimal places"));
+}
