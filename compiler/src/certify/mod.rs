@@ -54,6 +54,8 @@ pub use certificate::{Certificate, Fixed};
 pub use conditions::{Claim, Condition, Conditions, MAX_ORDER, MAX_PERTURBED_ORDER};
 pub use digits::Digits;
 pub use error::CertifyError;
+pub(crate) use linear::middle;
+pub(crate) use minimax::{Row, minimax};
 pub use printed::{MAX_DIGITS, Printed};
 pub use search::{certify, certify_composition};
 pub use splitting::{MAX_STAGES, Splitting};

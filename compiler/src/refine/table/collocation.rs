@@ -21,11 +21,11 @@ pub(super) struct Nodes {
     pub order: usize,
 }
 
-/// A polynomial whose roots are nodes as wanted.
-pub(super) struct Found {
-    pub polynomial: Polynomial,
-    /// Whether it is the only one.
-    pub only_one: bool,
+/// All polynomials whose roots are nodes as wanted: the coefficients that are free determine the others.
+pub(super) struct Family {
+    degree: usize,
+    /// The reduced echelon form, with its pivots.
+    rows: Vec<(usize, Equation)>,
 }
 
 /// `Σ_k coefficients_k m_k = right` for the coefficients of `M = x^s + m_{s−1} x^{s−1} + ⋯ + m_0`.
@@ -34,30 +34,42 @@ struct Equation {
     right: BigRational,
 }
 
-/// The polynomial nearest in its free coefficients to the printed nodes; `None` if the conditions contradict one another.
-pub(super) fn node_polynomial(nodes: &Nodes) -> Option<Found> {
-    let degree = nodes.printed.len();
-    let mut rows = echelon(equations(nodes), degree)?;
-    let printed = nodes
-        .printed
-        .iter()
-        .fold(Polynomial::one(), |product, node| {
-            let factor = Polynomial::from_rationals(&[-node, BigRational::one()]);
-            &product * &factor
-        });
-    // Rows are reduced: each pivot is the printed value of the free ones apart from it.
-    let mut coefficients: Vec<BigRational> = (0..degree).map(|k| printed.coefficient(k)).collect();
-    let only_one = rows.len() == degree;
-    for (pivot, row) in rows.drain(..) {
-        let free = (0..degree).filter(|k| *k != pivot);
-        let rest = free.map(|k| &row.coefficients[k] * &printed.coefficient(k));
-        coefficients[pivot] = rest.fold(row.right.clone(), |rest, x| rest - x);
+impl Family {
+    /// `None` if the conditions contradict one another.
+    pub fn of(nodes: &Nodes) -> Option<Self> {
+        let degree = nodes.printed.len();
+        let rows = echelon(equations(nodes), degree)?;
+        Some(Family { degree, rows })
     }
-    coefficients.push(BigRational::one());
-    Some(Found {
-        polynomial: Polynomial::from_rationals(&coefficients),
-        only_one,
-    })
+
+    /// The powers whose coefficients are free.
+    pub fn free(&self) -> Vec<usize> {
+        let pivot = |power: usize| self.rows.iter().any(|(pivot, _)| *pivot == power);
+        (0..self.degree).filter(|&power| !pivot(power)).collect()
+    }
+
+    /// The polynomial with the free ones of some coefficients.
+    pub fn polynomial(&self, coefficients: &[BigRational]) -> Polynomial {
+        let mut all = coefficients.to_vec();
+        for (pivot, row) in &self.rows {
+            let others = self.free().into_iter();
+            let rest = others.map(|power| &row.coefficients[power] * &coefficients[power]);
+            all[*pivot] = rest.fold(row.right.clone(), |rest, x| rest - x);
+        }
+        all.push(BigRational::one());
+        Polynomial::from_rationals(&all)
+    }
+}
+
+/// The coefficients of the polynomial of some nodes, apart from the first, which is 1.
+pub(super) fn coefficients(nodes: &[BigRational]) -> Vec<BigRational> {
+    let product = nodes.iter().fold(Polynomial::one(), |product, node| {
+        let factor = Polynomial::from_rationals(&[-node, BigRational::one()]);
+        &product * &factor
+    });
+    (0..nodes.len())
+        .map(|power| product.coefficient(power))
+        .collect()
 }
 
 fn equations(nodes: &Nodes) -> Vec<Equation> {
@@ -188,13 +200,21 @@ pub(super) fn off_collocation(
 mod tests {
     use super::*;
 
-    fn found(printed: &[i64], exact: &[i64], symmetric: bool, order: usize) -> Option<Found> {
-        node_polynomial(&Nodes {
-            printed: printed.iter().map(|&x| ratio(x, 1000)).collect(),
+    fn found(
+        printed: &[i64],
+        exact: &[i64],
+        symmetric: bool,
+        order: usize,
+    ) -> Option<(Polynomial, usize)> {
+        let printed: Vec<BigRational> = printed.iter().map(|&x| ratio(x, 1000)).collect();
+        let start = coefficients(&printed);
+        let family = Family::of(&Nodes {
+            printed,
             exact: exact.iter().map(|&x| ratio(x, 1)).collect(),
             symmetric,
             order,
-        })
+        })?;
+        Some((family.polynomial(&start), family.free().len()))
     }
 
     #[test]
@@ -205,18 +225,18 @@ mod tests {
             (&[155, 645, 1000], &[1], 5, "radau-right(3)"),
             (&[0, 355, 845], &[0], 5, "radau-left(3)"),
         ] {
-            let found = found(printed, exact, false, order).expect(name);
-            assert!(found.only_one, "{name}");
-            let (rule, named) = rule(&found.polynomial).expect(name);
+            let (polynomial, free) = found(printed, exact, false, order).expect(name);
+            assert_eq!(free, 0, "{name}");
+            let (rule, named) = rule(&polynomial).expect(name);
             assert!(named && rule.name() == name, "{}", rule.name());
         }
         // One order more is a contradiction.
         assert!(found(&[0, 500, 1000], &[0, 1], false, 5).is_none());
         assert!(found(&[113, 500, 887], &[], false, 7).is_none());
         // Three symmetric nodes have order 4, and one free number.
-        let free = found(&[200, 500, 800], &[], true, 4).expect("free");
-        assert!(!free.only_one);
-        let [low, high] = [ratio(1, 5), ratio(4, 5)].map(|x| free.polynomial.evaluate(&x));
+        let (polynomial, free) = found(&[200, 500, 800], &[], true, 4).expect("free");
+        assert_eq!(free, 1);
+        let [low, high] = [ratio(1, 5), ratio(4, 5)].map(|x| polynomial.evaluate(&x));
         assert!(low.is_zero() && high.is_zero());
     }
 }

@@ -1,16 +1,19 @@
 //! What kind of method printed arrays are, and the exact method of that kind.
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::collocation::{Found, Nodes, node_polynomial, off_collocation, rule, symmetric};
+use super::collocation::{Family, Nodes, coefficients, off_collocation, rule, symmetric};
 use super::read::{Claimed, OffSum, Table, not_certified, off_sums};
 use super::{Array, Cell, Exact, RefinedTable, Terms};
+use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::Decimal;
 use crate::basis::Basis;
 use crate::certify::{
-    Certificate, Claim, Coefficient, Digits, Printed, Splitting, certify, certify_composition,
+    Certificate, Claim, Coefficient, Digits, Printed, Row, Splitting, certify, certify_composition,
+    middle, minimax,
 };
 use crate::definition::{Definition, Key};
 use crate::derive::derive_from;
@@ -176,23 +179,16 @@ fn by_nodes(file: Input<'_>, table: &Table, role: Role) -> Result<RefinedTable, 
         printed,
     };
     // Nodes that are symmetric in print and not claimed to be are kept so, if anything is left to choose.
-    let alone = node_polynomial(&nodes);
-    if alone.as_ref().is_some_and(|found| !found.only_one) && symmetric(&nodes.printed) {
+    let mut family = Family::of(&nodes);
+    let only_one = family
+        .as_ref()
+        .is_some_and(|family| family.free().is_empty());
+    if family.is_some() && !only_one && symmetric(&nodes.printed) {
         nodes.symmetric = true;
+        family = Family::of(&nodes).or(family);
     }
     let refused = |message: String| not_certified(file, table.order_span.clone(), message);
-    let found = match nodes.symmetric == claimed {
-        true => alone,
-        false => node_polynomial(&nodes).map(|found| Found {
-            only_one: false,
-            ..found
-        }),
-    };
-    let Some(Found {
-        polynomial,
-        only_one,
-    }) = found
-    else {
+    let Some(family) = family else {
         let stages = table.stages;
         let message = format!(
             "no collocation method with {stages} node{}{}{} has order {}",
@@ -210,29 +206,120 @@ fn by_nodes(file: Input<'_>, table: &Table, role: Role) -> Result<RefinedTable, 
         );
         return Err(refused(message));
     };
-    let (rule, named) = rule(&polynomial).map_err(&refused)?;
-    let tableau = derived(&rule, named, role).map_err(&refused)?;
-    let stages = ranks(&nodes.printed);
+    let build = |coefficients: &[BigRational]| {
+        let (rule, named) = rule(&family.polynomial(coefficients))?;
+        let exact = Exact::Derived {
+            tableau: Box::new(derived(&rule, named, role)?),
+            stages: ranks(&nodes.printed),
+        };
+        Ok::<_, String>((rule, exact))
+    };
+    let start = coefficients(&nodes.printed);
+    let (rule, exact) =
+        within_last_places(table, &family.free(), start, build).map_err(&refused)?;
+    let Exact::Derived { tableau, .. } = &exact else {
+        return Err(refused("the table is not derived".to_owned()));
+    };
     let mut method = format!("polynomial({}) at {}", table.stages, rule.name());
     method.push_str(match (role, table.has(Array::ATilde)) {
         (Role::Positions, false) => "",
         (Role::Positions, true) => " with its symplectic partner",
         (Role::Momenta, _) => " for momenta, with its symplectic partner for positions",
     });
-    let facts = proved(file, table, &tableau, &rule)?;
+    let facts = proved(file, table, tableau, &rule)?;
     Ok(RefinedTable {
         name: table.name.clone(),
         source: table.source.clone(),
         cells: table.cells.clone(),
-        exact: Exact::Derived {
-            tableau: Box::new(tableau),
-            stages,
-        },
+        exact,
         method,
         facts,
         notes: Vec::new(),
         only_one,
     })
+}
+
+/// The method whose numbers are nearest to their prints, each measured by its own last place: the free coefficients of the
+/// node polynomial are moved as in [`minimax`].
+fn within_last_places(
+    table: &Table,
+    free: &[usize],
+    start: Vec<BigRational>,
+    build: impl Fn(&[BigRational]) -> Result<(QuadratureRule, Exact), String>,
+) -> Result<(QuadratureRule, Exact), String> {
+    const MAX_SHIFTS: usize = 4;
+    let places = table
+        .cells
+        .iter()
+        .filter_map(|cell| cell.printed.places())
+        .max();
+    let places = places.unwrap_or(0);
+    let bits = 192 + 4 * places;
+    // Steps of difference quotients: as small as the digits.
+    let step = BigRational::new(BigInt::one(), BigInt::from(10).pow(places));
+    let scale = BigRational::from_integer(BigInt::from(10).pow(places + 4));
+    let printed: Vec<&Cell> = {
+        let cells = table.cells.iter();
+        cells
+            .filter(|cell| cell.printed.half_unit().is_positive())
+            .collect()
+    };
+    let units = |value: &BigRational| middle(&Interval::enclosing(value, bits));
+    let numbers = |exact: &Exact| -> Vec<BigInt> {
+        let pairs = table.cells.iter().zip(exact.enclosures(&table.cells, bits));
+        let pairs = pairs.filter(|(cell, _)| cell.printed.half_unit().is_positive());
+        pairs.map(|(_, enclosure)| middle(&enclosure)).collect()
+    };
+    let mut coefficients = start;
+    let mut best = build(&coefficients)?;
+    let mut reached = None;
+    for _ in 0..MAX_SHIFTS {
+        let at = numbers(&best.1);
+        let halves: Vec<BigInt> = printed
+            .iter()
+            .map(|cell| units(&cell.printed.half_unit()))
+            .collect();
+        let residuals: Vec<BigInt> = {
+            let pairs = at.iter().zip(&printed);
+            pairs
+                .map(|(value, cell)| value - units(cell.printed.value()))
+                .collect()
+        };
+        let mut pairs = residuals.iter().zip(&halves);
+        if free.is_empty() || pairs.all(|(residual, half)| residual.abs() <= *half) {
+            break;
+        }
+        let mut slopes: Vec<Vec<BigInt>> = vec![Vec::new(); printed.len()];
+        for &power in free {
+            let mut moved = coefficients.clone();
+            moved[power] += &step;
+            let moved = numbers(&build(&moved)?.1);
+            for ((slopes, after), before) in slopes.iter_mut().zip(moved).zip(&at) {
+                slopes.push(after - before);
+            }
+        }
+        let rows: Vec<Row> = {
+            let rows = residuals.into_iter().zip(slopes).zip(halves);
+            rows.map(|((residual, slopes), half)| Row {
+                residual,
+                slopes,
+                half,
+            })
+            .collect()
+        };
+        // A level that does not fall is the nearest there is.
+        let Some(found) = minimax(&rows) else { break };
+        if reached.as_ref().is_some_and(|level| found.level >= *level) {
+            break;
+        }
+        reached = Some(found.level);
+        for (&power, shift) in free.iter().zip(&found.shift) {
+            let exact = (&coefficients[power] + shift * &step) * &scale;
+            coefficients[power] = exact.round() / &scale;
+        }
+        best = build(&coefficients)?;
+    }
+    Ok(best)
 }
 
 fn derived(rule: &QuadratureRule, named: bool, role: Role) -> Result<Tableau, String> {

@@ -18,7 +18,7 @@
 //!    The method is determined by its nodes (MW 2.6.2), and these by their polynomial `M`. The order `p` of the quadrature
 //!    means `∫M x^k = 0` for `k < p − s`; nodes that are printed as 0 or 1 or as fractions are roots; symmetric nodes mean
 //!    `M(1 − x) = ±M(x)`: all of it is linear in the coefficients of `M`, and is solved in rational numbers. What is left
-//!    free has the value of the print. The table is derived in the algebra of the roots, so that everything said of it is
+//!    free moves until all entries round to their prints. The table is derived in the algebra of the roots, so that everything said of it is
 //!    proved.
 //! 2. **steps of the implicit midpoint rule**, the symplectic diagonally implicit methods: `a_ij = b_j` for `j < i`,
 //!    `a_ii = b_i/2`. The `b_i` are the weights of a composition, which are [certified](crate::certify).
