@@ -50,12 +50,9 @@ fn digits_that_are_wrong_in_print_are_told() {
     // Printed with 20 decimals, of which those beyond the 13th are wrong.
     assert!(wrong("Yoshida1990Order8C") > 20);
     assert!(wrong("Yoshida1990Order8D") > 20);
-    for name in [
-        "Yoshida1990Order6A",
-        "Suzuki1990",
-        "Ruth1983",
-        "StormerVerlet",
-    ] {
+    // The last of 20 decimals of two weights is not the rounded one: they are 5.7e-21 and 5.8e-21 off.
+    assert_eq!(wrong("Yoshida1990Order6A"), 3);
+    for name in ["Suzuki1990", "Ruth1983", "StormerVerlet"] {
         assert_eq!(wrong(name), 0, "{name}");
     }
 }
