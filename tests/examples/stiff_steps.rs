@@ -18,25 +18,22 @@ fn main() {
         easy += u32::from(is_easy);
         grown += u32::from(outcome.grows);
         unknown += u32::from(outcome.error.is_none());
-        let mut is_good = true;
-        match &outcome.sweeps {
+        let is_good = match &outcome.sweeps {
             Ok(sweeps) => {
                 if is_easy {
-                    most = sweeps.max(&most).to_owned();
+                    most = most.max(*sweeps);
                 }
                 slow += u32::from(is_easy && *sweeps > 30);
-                is_good = *sweeps <= 30;
-                if let (Some(error), false) = (outcome.error, outcome.grows) {
-                    largest = largest.max(error);
-                    is_good &= error < 4.0;
-                }
+                let error = outcome.error.filter(|_| !outcome.grows).unwrap_or(0.0);
+                largest = largest.max(error);
+                *sweeps <= 30 && error < 4.0
             }
             Err(_) => {
                 failed += 1;
                 easily_failed += u32::from(is_easy);
-                is_good = false;
+                false
             }
-        }
+        };
         if shows && !is_good {
             println!("{outcome:?}");
         }

@@ -619,7 +619,7 @@ fn momentum<P: StageTableau>(i: usize, j: usize) -> f64 {
 /// Moves every component by a unit of EPSILON, up or down as good as at random.
 fn jog<V: Vector>(values: &mut V, stage: usize) {
     for (k, value) in values.as_mut_slice().iter_mut().enumerate() {
-        let up = (stage * 7 + k * 5 + stage * k) % 3 % 2 == 0;
+        let up = ((stage * 7 + k * 5 + stage * k) % 3).is_multiple_of(2);
         let unit = V::Scalar::from_f64(if up {
             V::Scalar::EPSILON
         } else {

@@ -36,12 +36,15 @@ impl Sensitivity {
     }
 }
 
+/// The time of a stage and its values.
+pub type StageValues = (f64, Vec<f64>);
+
 /// A system that tells [`FullNewton`] where to start, and takes its notes.
 #[derive(Clone, Debug)]
 pub struct Watched<S> {
     system: S,
     /// Positions inside the step at fractions of it, to start from; from the start of the step where there are none.
-    pub guess: Rc<RefCell<Vec<(f64, Vec<f64>)>>>,
+    pub guess: Rc<RefCell<Vec<StageValues>>>,
     /// Of the last step.
     pub notes: Rc<RefCell<Sensitivity>>,
     /// Whether notes are taken.
