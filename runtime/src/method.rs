@@ -11,7 +11,7 @@ use crate::{
 /// A symplectic partitioned Runge–Kutta method: a type without a value, emitted from a proved tableau.
 ///
 /// It can be run on separable systems. On general ones it can where it is [`ProvedFor`] them.
-pub trait Method: ProvedFor<Separable> + Copy + Debug + 'static {
+pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static {
     /// Name of the method.
     const NAME: &'static str;
     /// Number of stages s of the tableau; a plan may store fewer.

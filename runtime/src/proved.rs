@@ -1,12 +1,15 @@
 //! For which systems a method is what its name promises.
 
-use crate::{Class, Coefficients, Method};
+use crate::{Coefficients, Method};
 
 /// The order and the symplecticity of a method on the systems of class `C` are not lower than on a narrower class.
 ///
 /// The macros implement it from what the compiler proves. Every method has it for [`Separable`](crate::Separable). A splitting is
 /// symplectic for separable Hamiltonians only and lacks it for [`General`](crate::General):
 /// [`Integrator::new`](crate::Integrator::new) does not compile there. [`Method::accept_lower_order`] lifts that.
+///
+/// Every method has it for `()` too, which is no class: where there were one class only, the compiler would conclude it from the
+/// method, and complain about the system.
 ///
 /// Code that is generic over the method and the system asks for `M: Method + ProvedFor<S::Class>`.
 ///
@@ -33,7 +36,7 @@ use crate::{Class, Coefficients, Method};
     note = "otherwise take a method for general Hamiltonians, such as `basis: polynomial(s), nodes: gauss(s)` or `lobatto(s)`",
     note = "to go on knowingly, write `.accept_lower_order()` after the method"
 )]
-pub trait ProvedFor<C: Class> {}
+pub trait ProvedFor<C> {}
 
 /// The order of a method for each class of Hamiltonians, as the compiler found it. The documentation of the method says how each
 /// order is known.
@@ -62,4 +65,4 @@ impl<M: Method> Method for LowerOrder<M> {
     type Separable = M::Separable;
 }
 
-impl<M: Method, C: Class> ProvedFor<C> for LowerOrder<M> {}
+impl<M: Method, C> ProvedFor<C> for LowerOrder<M> {}

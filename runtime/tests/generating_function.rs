@@ -13,8 +13,8 @@ use common::systems::{Driven, Pendulum, Product, point};
 use common::{Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::{
-    Class, Coefficient, Coefficients, Error, General, GeneratingFunction, Hamiltonian, Integrator,
-    Method, Orders, ProvedFor, Quantity, Scalar, SeparableHamiltonian, State, generating_function,
+    Coefficient, Coefficients, Error, General, GeneratingFunction, Hamiltonian, Integrator, Method,
+    Orders, ProvedFor, Quantity, Scalar, SeparableHamiltonian, State, generating_function,
     hamiltonian, separable,
 };
 
@@ -204,7 +204,7 @@ macro_rules! impostor {
             type Separable = <StoermerVerlet as Method>::Separable;
         }
 
-        impl<C: Class> ProvedFor<C> for $name {}
+        impl<C> ProvedFor<C> for $name {}
     };
 }
 

@@ -267,9 +267,13 @@ fn orders(tableau: &Tableau) -> TokenStream {
 /// The classes of systems on which the method is no worse than on narrower ones.
 fn proved(tableau: &Tableau, name: &Ident) -> TokenStream {
     if tableau.keeps_its_order_in_general() {
-        quote!(impl<C: ::symplectic::Class> ::symplectic::ProvedFor<C> for #name {})
+        quote!(impl<C> ::symplectic::ProvedFor<C> for #name {})
     } else {
-        quote!(impl ::symplectic::ProvedFor<::symplectic::Separable> for #name {})
+        // The second keeps the compiler from concluding the class from the method.
+        quote! {
+            impl ::symplectic::ProvedFor<::symplectic::Separable> for #name {}
+            impl ::symplectic::ProvedFor<()> for #name {}
+        }
     }
 }
 
