@@ -62,6 +62,15 @@ impl Ball {
         Ball::dyadic(BigInt::from(value), 0, u32::MAX)
     }
 
+    /// One of −1, 0 and 1.
+    pub fn of_sign(sign: Ordering) -> Self {
+        match sign {
+            Ordering::Less => Ball::whole(1).negate(),
+            Ordering::Equal => Ball::zero(),
+            Ordering::Greater => Ball::whole(1),
+        }
+    }
+
     /// The number `n·2ᵉ`, rounded to this many bits.
     pub fn dyadic(middle: BigInt, exponent: i64, bits: u32) -> Self {
         if middle.is_zero() {
@@ -93,16 +102,21 @@ impl Ball {
             Zero::Within(_) => return Ball::undecided(&number.enclose(bits)),
             Zero::No => {}
         }
-        let mut places = bits + 64;
+        // A few places tell how large it is, and so how many are needed.
+        let mut places = 64;
         loop {
             let interval = number.enclose(places);
-            if interval.sign().is_some() {
-                let wanted = interval.magnitude_bits() - i64::from(bits);
-                if interval.width_bits() <= wanted {
-                    return Ball::around(&interval, bits);
-                }
+            let wanted = interval.magnitude_bits() - i64::from(bits);
+            let known = interval.sign().is_some();
+            if known && interval.width_bits() <= wanted {
+                return Ball::around(&interval, bits);
             }
-            places *= 2;
+            let needed = u32::try_from(8 - wanted).unwrap_or(0);
+            places = if known && needed > places {
+                needed
+            } else {
+                2 * places
+            };
         }
     }
 
@@ -166,6 +180,13 @@ impl Ball {
         }
     }
 
+    /// A number `n` with `2ⁿ ≤ |x|`, unless `x` may be zero.
+    pub fn least_magnitude(&self) -> Option<i64> {
+        let least = self.middle.abs() - &self.radius;
+        let exponent = || least.bits() as i64 - 1 + self.exponent;
+        least.is_positive().then(exponent)
+    }
+
     /// A ball around zero with all these numbers.
     #[must_use]
     pub fn size(&self) -> Self {
@@ -182,6 +203,21 @@ impl Ball {
             exponent: self.exponent + places,
             scale: self.scale + places,
             ..self.clone()
+        }
+    }
+
+    /// The number, rounded to this many bits.
+    #[must_use]
+    pub fn with_bits(&self, bits: u32) -> Self {
+        let rounded = Ball::rounded(
+            self.middle.clone(),
+            self.radius.clone(),
+            self.exponent,
+            bits,
+        );
+        Ball {
+            scale: self.scale,
+            ..rounded
         }
     }
 
@@ -355,8 +391,8 @@ impl Field for Balls {
         None
     }
 
-    fn enclose(&self, x: &Ball, _bits: u32) -> Ball {
-        x.clone()
+    fn enclose(&self, x: &Ball, bits: u32) -> Ball {
+        x.with_bits(bits)
     }
 
     fn finest_bits(&self) -> Option<u32> {

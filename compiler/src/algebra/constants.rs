@@ -429,14 +429,20 @@ impl Field for Constants {
     }
 
     fn length(&self, x: &FieldElement) -> u64 {
-        if !self.is_costly() {
-            return 0;
-        }
         let lists = [x.numerator(), x.denominator()];
         let words = |c: &Polynomial| -> u64 {
             let bits: u64 = c.numerators().iter().map(BigInt::bits).sum();
-            (bits + c.denominator().bits()) / 64 + c.numerators().len() as u64
+            (bits + c.denominator().bits()) / 64
         };
-        lists.into_iter().flatten().map(words).sum()
+        let polynomials = || lists.into_iter().flatten();
+        let total: u64 = polynomials().map(words).sum();
+        if !self.is_costly() {
+            // Products of algebraic numbers take less, and little where their coefficients are short.
+            return total / 8;
+        }
+        total
+            + polynomials()
+                .map(|c| c.numerators().len() as u64)
+                .sum::<u64>()
     }
 }

@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero as _};
 
 use super::{Field, Number, Zero};
-use crate::arithmetic::interval::Interval;
+use crate::arithmetic::interval::{Interval, more_places};
 use crate::certify::{Certificate, Coefficient};
 use crate::symbolic::Constant;
 
@@ -118,14 +118,15 @@ impl Real {
         let mut guard = 96;
         loop {
             let working = bits + guard;
-            if let Some(interval) = self.evaluate(working)
+            let found = self.evaluate(working);
+            if let Some(interval) = &found
                 && interval.width_bits() <= -i64::from(bits)
             {
-                return interval;
+                return interval.clone();
             }
             // The inverses in an expression are of numbers that are known not to be zero, so some
             // precision suffices.
-            guard *= 2;
+            guard = more_places(guard, bits, found.as_ref());
         }
     }
 

@@ -77,8 +77,13 @@ pub fn exp(x: &Interval) -> Option<Interval> {
         return None;
     }
     let low = exp_of_point(&x.low, x.bits);
-    let high = if x.low == x.high {
+    let width = &x.high - &x.low;
+    let high = if width.is_zero() {
         low.high
+    } else if width.bits() <= u64::from(x.bits) {
+        // eʷ ≤ 1 + w + w² for w ≤ 1.
+        let growth: BigInt = &width + ((&width * &width) >> x.bits) + 1;
+        &low.high + ((&low.high * growth) >> x.bits) + 1
     } else {
         exp_of_point(&x.high, x.bits).high
     };
@@ -151,8 +156,13 @@ pub fn ln(x: &Interval) -> Option<Interval> {
         return None;
     }
     let low = ln_of_point(&x.low, x.bits);
-    let high = if x.low == x.high {
+    let width = &x.high - &x.low;
+    let excess = 2 * (x.low.bits() as i64 - 1 - width.bits() as i64);
+    let high = if width.is_zero() {
         low.high
+    } else if excess >= i64::from(x.bits) {
+        // ln(x + w) ≤ ln x + w/x, and no more than a unit less.
+        &low.high + (width << x.bits).div_ceil(&x.low)
     } else {
         ln_of_point(&x.high, x.bits).high
     };

@@ -21,6 +21,15 @@ pub struct Interval {
     pub(crate) bits: u32,
 }
 
+/// More places beyond those asked for, from an enclosure with too few of them: as many as its width tells, or twice as many.
+pub(crate) fn more_places(guard: u32, bits: u32, found: Option<&Interval>) -> u32 {
+    let width = found.map(Interval::width_bits).filter(|&width| width < 0);
+    let missing = width.and_then(|width| u32::try_from(width + i64::from(bits)).ok());
+    missing.map_or(guard.saturating_mul(2), |missing| {
+        guard.saturating_add(missing.max(8) + 8)
+    })
+}
+
 impl Interval {
     /// The smallest interval with `bits` binary places around a rational.
     pub fn enclosing(value: &BigRational, bits: u32) -> Self {

@@ -82,13 +82,18 @@ fn root_bound(polynomial: &Polynomial) -> BigInt {
 
 /// The sign of a polynomial at `point·2⁻ᵇⁱᵗˢ`.
 fn sign_at(polynomial: &Polynomial, point: &BigInt, bits: u32) -> Sign {
+    value_at(polynomial, point, bits).sign()
+}
+
+/// The value of a polynomial of degree `n` at `point·2⁻ᵇⁱᵗˢ`, times its denominator and `2ⁿᵇⁱᵗˢ`.
+fn value_at(polynomial: &Polynomial, point: &BigInt, bits: u32) -> BigInt {
     let mut scale = 0;
     let mut value = BigInt::zero();
     for numerator in polynomial.numerators().iter().rev() {
         value = value * point + (numerator << scale);
         scale += bits as usize;
     }
-    value.sign()
+    value
 }
 
 struct SturmChain(Vec<Polynomial>);
@@ -156,6 +161,9 @@ fn classify(polynomial: &Polynomial, low: BigInt, high: BigInt, bits: u32) -> Ro
     let rational = |point: &BigInt, bits: u32| {
         Root::Rational(BigRational::new(point.clone(), BigInt::one() << bits))
     };
+    if let [constant, slope] = polynomial.numerators() {
+        return Root::Rational(BigRational::new(-constant, slope.clone()));
+    }
     if sign_at(polynomial, &high, bits) == Sign::NoSign {
         return rational(&high, bits);
     }
@@ -170,28 +178,31 @@ fn classify(polynomial: &Polynomial, low: BigInt, high: BigInt, bits: u32) -> Ro
             _ => low = middle,
         }
     }
-    if polynomial.leading().numer().bits() > LONG && surely_has_no_rational_root(polynomial) {
+    if is_long(polynomial) && surely_has_no_rational_root(polynomial) {
         return Root::Irrational(Interval { low, high, bits });
     }
-    // A rational root is k/leading for a whole k: in an interval shorter than 1/(2·leading) it is the
-    // simplest rational, or there is none.
-    let leading = polynomial.leading().to_integer();
-    let interval = match refine(
-        polynomial,
-        &Interval { low, high, bits },
-        leading.bits() as u32 + 2,
-    ) {
+    let places = polynomial.leading().numer().bits() as u32 + 2;
+    let interval = match refine(polynomial, &Interval { low, high, bits }, places) {
         Refined::Exactly(value) => return Root::Rational(value),
         Refined::Within(interval) => interval,
     };
-    let scaled = |end: BigRational| end * BigRational::from_integer(leading.clone());
-    let candidate = simplest_between(&scaled(interval.low()), &scaled(interval.high()))
-        / BigRational::from_integer(leading.clone());
-    if polynomial.sign_at(&candidate).is_eq() {
-        Root::Rational(candidate)
-    } else {
-        Root::Irrational(interval)
-    }
+    rational_root(polynomial, &interval).map_or(Root::Irrational(interval), Root::Rational)
+}
+
+fn is_long(polynomial: &Polynomial) -> bool {
+    polynomial.leading().numer().bits() > LONG
+}
+
+/// The rational root of a polynomial with whole coefficients in an interval with one root.
+///
+/// It is `k/leading` for a whole `k`: in an interval shorter than `1/(2·leading)` it is the simplest rational, or there is
+/// none.
+fn rational_root(polynomial: &Polynomial, interval: &Interval) -> Option<BigRational> {
+    let leading = BigRational::from_integer(polynomial.leading().to_integer());
+    let scaled = |end: BigRational| end * &leading;
+    let whole = simplest_between(&scaled(interval.low()), &scaled(interval.high()));
+    let candidate = whole / &leading;
+    polynomial.sign_at(&candidate).is_eq().then_some(candidate)
 }
 
 /// The outcome of a refinement.
@@ -249,78 +260,67 @@ fn narrower<'i>(isolating: &'i Interval, known: Option<&'i Interval>) -> &'i Int
 
 /// Narrows an interval with a sign change to a width of at most `2⁻ᵗᵃʳᵍᵉᵗ`.
 ///
-/// Newton's method proposes a narrower interval with twice the binary places; only a sign change at
-/// its exact ends is believed. Where the proposal fails, the interval is halved.
+/// The interval is cut into `2ⁿ` parts, and the root is sought in the one in which the chord vanishes. Where it is there, `n`
+/// is doubled, otherwise halved (Abbott, *Quadratic interval refinement for real roots*). Only a sign change at exact ends is
+/// believed.
 fn refine(polynomial: &Polynomial, interval: &Interval, target: u32) -> Refined {
-    let derivative = polynomial.derivative();
+    let degree = polynomial.degree().unwrap_or(0);
     let Interval {
         mut low,
         mut high,
         mut bits,
     } = interval.clone();
-    let sign_low = sign_at(polynomial, &low, bits);
+    let [mut below, mut above] = [&low, &high].map(|end| value_at(polynomial, end, bits));
+    let sign = below.sign();
+    let mut parts = 1;
     loop {
         let width: BigInt = &high - &low;
-        // The interval is narrower than 2⁻ᵍᵒᵒᵈ.
-        let good = i64::from(bits) - width.bits() as i64;
-        if good >= i64::from(target) {
+        let missing = i64::from(target) - i64::from(bits) + width.bits() as i64;
+        let Some(missing) = u32::try_from(missing).ok().filter(|&missing| missing > 0) else {
             return Refined::Within(Interval { low, high, bits });
-        }
-        // From 16 correct places on, a proposal has at least 8 more.
-        if good >= 16
-            && let Some((l, h, b)) = newton(
-                polynomial,
-                &derivative,
-                (&low, &high, bits),
-                good as u32,
-                sign_low,
-            )
-        {
-            (low, high, bits) = (l, h, b);
-            continue;
-        }
-        (low, high, bits) = (low << 1, high << 1, bits + 1);
-        let middle: BigInt = (&low + &high) >> 1;
-        match sign_at(polynomial, &middle, bits) {
-            Sign::NoSign => {
-                return Refined::Exactly(BigRational::new(middle, BigInt::one() << bits));
+        };
+        let count = parts.min(missing);
+        (low, high, bits) = (low << count, high << count, bits + count);
+        let scale = count as usize * degree;
+        (below, above) = (below << scale, above << scale);
+        let (start, last) = (low.clone(), (BigInt::one() << count) - BigInt::one());
+        let mut part = chord(&below, &above, count).clamp(BigInt::one(), last.clone());
+        // The ends of the part in which the root should be.
+        for _ in 0..2 {
+            if !part.is_positive() || part > last {
+                break;
             }
-            sign if sign == sign_low => low = middle,
-            _ => high = middle,
+            let point = &start + &width * &part;
+            let value = value_at(polynomial, &point, bits);
+            if value.is_zero() {
+                return Refined::Exactly(BigRational::new(point, BigInt::one() << bits));
+            }
+            if value.sign() == sign {
+                (low, below) = (point, value);
+                part += 1;
+            } else {
+                (high, above) = (point, value);
+                part -= 1;
+            }
         }
+        parts = if &high - &low <= width {
+            2 * count
+        } else {
+            count.div_ceil(2)
+        };
     }
 }
 
-fn newton(
-    polynomial: &Polynomial,
-    derivative: &Polynomial,
-    (low, high, bits): (&BigInt, &BigInt, u32),
-    good: u32,
-    sign_low: Sign,
-) -> Option<(BigInt, BigInt, u32)> {
-    let fine = (2 * good).max(bits);
-    let (low, high) = (low << (fine - bits), high << (fine - bits));
-    let middle: BigInt = (&low + &high) >> 1;
-    let point = Interval {
-        low: middle.clone(),
-        high: middle.clone(),
-        bits: fine,
-    };
-    let (value, slope) = (
-        point.evaluate(polynomial).low,
-        point.evaluate(derivative).low,
-    );
-    if slope.is_zero() {
-        return None;
+/// About where the chord between values at the ends of an interval vanishes, in `2ⁿ` parts of it.
+fn chord(below: &BigInt, above: &BigInt, parts: u32) -> BigInt {
+    let longest = below.bits().max(above.bits());
+    let excess = longest.saturating_sub(u64::from(parts) + 64);
+    let [below, above] = [below, above].map(|value| value.abs() >> excess);
+    let sum = &below + above;
+    if sum.is_zero() {
+        return sum;
     }
-    let root = &middle - (value << fine) / slope;
-    // The quadratic error of a step from a distance 2⁻ᵍᵒᵒᵈ, with room for the constant.
-    let radius = BigInt::one() << (fine - 2 * good + 6);
-    let (new_low, new_high) = (&root - &radius, root + radius);
-    let inside = low <= new_low && new_high <= high;
-    let opposite = |a: Sign, b: Sign| a != Sign::NoSign && b != Sign::NoSign && a != b;
-    let [at_low, at_high] = [&new_low, &new_high].map(|x| sign_at(polynomial, x, fine));
-    (inside && at_low == sign_low && opposite(at_low, at_high)).then_some((new_low, new_high, fine))
+    (below << parts) / sum
 }
 
 /// Compares two reals given by enclosures, if these decide.

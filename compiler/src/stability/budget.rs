@@ -14,6 +14,7 @@ impl Budget {
         Budget(AtomicU64::new(products))
     }
 
+    #[cfg(test)]
     pub(super) fn unlimited() -> Self {
         Budget::new(u64::MAX)
     }
@@ -22,10 +23,6 @@ impl Budget {
         let left = self.0.load(Ordering::Relaxed);
         self.0
             .store(left.saturating_sub(products), Ordering::Relaxed);
-    }
-
-    pub(super) fn exhaust(&self) {
-        self.0.store(0, Ordering::Relaxed);
     }
 
     pub(super) fn is_spent(&self) -> bool {

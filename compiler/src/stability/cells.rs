@@ -23,19 +23,19 @@ pub(super) struct Cells<P> {
 }
 
 impl<P: RealPolynomial> Cells<P> {
-    /// Cuts at the positive roots of these polynomials, zero polynomials left out.
-    pub(super) fn new(polynomials: &[P]) -> Self {
+    /// Cuts at the positive roots of these polynomials, zero polynomials left out. `None` if enclosures do not tell them apart.
+    pub(super) fn new(polynomials: &[P]) -> Option<Self> {
         let mut roots: Vec<PositiveRoot<P>> = Vec::new();
         for polynomial in coprime_base(polynomials) {
             let polynomial = Arc::new(polynomial);
-            let found = polynomial.positive_roots().into_iter();
+            let found = polynomial.positive_roots()?.into_iter();
             roots.extend(found.map(|root| PositiveRoot::new(&polynomial, root)));
         }
         let mut bits = FIRST_BITS;
         let finest = roots
             .iter()
             .filter_map(|root| root.polynomial.finest_bits());
-        let finest = finest.min().unwrap_or(u32::MAX);
+        let finest = finest.min().unwrap_or(MOST_BITS);
         // Different positive numbers: enough places tell them apart, and from zero.
         let enclosures = loop {
             let enclosed = |root: PositiveRoot<P>| (root.enclose(bits), root);
@@ -51,10 +51,7 @@ impl<P: RealPolynomial> Cells<P> {
                 break enclosures;
             }
             if bits > finest {
-                enclosures
-                    .iter()
-                    .for_each(|(_, root)| root.polynomial.doubt());
-                break Vec::new();
+                return None;
             }
             roots = enclosures.into_iter().map(|(_, root)| root).collect();
             bits *= 2;
@@ -66,15 +63,17 @@ impl<P: RealPolynomial> Cells<P> {
             below = enclosure.high();
         }
         samples.push(below.floor() + BigRational::one());
-        Cells {
+        Some(Cells {
             roots: enclosures.into_iter().map(|(_, root)| root).collect(),
             samples,
-        }
+        })
     }
 }
 
 /// Binary places of first enclosures.
 const FIRST_BITS: u32 = 32;
+/// Binary places of last enclosures, of numbers that are known to any.
+const MOST_BITS: u32 = 1 << 16;
 
 /// A short rational strictly between two.
 fn between(low: &BigRational, high: &BigRational) -> BigRational {
@@ -128,7 +127,7 @@ mod tests {
         ];
         let base = coprime_base(&given);
         assert_eq!(base.len(), 4);
-        let cells = Cells::new(&given);
+        let cells = Cells::new(&given).expect("apart");
         let roots: Vec<_> = cells
             .roots
             .iter()
@@ -150,6 +149,7 @@ mod tests {
             Polynomial::from_integers(&[-1, 1]),
             Polynomial::from_rationals(&[-tiny, ratio(1, 1)]),
         ]);
+        let cells = cells.expect("apart");
         assert_eq!(cells.roots.len(), 3);
         assert!(cells.samples[2] > ratio(1, 1));
     }

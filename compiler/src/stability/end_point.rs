@@ -258,7 +258,7 @@ mod tests {
 
     fn end_point(coefficients: &[i64]) -> EndPoint {
         let polynomial = Polynomial::from_integers(coefficients);
-        let root = polynomial.positive_roots().remove(0);
+        let root = polynomial.positive_roots().expect("roots").remove(0);
         EndPoint::square_root_of(&PositiveRoot::new(&Arc::new(polynomial), root))
     }
 

@@ -36,6 +36,10 @@ pub(super) struct FieldPolynomial<A: StageAlgebra> {
 const PRECISIONS: [u32; 4] = [256, 1024, 4096, 16384];
 /// So many of [`PRECISIONS`] are tried to tell roots apart.
 const TRIED: usize = 3;
+/// About the products that take as long as an inverse.
+const INVERSE: u64 = 8;
+/// For each bit of enclosures, about the products of machine words that take as long as a search for roots that are too close.
+const FAILURE: u64 = 1 << 15;
 
 impl<A: StageAlgebra + 'static> Clone for FieldPolynomial<A> {
     fn clone(&self) -> Self {
@@ -97,6 +101,12 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
         list.reduce(|value, c| value.multiply(&point, bits).add(&c, bits))
     }
 
+    /// The products of machine words of [`FieldPolynomial::value_at`].
+    fn cost_of_value(&self, precision: usize) -> u64 {
+        let words = u64::from(PRECISIONS[precision] / 64);
+        self.coefficients.len() as u64 * words * words
+    }
+
     /// The value at a rational point, if enclosures tell its sign.
     fn known_value(&self, point: &BigRational) -> Option<Ball> {
         let tried = if self.is_exact() {
@@ -105,8 +115,11 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
             PRECISIONS.len()
         };
         let known = |k| {
-            self.value_at(point, k)
-                .filter(|value| value.sign().is_some())
+            if !self.is_exact() {
+                self.budget.spend(self.cost_of_value(k));
+            }
+            let value = self.value_at(point, k).filter(|_| !self.budget.is_spent());
+            value.filter(|value| value.sign().is_some())
         };
         (0..tried).find_map(known)
     }
@@ -119,7 +132,11 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
             }
             let intervals = (0..TRIED).find_map(|k| {
                 let (list, bits) = self.enclosed(k);
-                monotonic(list, bits)
+                let found = monotonic(list, bits);
+                if found.is_none() && !self.is_exact() {
+                    self.budget.spend(u64::from(bits) * FAILURE);
+                }
+                found.filter(|_| !self.budget.is_spent())
             });
             Some(
                 intervals?
@@ -251,11 +268,12 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
 
     /// With the leading coefficient ±1.
     fn signed_monic(&self) -> Self {
-        let Some(inverse) = self
-            .coefficients
-            .last()
-            .and_then(|c| self.field().inverse(c))
-        else {
+        let inverse = self.coefficients.last().and_then(|c| {
+            self.budget.spend(INVERSE * self.field().length(c).pow(2));
+            let affordable = !self.budget.is_spent();
+            affordable.then(|| self.field().inverse(c)).flatten()
+        });
+        let Some(inverse) = inverse else {
             return self.clone();
         };
         let leading = self.coefficients.last();
@@ -462,14 +480,11 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
 
     /// From enclosures of the coefficients: the polynomial is squarefree, so that narrow ones tell its roots
     /// apart.
-    fn positive_roots(&self) -> Vec<Root> {
+    fn positive_roots(&self) -> Option<Vec<Root>> {
         if self.budget.is_spent() {
-            return Vec::new();
+            return None;
         }
-        self.roots().map(<[Root]>::to_vec).unwrap_or_else(|| {
-            self.doubt();
-            Vec::new()
-        })
+        self.roots().map(<[Root]>::to_vec)
     }
 
     fn enclose_root(&self, root: &Root, bits: u32) -> Interval {
@@ -479,11 +494,7 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
         };
         let exact = self.is_exact();
         narrow(interval, bits, |point| match self.known_value(point) {
-            None if exact => Some(match self.sign_at(point) {
-                Ordering::Less => Ball::whole(1).negate(),
-                Ordering::Equal => Ball::whole(0),
-                Ordering::Greater => Ball::whole(1),
-            }),
+            None if exact => Some(Ball::of_sign(self.sign_at(point))),
             known => known,
         })
     }
@@ -524,11 +535,6 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
 
     fn finest_bits(&self) -> Option<u32> {
         self.field().finest_bits()
-    }
-
-    fn doubt(&self) {
-        self.budget.exhaust();
-        self.field().doubt();
     }
 
     fn as_rational(&self) -> Option<&Polynomial> {

@@ -25,7 +25,7 @@ use super::end_point::{EndPoint, PositiveReal};
 use super::intervals::StabilityInterval;
 use super::isolation::{monotonic_within, narrow, root_bound};
 use super::oscillator::{matrix_of_flows, product_of_flows};
-use crate::algebra::{Ball, Balls, Field, Scalar, StageAlgebra};
+use crate::algebra::{Ball, Balls, Field, Scalar, StageAlgebra, Zero};
 use crate::arithmetic::enclosure_cache::EnclosureCache;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
@@ -95,12 +95,29 @@ impl<A: StageAlgebra> Half<A> {
         self.enclosures[precision].get_or_init(|| self.flows.map(enclose))
     }
 
-    /// The sign of an entry of `N` at `x`; zero where the last enclosures do not tell it.
-    fn sign_at(&self, entry: usize, x: &BigRational) -> Ordering {
-        let value = self.value_at(entry, x);
-        value
-            .and_then(|value| value.sign())
-            .unwrap_or(Ordering::Equal)
+    /// The sign of an entry of `N` at `x`, if enclosures tell it.
+    fn sign_at(&self, entry: usize, x: &BigRational) -> Option<Ordering> {
+        self.value_at(entry, x).and_then(|value| value.sign())
+    }
+
+    /// Whether it is known that an entry of `N` vanishes at `x`.
+    fn vanishes_at(&self, entry: usize, x: &BigRational) -> bool {
+        if let Some(sign) = self.sign_at(entry, x) {
+            return sign.is_eq();
+        }
+        let field = self.algebra.constants();
+        let [zero, one, x] = [&ratio(0, 1), &ratio(1, 1), x].map(|value| field.rational(value));
+        let add = |sum: &mut Scalar<A>, factor: &Scalar<A>, value: &Scalar<A>, power| {
+            let product = field.multiply(factor, value);
+            let product = match power {
+                0 => product,
+                _ => field.multiply(&product, &x),
+            };
+            *sum = field.add(sum, &product);
+        };
+        let negative = |kick: &Scalar<A>| field.subtract(&zero, kick);
+        let entries = product_of_flows(&self.flows, [zero.clone(), one], negative, add);
+        field.zero(&entries[entry]) == Zero::Yes
     }
 
     /// The value of an entry of `N` at `x`, if enclosures tell its sign.
@@ -130,7 +147,8 @@ impl<A: StageAlgebra> Half<A> {
         let bits = PRECISIONS[precision];
         let entries = matrix_of_flows(&Balls::new(bits), self.enclosed(precision));
         let [a, b, c, d] = [0, 1, 2, 3].map(|entry| self.sign_at(entry, &ratio(0, 1)));
-        let stable_at_first = [a, b, c.reverse(), d].into_iter().all(Ordering::is_gt);
+        let c = c.map(Ordering::reverse);
+        let stable_at_first = [a, b, c, d] == [Some(Ordering::Greater); 4];
         let bounds = entries.iter().map(|list| root_bound(list));
         let last = bounds.collect::<Option<Vec<_>>>()?.into_iter().max()?;
         if !stable_at_first {
@@ -145,7 +163,9 @@ impl<A: StageAlgebra> Half<A> {
                 for interval in monotonic_within(list, &window, bits)? {
                     let ends = [interval.low(), interval.high()].map(|x| self.sign_at(entry, &x));
                     match ends {
-                        [Ordering::Equal, _] | [_, Ordering::Equal] => return None,
+                        [None | Some(Ordering::Equal), _] | [_, None | Some(Ordering::Equal)] => {
+                            return None;
+                        }
                         [low, high] if low == high => {}
                         _ => {
                             roots.push((entry, interval));
@@ -195,7 +215,7 @@ impl<A: StageAlgebra> PositiveReal for FirstRoot<A> {
     }
 
     fn equals(&self, value: &BigRational) -> bool {
-        self.interval.contains(value) && self.half.sign_at(self.entry, value).is_eq()
+        self.interval.contains(value) && self.half.vanishes_at(self.entry, value)
     }
 }
 

@@ -74,8 +74,8 @@ impl<P: RealPolynomial> At for Signed<'_, P> {
 /// That is where the eigenvalues are in the closed unit disc ([`Step::conditions`]) and those on the circle
 /// are semisimple. A real matrix can only fail the latter with a double eigenvalue ±1, that is with
 /// `det M = 1` and `tr M = ±2`, unless `M = ±1`. Where the stages have no unique solution there is no
-/// step, and so no stability.
-pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Vec<StabilityInterval> {
+/// step, and so no stability. `None` if that is not decided.
+pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Option<Vec<StabilityInterval>> {
     let conditions = step.conditions();
     let scalar = step.scalar();
     let mut cuts = vec![step.stages.clone()];
@@ -90,7 +90,7 @@ pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Vec<StabilityInterval
         // The eigenvalue is double everywhere, and semisimple at the roots of this one.
         cuts.push(scalar.clone());
     }
-    let cells = Cells::new(&cuts);
+    let cells = Cells::new(&cuts)?;
     let bounded = |sample: &BigRational, root: Option<&PositiveRoot<P>>| {
         let on_root =
             |polynomial: &P| root.is_some_and(|root| polynomial.is_multiple_of(&root.polynomial));
@@ -145,5 +145,5 @@ pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Vec<StabilityInterval
         low_closed,
         high_closed: false,
     }));
-    intervals
+    Some(intervals)
 }

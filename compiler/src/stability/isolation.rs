@@ -16,13 +16,59 @@ use crate::arithmetic::rational::dyadic;
 /// With `f(m + ry) = Σ c_k yᵏ` there is no root for `|y| ≤ 1` if `|c_0| > Σ_{k>0} |c_k|`, and `f` is monotonic if
 /// `|c_1| > Σ_{k>1} k|c_k|`. `None` if the enclosures are too wide to tell.
 pub(super) fn monotonic(coefficients: &[Ball], precision: u32) -> Option<Vec<Interval>> {
-    let bound = root_bound(coefficients)?;
-    let (high, bits) = match bound {
-        0.. => (BigInt::one() << bound, 0),
-        _ => (BigInt::one(), u32::try_from(-bound).ok()?),
-    };
-    let low = BigInt::zero();
-    monotonic_within(coefficients, &Interval { low, high, bits }, precision)
+    let windows = windows(coefficients)?.into_iter();
+    let found = windows.map(|window| monotonic_within(coefficients, &window, precision));
+    Some(found.collect::<Option<Vec<_>>>()?.concat())
+}
+
+/// Intervals `(low, high]` in ascending order, with all positive roots: outside of them one term is larger than all others
+/// together. `None` if the leading coefficient may be zero.
+///
+/// The ends are powers of two, near the slopes of the Newton polygon, or zero.
+fn windows(coefficients: &[Ball]) -> Option<Vec<Interval>> {
+    coefficients.last()?.least_magnitude()?;
+    let mut windows = Vec::new();
+    let mut low = None;
+    for k in 0..coefficients.len() {
+        let Some((first, last)) = dominated(coefficients, k) else {
+            continue;
+        };
+        windows.extend(
+            first
+                .filter(|&high| low < Some(high))
+                .map(|high| window(low, high)),
+        );
+        low = last;
+    }
+    Some(windows)
+}
+
+/// The exponents `e` for which the term of degree `k` is larger than all others together at `x = 2ᵉ`: the first, unless there
+/// is none, and the last.
+fn dominated(coefficients: &[Ball], k: usize) -> Option<(Option<i64>, Option<i64>)> {
+    let least = coefficients[k].least_magnitude()?;
+    // As many terms as this power of two, at most.
+    let terms = i64::from(usize::BITS - coefficients.len().leading_zeros());
+    let excess = |c: &Ball| c.magnitude() + terms - least;
+    let nonzero = |c: &&Ball| c.sign() != Some(Ordering::Equal);
+    let (below, above) = (&coefficients[..k], &coefficients[k + 1..]);
+    let below = (1..).zip(below.iter().rev()).filter(|(_, c)| nonzero(c));
+    let first = below.map(|(n, c)| -(-excess(c)).div_euclid(n)).max();
+    let above = (1..).zip(above).filter(|(_, c)| nonzero(c));
+    let last = above.map(|(n, c)| (-excess(c)).div_euclid(n)).min();
+    let empty = matches!((first, last), (Some(first), Some(last)) if first > last);
+    (!empty).then_some((first, last))
+}
+
+/// The interval between powers of two, or from zero.
+fn window(low: Option<i64>, high: i64) -> Interval {
+    let bits = (-low.unwrap_or(high)).max(0);
+    let power = |exponent: i64| BigInt::one() << (exponent + bits);
+    Interval {
+        low: low.map_or_else(BigInt::zero, power),
+        high: power(high),
+        bits: bits as u32,
+    }
 }
 
 /// As [`monotonic`], for the roots in one interval without its lower end.
@@ -33,19 +79,29 @@ pub(super) fn monotonic_within(
 ) -> Option<Vec<Interval>> {
     let Interval { low, high, bits } = interval.clone();
     let first_bits = bits;
-    let bound = high.bits() as i64 - i64::from(bits);
-    let deepest = i64::from(precision) - bound.min(0) + bound.abs();
+    let spread = match low.is_zero() {
+        true => 0,
+        false => high.bits() - low.bits(),
+    };
+    let deepest = u64::from(precision) + spread;
     let mut found = Vec::new();
     let whole = local(coefficients, &low, &high, bits, precision);
+    let words = coefficients.len().pow(2) * (precision / 64 + OVERHEAD) as usize;
+    let mut left = (MOST_WORDS / words).max(FEWEST_PARTS);
     // The leftmost on top.
     let mut pending = vec![(low, high, bits, whole)];
     while let Some((low, high, bits, shifted)) = pending.pop() {
-        let bits_here = bits;
         let depth = bits - first_bits;
-        let shifted = match depth.is_multiple_of(HALVINGS) && depth > 0 {
+        let anew = depth.is_multiple_of(HALVINGS) && depth > 0;
+        let shifted = match anew {
             true => local(coefficients, &low, &high, bits, precision),
             false => shifted,
         };
+        // The root may be a double one, however near.
+        let undecided = |k: usize| shifted.get(k).is_some_and(|c| c.sign().is_none());
+        if anew && undecided(0) && undecided(1) {
+            return None;
+        }
         let sum = |first: usize, weighted: bool| {
             let terms = shifted.iter().enumerate().skip(first);
             terms.fold(None, |sum: Option<Ball>, (k, c)| {
@@ -71,14 +127,11 @@ pub(super) fn monotonic_within(
             continue;
         }
         if exceeds(1, sum(2, true)) {
-            found.push(Interval {
-                low,
-                high,
-                bits: bits_here,
-            });
+            found.push(Interval { low, high, bits });
             continue;
         }
-        if i64::from(bits) > deepest {
+        left = left.saturating_sub(1);
+        if u64::from(depth) > deepest || left == 0 {
             return None;
         }
         let (low, high) = (low << 1, high << 1);
@@ -90,9 +143,15 @@ pub(super) fn monotonic_within(
     Some(found)
 }
 
-/// After so many halvings, each of which costs a place, the coefficients are found anew: from a bound that is huge, because
-/// a leading coefficient is tiny, there are thousands of them.
+/// After so many halvings, each of which costs a place, the coefficients are found anew.
 const HALVINGS: u32 = 32;
+
+/// Sums of machine words that may be spent on one interval: about a tenth of a second.
+const MOST_WORDS: usize = 1 << 25;
+/// So many parts of an interval are looked at in any case.
+const FEWEST_PARTS: usize = 1 << 12;
+/// What goes with the sum of two numbers takes as long as so many words.
+const OVERHEAD: u32 = 32;
 
 /// Narrows an interval at the ends of which a function has different signs, around a root, to this many binary places, or
 /// until a sign is not known.
@@ -223,8 +282,7 @@ fn local(
 /// An exponent `n` with all roots below `2ⁿ` in size (Fujiwara).
 pub(super) fn root_bound(coefficients: &[Ball]) -> Option<i64> {
     let (leading, rest) = coefficients.split_last()?;
-    leading.sign().filter(|sign| sign.is_ne())?;
-    let top = leading.magnitude() - 2;
+    let top = leading.least_magnitude()?;
     let degrees = (1i64..).zip(rest.iter().rev());
     let nonzero = degrees.filter(|(_, c)| c.sign() != Some(Ordering::Equal));
     // Rounded up, and a factor of 2.
@@ -262,7 +320,9 @@ mod tests {
             let places: Vec<_> = (1..4).map(|k| holds(k).expect("somewhere")).collect();
             assert!(places.is_sorted() && places[0] < places[1] && places[1] < places[2]);
         }
-        assert_eq!(found(&[1, 0, 1], 0), Some(Vec::new()));
+        // Without a root, the ends have the same sign.
+        let ends = found(&[1, 0, 1], 0).expect("told apart");
+        assert!(ends.iter().all(|i| i.low() > ratio(0, 1)));
     }
 
     #[test]

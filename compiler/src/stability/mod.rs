@@ -95,11 +95,15 @@ impl Stability {
             let lists = function.as_ref();
             let rational_function = lists.map(|[d, n]| Some([rational(d)?, rational(n)?]));
             if let (Some(parts), None | Some(Some(_))) = (parts.map(rational), &rational_function) {
-                return Stability::decide(&parts, rational_function.flatten(), Evidence::Proved);
-            }
-            let stability = Stability::over(&pair.algebra, &budget, &parts, lists);
-            if !budget.is_spent() {
-                return stability;
+                let stability = Stability::decide(&parts, rational_function.flatten());
+                if stability.is_decided() {
+                    return stability;
+                }
+            } else {
+                let stability = Stability::over(&pair.algebra, &budget, &parts, lists);
+                if stability.is_decided() && !budget.is_spent() {
+                    return stability;
+                }
             }
         }
         Stability::enclosed(pair, &Precision::USUAL)
@@ -122,7 +126,7 @@ impl Stability {
             ab_c: make(&parts.ab_c),
             b_sum: make(&parts.b_sum),
         };
-        Stability::decide(&parts, function, Evidence::Proved)
+        Stability::decide(&parts, function)
     }
 
     /// From enclosures of the coefficients, with more and more bits until what is taken for zero is very small: compared
@@ -131,24 +135,32 @@ impl Stability {
         let numbers = pair.numbers();
         let equal = pair.equal_halves() == (true, true);
         let fineness = numbers.iter().map(Number::fineness).max().unwrap_or(0);
-        let wanted = (precision.zero + ORDERS * fineness).min(precision.most / 2);
-        let mut bits = (wanted + GUARD).next_power_of_two();
+        let wanted = precision
+            .zero
+            .saturating_add(ORDERS.saturating_mul(fineness));
+        // More bits than are spent: none of them is worth it.
+        let most = if wanted + GUARD > precision.most {
+            FEWEST
+        } else {
+            precision.most
+        };
+        let mut bits = (wanted + GUARD).next_power_of_two().min(most);
         loop {
             let pair = pair.enclosed(bits);
             let balls = &pair.algebra;
             let parts = oscillator::parts(&pair);
             let function = equal.then(|| runge_kutta::parts(&pair));
-            let budget = Arc::new(Budget::unlimited());
+            let budget = Arc::new(Budget::new(ENCLOSED_PRODUCTS));
             let stability = Stability::over(balls, &budget, &parts, function.as_ref());
             let verified = balls.field().zero_bits();
-            if verified >= wanted {
+            if stability.is_decided() && verified >= wanted && !budget.is_spent() {
                 let evidence = Evidence::Verified { bits: ZERO_BITS };
                 return Stability {
                     evidence,
                     ..stability
                 };
             }
-            if bits >= precision.most {
+            if bits >= most || budget.is_spent() {
                 return Stability {
                     intervals: Vec::new(),
                     p_stable: false,
@@ -162,6 +174,10 @@ impl Stability {
         }
     }
 
+    fn is_decided(&self) -> bool {
+        !matches!(self.evidence, Evidence::Undecided { .. })
+    }
+
     /// From enclosures with several times as many bits.
     #[cfg(test)]
     pub(crate) fn with_more_bits<A: StageAlgebra>(pair: &Pair<A>, times: u32) -> Self {
@@ -173,13 +189,16 @@ impl Stability {
         Stability::enclosed(pair, &precision)
     }
 
-    fn decide<P: RealPolynomial>(
-        parts: &Parts<P>,
-        function: Option<[P; 2]>,
-        evidence: Evidence,
-    ) -> Self {
+    /// Decides everything from polynomials, or not: then the roots are not told apart.
+    fn decide<P: RealPolynomial>(parts: &Parts<P>, function: Option<[P; 2]>) -> Self {
         let step = Step::new(parts);
         let intervals = intervals::stable(&step);
+        let runge_kutta = function.map(|[d, n]| runge_kutta::decide(&d, &n));
+        let evidence = match (&intervals, &runge_kutta) {
+            (Some(_), None | Some(Some(_))) => Evidence::Proved,
+            _ => Evidence::Undecided { bits: 0 },
+        };
+        let intervals = intervals.unwrap_or_default();
         let even = |f: &Fraction<P>| f.exported(Variable::NuSquared);
         let odd = |f: &Fraction<P>| f.exported(Variable::NuTimesSquared);
         Stability {
@@ -193,7 +212,7 @@ impl Stability {
             p_stable: matches!(intervals.as_slice(), [only] if only.low.is_zero() && only.high.is_infinite()),
             intervals,
             dispersion: dispersion::leading(&step),
-            runge_kutta: function.map(|[d, n]| runge_kutta::decide(&d, &n)),
+            runge_kutta: runge_kutta.flatten(),
             evidence,
         }
     }
@@ -264,6 +283,8 @@ impl Stability {
 /// Products of machine words beyond which stability is decided from enclosures: about a second, with all
 /// that goes with a product in a field.
 const PRODUCTS: u64 = 2_500_000;
+/// Products of machine words beyond which stability is left undecided by enclosures: about two seconds.
+const ENCLOSED_PRODUCTS: u64 = 1 << 31;
 /// How narrow enclosures are.
 struct Precision {
     /// The binary places to which numbers that are given with usual ones have to vanish where they are taken for zero.
@@ -275,10 +296,12 @@ struct Precision {
 impl Precision {
     const USUAL: Precision = Precision {
         zero: ZERO_BITS,
-        most: 1 << 15,
+        most: 1 << 14,
     };
 }
 
+/// The bits of enclosures that decide nothing.
+const FEWEST: u32 = 1 << 10;
 /// Bits that are usually lost on the way.
 const GUARD: u32 = 512;
 /// What vanishes to first order in the smallest of the given numbers may still be one of the second order or so.

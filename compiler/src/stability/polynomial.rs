@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 use std::fmt::Debug;
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
@@ -48,8 +49,8 @@ pub(super) trait RealPolynomial: Clone + Debug + 'static {
     fn leading_sign(&self) -> Ordering;
     /// The sign of the value at a rational point.
     fn sign_at(&self, point: &BigRational) -> Ordering;
-    /// The positive roots in ascending order; the polynomial is squarefree.
-    fn positive_roots(&self) -> Vec<Root>;
+    /// The positive roots in ascending order, if they can be told apart; the polynomial is squarefree.
+    fn positive_roots(&self) -> Option<Vec<Root>>;
     /// An enclosure of a root with this number of binary places, whose width tends to zero as they grow.
     fn enclose_root(&self, root: &Root, bits: u32) -> Interval;
     /// The square root of a positive root, if it is short.
@@ -62,8 +63,6 @@ pub(super) trait RealPolynomial: Clone + Debug + 'static {
     fn finest_bits(&self) -> Option<u32> {
         None
     }
-    /// Takes note that a question about this polynomial was left undecided.
-    fn doubt(&self) {}
     /// This polynomial, if its coefficients are known to be rational.
     fn as_rational(&self) -> Option<&Polynomial>;
 
@@ -172,7 +171,7 @@ impl RealPolynomial for Polynomial {
     }
 
     /// By enclosures, for which a few bits of long coefficients are enough.
-    fn positive_roots(&self) -> Vec<Root> {
+    fn positive_roots(&self) -> Option<Vec<Root>> {
         let enclosed = |bits| {
             let coefficients = self.numerators().iter().cloned();
             let balls: Vec<Ball> = coefficients.map(|n| Ball::dyadic(n, 0, bits)).collect();
@@ -183,10 +182,15 @@ impl RealPolynomial for Polynomial {
         };
         let root = |interval: &Interval| {
             let [low, high] = [interval.low(), interval.high()].map(|end| self.sign_at(&end));
-            // The lower end is that of another interval, or zero.
-            (low.is_ne() && low != high).then(|| classified(self, interval))
+            match (low, high) {
+                // The lower end is that of another interval, or zero.
+                (Ordering::Equal, _) => None,
+                (_, Ordering::Equal) => Some(Root::Rational(interval.high())),
+                (low, high) if low == high => None,
+                _ => Some(classified(self, interval)),
+            }
         };
-        intervals.iter().filter_map(root).collect()
+        Some(intervals.iter().filter_map(root).collect())
     }
 
     fn enclose_root(&self, root: &Root, bits: u32) -> Interval {
@@ -212,10 +216,17 @@ impl RealPolynomial for Polynomial {
 }
 
 /// Bits of enclosures by which roots are told apart.
-const PRECISIONS: [u32; 3] = [256, 1024, 4096];
+const PRECISIONS: [u32; 4] = [256, 1024, 4096, 16384];
 
-/// The positive roots of a polynomial some of whose roots lie very close to one another.
-fn positive_roots_by_sturm(polynomial: &Polynomial) -> Vec<Root> {
+/// The positive roots of a polynomial some of whose roots lie very close to one another, if that takes little enough.
+fn positive_roots_by_sturm(polynomial: &Polynomial) -> Option<Vec<Root>> {
+    let coefficients = polynomial.numerators();
+    let longest = coefficients.iter().map(BigInt::bits).max().unwrap_or(0);
+    // Those of the remainders are as long as a determinant.
+    let words = longest * coefficients.len() as u64 / 64;
+    if words * coefficients.len() as u64 > MOST_WORDS {
+        return None;
+    }
     let positive = |root: &Root| match root {
         Root::Rational(value) => value.is_positive(),
         // Zero would be a rational root, so enough places tell.
@@ -223,11 +234,16 @@ fn positive_roots_by_sturm(polynomial: &Polynomial) -> Vec<Root> {
             .find_map(|bits| enclose(polynomial, root, bits).sign())
             .is_some_and(Ordering::is_gt),
     };
-    real_roots(polynomial)
-        .into_iter()
-        .filter(positive)
-        .collect()
+    Some(
+        real_roots(polynomial)
+            .into_iter()
+            .filter(positive)
+            .collect(),
+    )
 }
+
+/// The words of all remainders in Sturm's sequence, beyond which it takes seconds.
+const MOST_WORDS: u64 = 1 << 13;
 
 /// Roots of longer polynomials are not searched for quadratic ones: factoring them takes longer than all
 /// the rest.
@@ -293,7 +309,7 @@ mod tests {
     fn square_roots_of_roots_are_written() {
         let texts = |coefficients: &[i64]| -> Vec<Option<String>> {
             let polynomial = Polynomial::from_integers(coefficients);
-            let roots = polynomial.positive_roots();
+            let roots = polynomial.positive_roots().expect("roots");
             roots
                 .iter()
                 .map(|root| polynomial.square_root_text(root))

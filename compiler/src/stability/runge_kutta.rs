@@ -48,8 +48,11 @@ pub(super) fn parts<A: StageAlgebra>(pair: &Pair<A>) -> [Vec<Scalar<A>>; 2] {
     })
 }
 
-/// Decides everything from the polynomials of [`parts`].
-pub(super) fn decide<P: RealPolynomial>(denominator: &P, numerator: &P) -> RungeKuttaStability {
+/// Decides everything from the polynomials of [`parts`], if that can be done.
+pub(super) fn decide<P: RealPolynomial>(
+    denominator: &P,
+    numerator: &P,
+) -> Option<RungeKuttaStability> {
     let function = Fraction::new(&denominator.add(&numerator.shift()), denominator);
     let (p, q) = (&function.numerator, &function.denominator);
     // |Q(iy)|² − |P(iy)|² as a polynomial in y²: not negative where |R(iy)| ≤ 1. A pole on the axis makes
@@ -60,7 +63,7 @@ pub(super) fn decide<P: RealPolynomial>(denominator: &P, numerator: &P) -> Runge
             .add(&imaginary.multiply(&imaginary).shift())
     };
     let excess = size(q).subtract(&size(p));
-    let cells = Cells::new(std::slice::from_ref(&excess));
+    let cells = Cells::new(std::slice::from_ref(&excess))?;
     let first = cells.samples.iter().position(|x| excess.sign_at(x).is_lt());
     let imaginary = match first {
         None => EndPoint::INFINITY,
@@ -75,13 +78,13 @@ pub(super) fn decide<P: RealPolynomial>(denominator: &P, numerator: &P) -> Runge
     // The maximum principle on the left half-plane: R is bounded by 1 there iff it is on its boundary and
     // has no pole inside (Hairer & Wanner, Solving ODEs II, IV.3).
     let a_stable = first.is_none() && at_infinity.is_some() && roots_on_the_right(q);
-    RungeKuttaStability {
+    Some(RungeKuttaStability {
         function: function.exported(Variable::Z),
         l_stable: a_stable && p.degree() < q.degree(),
         at_infinity,
         a_stable,
         imaginary,
-    }
+    })
 }
 
 /// Whether all roots have positive real parts (Routh, for the polynomial in `−z`).

@@ -9,7 +9,7 @@ use num_traits::Zero;
 use super::zero::is_zero;
 use super::{Constant, MAX_MAGNITUDE, MAX_SIGN_BITS, Tree};
 use crate::arithmetic::elementary;
-use crate::arithmetic::interval::Interval;
+use crate::arithmetic::interval::{Interval, more_places};
 
 /// The most binary places that are spent beyond those asked for on an argument of a function: a product of the largest
 /// numbers, and the inverse of the smallest that can be told from zero.
@@ -34,7 +34,8 @@ impl Constant {
         }
         let mut guard = 16 + (usize::BITS - self.size().leading_zeros());
         loop {
-            if let Some(fine) = self.evaluate(bits.saturating_add(guard))
+            let fine = self.evaluate(bits.saturating_add(guard));
+            if let Some(fine) = &fine
                 && fine.width_bits() <= -i64::from(bits)
             {
                 return Some(fine.with_bits(bits));
@@ -42,7 +43,7 @@ impl Constant {
             if guard >= most {
                 return None;
             }
-            guard = (2 * guard).min(most);
+            guard = more_places(guard, bits, fine.as_ref()).min(most);
         }
     }
 

@@ -1,10 +1,14 @@
 //! Random definitions with tiny and huge constants, and a deadline for what is done with them.
 #![allow(dead_code)]
 
+mod seeds;
+
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 use symplectic_compiler::{Definition, Key};
+
+pub use seeds::seeds;
 
 /// A sequence of pseudo-random numbers (splitmix64).
 pub struct Random(u64);
