@@ -183,6 +183,12 @@ impl<A: StageAlgebra> Pair<A> {
         }
     }
 
+    /// The Runge–Kutta method with the coefficients for momenta.
+    pub fn partner_alone(&self) -> Self {
+        let algebra = Arc::clone(&self.algebra);
+        Pair::equal(algebra, self.a_tilde.clone(), self.b_tilde.clone())
+    }
+
     /// The pair with positions and momenta exchanged: `a ↔ ã`, `b ↔ b̃` (T Remark 2.3).
     #[must_use]
     pub fn exchanged(self) -> Self {

@@ -105,6 +105,15 @@ impl Exact {
         }
     }
 
+    /// The coefficients for momenta, for positions too.
+    pub fn partner_alone(&self) -> Self {
+        match self {
+            Exact::Nodes(pair) => Exact::Nodes(pair.partner_alone()),
+            Exact::Field(pair) => Exact::Field(pair.partner_alone()),
+            Exact::Reals(pair) => Exact::Reals(pair.partner_alone()),
+        }
+    }
+
     /// The adjoint method.
     pub fn adjoint(&self) -> Self {
         match self {

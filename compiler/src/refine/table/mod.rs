@@ -27,7 +27,9 @@
 //! Other arrays are refused by name: they are not looked for.
 
 mod collocation;
+mod composed;
 mod kinds;
+mod nodes;
 mod read;
 mod write;
 
