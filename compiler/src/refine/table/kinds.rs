@@ -5,6 +5,7 @@ use num_traits::Signed;
 
 use super::RefinedTable;
 use super::composed::{explicit_pair, is_explicit, is_steps_of_midpoint, steps_of_midpoint};
+use super::exact::by_numbers;
 use super::nodes::{by_nodes, collocation_of};
 use super::read::{Claimed, OffSum, Table, not_certified, off_sums};
 use crate::arithmetic::rational::ratio;
@@ -50,8 +51,10 @@ fn find(file: Input<'_>, table: &Table) -> Result<RefinedTable, Error> {
         steps_of_midpoint(file, table)
     } else if let Some(kicks_first) = explicit {
         explicit_pair(file, table, kicks_first)
+    } else if let Some(found) = by_numbers(file, table) {
+        found
     } else {
-        let message = "no exact method is looked for near these arrays: they are neither collocation with polynomials (with or without the symplectic partner), nor steps of the implicit midpoint rule, nor an explicit symplectic pair".to_owned();
+        let message = "no exact method is looked for near these arrays: they are neither collocation with polynomials (alone, with its symplectic partner, or the partner alone), nor steps of the implicit midpoint rule, nor an explicit symplectic pair, nor roundings of short fractions and surds with one root; more digits may tell the last".to_owned();
         Err(not_certified(file, table.order_span.clone(), message))
     }?;
     check_distance(file, table, &found)?;

@@ -28,9 +28,11 @@
 
 mod collocation;
 mod composed;
+mod exact;
 mod kinds;
 mod nodes;
 mod read;
+mod surds;
 mod write;
 
 use num_bigint::BigInt;

@@ -1,0 +1,89 @@
+//! Tables of fractions and surds, whatever their construction: all claims are decided in exact arithmetic.
+
+use super::read::{Claimed, Table, not_certified};
+use super::surds::recognised;
+use super::{Array, Exact, RefinedTable};
+use crate::definition::{Definition, Key};
+use crate::error::Error;
+use crate::expression::Input;
+use crate::limits::Limits;
+use crate::properties::Evidence;
+use crate::tableau::Tableau;
+
+/// The table of which the digits are the roundings; `None` if they are not those of fractions and surds with one root.
+///
+/// # Errors
+/// A claim that this table does not have.
+pub(super) fn by_numbers(file: Input<'_>, table: &Table) -> Option<Result<RefinedTable, Error>> {
+    let texts = recognised(table)?;
+    let tableau = tableau(table, &texts)?;
+    Some(facts(file, table, &tableau).map(|facts| RefinedTable {
+        name: table.name.clone(),
+        source: table.source.clone(),
+        cells: table.cells.clone(),
+        exact: Exact::Derived {
+            stages: (0..table.stages).collect(),
+            tableau: Box::new(tableau),
+        },
+        method: "the fractions and surds that the digits are the roundings of".to_owned(),
+        facts,
+        notes: Vec::new(),
+        only_one: false,
+    }))
+}
+
+fn tableau(table: &Table, texts: &[String]) -> Option<Tableau> {
+    let row = |array: Array, row: Option<usize>| {
+        let cells = table.cells.iter().zip(texts);
+        let cells = cells.filter(|(cell, _)| cell.array == array);
+        let cells = cells.filter(|(cell, _)| row.is_none_or(|row| cell.row == row));
+        let texts: Vec<&str> = cells.map(|(_, text)| text.as_str()).collect();
+        texts.join(", ")
+    };
+    let rows = |array: Array| {
+        let rows = (0..table.stages).map(|i| format!("[{}]", row(array, Some(i))));
+        format!("[{}]", rows.collect::<Vec<_>>().join(", "))
+    };
+    let mut parts = vec![(Key::A, rows(Array::A)), (Key::B, row(Array::B, None))];
+    if table.has(Array::ATilde) {
+        parts.push((Key::ATilde, rows(Array::ATilde)));
+    }
+    if table.has(Array::BTilde) {
+        parts.push((Key::BTilde, row(Array::BTilde, None)));
+    }
+    Definition::new(parts).derive(&Limits::default()).ok()
+}
+
+/// What is claimed and proved.
+fn facts(file: Input<'_>, table: &Table, tableau: &Tableau) -> Result<Vec<String>, Error> {
+    let orders = tableau.orders();
+    let (found, class) = (orders.class(table.class), table.class);
+    let proved = matches!(found.evidence, Evidence::Proved | Evidence::Refuted);
+    if !proved || found.order < table.order {
+        let what = match proved {
+            true => format!("order {} for {class} H, which is proved", found.order),
+            false => format!("an order for {class} H that is not proved"),
+        };
+        let message = format!(
+            "the fractions and surds that the digits are the roundings of have {what}, and not {}; other exact methods near them are not looked for",
+            table.order
+        );
+        return Err(not_certified(file, table.order_span.clone(), message));
+    }
+    let mut facts = vec![format!("order {} for {class} H, proved", found.order)];
+    let properties = tableau.properties();
+    for (claimed, span) in &table.properties {
+        let (holds, name) = match claimed {
+            Claimed::Symplectic => (properties.symplectic.holds, "symplectic"),
+            Claimed::Symmetric => (properties.symmetric.holds, "symmetric"),
+            // Such tables are known by their nodes.
+            Claimed::Collocation => (false, "collocation"),
+        };
+        if !holds {
+            let message = format!("the method is not {name}, which is proved");
+            return Err(not_certified(file, span.clone(), message));
+        }
+        facts.push(format!("{name}, proved"));
+    }
+    Ok(facts)
+}

@@ -1,0 +1,129 @@
+//! The numbers `(m + n√d)/k` of which decimals are the roundings.
+//!
+//! They are a guess: what is made of them is proved or refuted afterwards.
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
+use super::{Cell, read::Table};
+
+/// The largest `d`, `k` and `|n|`. With 12 digits and more few decimals are such numbers by chance, and hardly ever several
+/// with the same `d`.
+const MAX_RADICAND: i128 = 110;
+const MAX_DENOMINATOR: i128 = 2520;
+const MAX_MULTIPLE: i128 = 128;
+/// Binary places: with the bounds above and on entries nothing exceeds 127 bits.
+const PLACES: u32 = 96;
+/// Decimals with fewer places say too little.
+const MIN_PLACES: u32 = 9;
+
+/// A decimal, scaled by `2^PLACES`, and how far the exact number may be from it.
+#[derive(Clone, Copy)]
+struct Scaled {
+    value: i128,
+    half: i128,
+}
+
+fn scaled(value: &BigRational) -> Option<i128> {
+    let unit = BigRational::from_integer(BigInt::from(1) << PLACES);
+    (value * unit).round().to_integer().to_i128()
+}
+
+impl Scaled {
+    fn of(cell: &Cell) -> Option<Self> {
+        if cell.printed.places()? < MIN_PLACES {
+            return None;
+        }
+        Some(Scaled {
+            value: scaled(cell.printed.value())?,
+            half: scaled(&cell.printed.half_unit())?,
+        })
+    }
+
+    /// The number with the smallest denominator that rounds to this one, for a root `√d`.
+    fn surd(self, radicand: i128, root: i128) -> Option<String> {
+        let one = 1i128 << PLACES;
+        for k in 1..=MAX_DENOMINATOR {
+            let value = self.value.checked_mul(k)?;
+            // The roundings of the value and of n roots.
+            let slack = self.half * k + k + MAX_MULTIPLE;
+            if slack > one / 8 {
+                return None;
+            }
+            let (mut up, mut down) = (value, value);
+            for n in 1..=MAX_MULTIPLE {
+                up -= root;
+                down += root;
+                for (rest, n) in [(up, n), (down, -n)] {
+                    let shifted = rest + slack;
+                    if shifted.rem_euclid(one) <= 2 * slack {
+                        let m = shifted.div_euclid(one);
+                        return Some(format!("({m} + ({n})*sqrt({radicand}))/{k}"));
+                    }
+                }
+            }
+        }
+        None
+    }
+}
+
+/// A text for each of the cells from which the table is derived: fractions, and surds with one and the same root.
+pub(super) fn recognised(table: &Table) -> Option<Vec<String>> {
+    let simple = |cell: &Cell| cell.printed.simple();
+    let rational = table.cells.iter().map(simple);
+    let rational: Vec<Option<String>> = rational.map(|x| x.map(|x| format!("({x})"))).collect();
+    let others = table.cells.iter().zip(&rational);
+    let others = others.filter(|(_, text)| text.is_none());
+    let others: Option<Vec<Scaled>> = others.map(|(cell, _)| Scaled::of(cell)).collect();
+    let surds = surds(&others?)?;
+    let mut surds = surds.into_iter();
+    let texts = rational.into_iter();
+    texts.map(|text| text.or_else(|| surds.next())).collect()
+}
+
+fn surds(numbers: &[Scaled]) -> Option<Vec<String>> {
+    if numbers.is_empty() {
+        return Some(Vec::new());
+    }
+    let squarefree = |d: &i128| {
+        (2..=*d)
+            .take_while(|f| f * f <= *d)
+            .all(|f| d % (f * f) != 0)
+    };
+    (2..=MAX_RADICAND).filter(squarefree).find_map(|d| {
+        let square = BigInt::from(d) << (2 * PLACES);
+        let root = square.sqrt().to_i128()?;
+        numbers.iter().map(|number| number.surd(d, root)).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_traits::{Signed, Zero};
+
+    fn found(texts: &[&str]) -> Option<Vec<String>> {
+        let number = |text: &&str| {
+            let printed = crate::certify::Printed::parse(text).expect("a number");
+            let value = printed.value().clone();
+            assert!(!value.is_zero() && value.abs() < BigRational::from_integer(1000.into()));
+            Scaled {
+                value: scaled(&value).expect("small"),
+                half: scaled(&printed.half_unit()).expect("small"),
+            }
+        };
+        let numbers: Vec<Scaled> = texts.iter().map(number).collect();
+        surds(&numbers)
+    }
+
+    #[test]
+    fn surds_have_one_root() {
+        // (3 + √3)/6 and −√3/3.
+        let crouzeix = found(&["0.788675134595", "-0.577350269190"]).expect("surds");
+        assert_eq!(crouzeix, ["(3 + (1)*sqrt(3))/6", "(0 + (-1)*sqrt(3))/3"]);
+        // √2/2 is in another field, and 0.788675134605 is none of these.
+        assert!(found(&["0.788675134594813", "0.707106781186548"]).is_none());
+        assert!(found(&["0.788675134594913", "-0.577350269189626"]).is_none());
+    }
+}
