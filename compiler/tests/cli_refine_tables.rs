@@ -279,11 +279,170 @@ fn explicit_pairs_are_splittings() {
     assert!(told.contains("class = \"separable\""), "{told}");
 }
 
+/// Radau IA and Lobatto IIIB are the partners of collocation methods, here without these.
+#[test]
+fn partners_of_collocation_are_found_alone() {
+    for (nodes, order, properties) in [
+        ("lobatto(3)", 4, &["symmetric"][..]),
+        ("lobatto(5)", 8, &["symmetric"]),
+        ("radau-left(2)", 3, &[]),
+        ("radau-left(4)", 7, &[]),
+    ] {
+        let (_, stages) = nodes.split_once('(').expect(nodes);
+        let pair = derive(&format!("basis: polynomial({stages}, nodes: {nodes}"));
+        for digits in [12, 16, 20] {
+            let numbers = pair.numbers().map(|number| number.decimal(digits));
+            let rows = numbers
+                .a_tilde
+                .iter()
+                .map(|row| quoted(row.iter().cloned()));
+            let arrays = format!(
+                "a = [{}]\nb = {}\nc = {}\n",
+                rows.collect::<Vec<_>>().join(", "),
+                quoted(numbers.b_tilde.clone()),
+                quoted(numbers.c_tilde.clone()),
+            );
+            let name = format!("partner-{}-{digits}", nodes.replace(['(', ')'], "-"));
+            let found = refined(&name, &file("general", order, properties, &arrays));
+            assert_eq!(found["evidence"], "proved", "{name}");
+            assert_eq!(found["printed_digits"], "all", "{name}: {found}");
+            let method = found["method"].as_str().expect("a method");
+            assert!(
+                method.contains("partner") && method.contains(nodes),
+                "{method}"
+            );
+            let exact = pair.numbers().map(|number| number.decimal(40).to_string());
+            for (row, wanted) in exact.a_tilde.iter().enumerate() {
+                for (column, wanted) in wanted.iter().enumerate() {
+                    assert_eq!(found["a"][row][column]["decimal"], **wanted, "{name}");
+                }
+            }
+            let told = refused(
+                "partner-high",
+                &file("general", order + 1, properties, &arrays),
+            );
+            assert!(told.contains("has order"), "{told}");
+            let told = refused(
+                "partner-symplectic",
+                &file("general", order, &["symplectic"], &arrays),
+            );
+            assert!(told.contains("not symplectic, which is proved"), "{told}");
+        }
+    }
+}
+
+/// Crouzeix 1975, two stages, diagonally implicit.
+const CROUZEIX: &str = "a = [[\"0.7886751345948129\", \"0\"], [\"-0.5773502691896258\", \"0.7886751345948129\"]]\nb = [\"0.5\", \"0.5\"]\n";
+/// Chipman 1971, Lobatto IIIC with three stages.
+const LOBATTO_IIIC: &str = "a = [[\"0.166666666666667\", \"-0.333333333333333\", \"0.166666666666667\"], [\"0.166666666666667\", \"0.416666666666667\", \"-0.083333333333333\"], [\"0.166666666666667\", \"0.666666666666667\", \"0.166666666666667\"]]\nb = [\"0.166666666666667\", \"0.666666666666667\", \"0.166666666666667\"]\nc = [\"0\", \"0.5\", \"1.0\"]\n";
+/// Kutta 1901.
+const KUTTA: &str = "a = [[\"0\", \"0\", \"0\", \"0\"], [\"0.5\", \"0\", \"0\", \"0\"], [\"0\", \"0.5\", \"0\", \"0\"], [\"0\", \"0\", \"1.0\", \"0\"]]\nb = [\"0.1666666666666667\", \"0.3333333333333333\", \"0.3333333333333333\", \"0.1666666666666667\"]\n";
+
+#[test]
+fn fractions_and_surds_are_recognised() {
+    for (name, order, arrays) in [
+        ("crouzeix", 3, CROUZEIX),
+        ("lobatto-iiic", 4, LOBATTO_IIIC),
+        ("kutta", 4, KUTTA),
+    ] {
+        let found = refined(name, &file("general", order, &[], arrays));
+        assert_eq!(found["evidence"], "proved", "{name}");
+        assert_eq!(found["printed_digits"], "all", "{name}: {found}");
+        let told = refused("surds-high", &file("general", order + 1, &[], arrays));
+        let wanted = format!("have order {order} for general H, which is proved");
+        assert!(told.contains(&wanted), "{told}");
+        let symplectic = file("general", order, &["symplectic"], arrays);
+        let told = refused("surds-symplectic", &symplectic);
+        assert!(told.contains("not symplectic, which is proved"), "{told}");
+    }
+    let found = refined("crouzeix-surd", &file("general", 3, &[], CROUZEIX));
+    // (3 + √3)/6.
+    let entry = &found["a"][0][0]["decimal"];
+    assert_eq!(entry, "0.7886751345948128822545743902509787278238");
+}
+
+/// Three stages with free coefficients, `a_ij = b_j/2 + w_ij/b_i` with a skew `w`.
+const SYMPLECTIC: &str = "a = [[\"0.1511881448353374\", \"0.4592403719568859\", \"-0.4787285167922233\"], [\"-0.0746293200334268\", \"0.1841662248053720\", \"0.3727630952280548\"], [\"0.7419754225213008\", \"-0.0486259102625607\", \"0.1646456303592907\"]]\nb = [\"0.3023762896706747\", \"0.3683324496107439\", \"0.3292912607185814\"]\nc = [\"0.1317000000000000\", \"0.4823000000000000\", \"0.8579951426180307\"]\n";
+/// A pair of two implicit halves, neither of which is collocation.
+const PAIR: &str = "a = [[\"0.2137482918460000\", \"0.1178837462510000\"], [\"0.3319283746501900\", \"0.2869146078539478\"]]\nb = [\"0.4137829174631700\", \"0.5862170825368300\"]\na_tilde = [[\"0.2000346256171700\", \"0.1159654718817197\"], [\"0.3305743554844900\", \"0.2993024746828822\"]]\nb_tilde = [\"0.4137829174631700\", \"0.5862170825368300\"]\n";
+/// A symmetric diagonally implicit method with four stages, not steps of the midpoint rule.
+const SYMMETRIC: &str = "a = [[\"1.5128673650746718\", \"0\", \"0\", \"0\"], [\"-0.0052905628145118\", \"0.2000000000000000\", \"0\", \"0\"], [\"-0.0052905628145118\", \"0.5052905628145118\", \"0.3052905628145118\", \"0\"], [\"-0.0052905628145118\", \"0.5052905628145118\", \"0.5052905628145118\", \"-1.5181579278891836\"]]\nb = [\"-0.0052905628145118\", \"0.5052905628145118\", \"0.5052905628145118\", \"-0.0052905628145118\"]\n";
+
+#[test]
+fn tables_of_no_construction_are_certified() {
+    for (name, order, properties, arrays) in [
+        ("symplectic", 4, &["symplectic"][..], SYMPLECTIC),
+        ("pair", 2, &["symplectic"], PAIR),
+        ("symmetric", 4, &["symmetric"], SYMMETRIC),
+        // Too few digits for surds.
+        (
+            "coarse",
+            3,
+            &[],
+            &CROUZEIX.replace("48129", "").replace("96258", ""),
+        ),
+    ] {
+        let name = format!("equations-{name}");
+        let found = refined(&name, &file("general", order, properties, arrays));
+        assert_eq!(found["evidence"], "certified", "{name}: {found}");
+        assert_eq!(found["printed_digits"], "all", "{name}: {found}");
+        let told = refused(
+            "equations-high",
+            &file("general", order + 1, properties, arrays),
+        );
+        let none = told.contains("no exact method") || told.contains("away from");
+        assert!(none, "{name}: {told}");
+    }
+    let told = refused(
+        "equations-both",
+        &file("general", 4, &["symplectic", "symmetric"], SYMPLECTIC),
+    );
+    assert!(
+        told.contains("no exact method") || told.contains("away from"),
+        "{told}"
+    );
+    // A wrong digit, here in a number that all others determine.
+    let wrong = SYMPLECTIC.replace("0.3727630952280548", "0.3727630952580548");
+    let wrong = wrong.split("c = ").next().expect("a and b");
+    let found = refined(
+        "equations-wrong",
+        &file("general", 4, &["symplectic"], wrong),
+    );
+    assert_eq!(found["printed_digits"], "excluded", "{found}");
+    let wrong = found["wrong_digits"].as_array().expect("a list");
+    let names = wrong.iter().map(|wrong| &wrong["coefficient"]);
+    let notes = found["notes"].to_string();
+    assert_eq!(names.len(), 1, "{found}");
+    let mut names = names.map(|name| name.as_str().expect("a name"));
+    assert!(
+        notes.contains("a[1][2]") || names.any(|name| name == "a[1][2]"),
+        "{found}"
+    );
+    // Too much work.
+    let row = |i: usize| {
+        quoted_text(
+            &(0..7)
+                .map(|j| format!("0.{}1", 1 + (i + j * j) % 9))
+                .collect::<Vec<_>>(),
+        )
+    };
+    let rows: Vec<String> = (0..7).map(row).collect();
+    let many = format!("a = [{}]\nb = {}\n", rows.join(", "), row(3));
+    let told = refused("equations-many", &file("general", 9, &[], &many));
+    assert!(told.contains("up to 6 stages"), "{told}");
+}
+
+fn quoted_text(numbers: &[String]) -> String {
+    let texts: Vec<String> = numbers
+        .iter()
+        .map(|number| format!("\"{number}\""))
+        .collect();
+    format!("[{}]", texts.join(", "))
+}
+
 #[test]
 fn other_arrays_and_files_are_refused() {
-    let sdirk = "a = [[\"0.7886751345948129\", \"0\"], [\"-0.5773502691896258\", \"0.7886751345948129\"]]\nb = [\"0.5\", \"0.5\"]\n";
-    let told = refused("crouzeix", &file("general", 3, &[], sdirk));
-    assert!(told.contains("no exact method is looked for"), "{told}");
+    let sdirk = CROUZEIX;
     let told = refused(
         "crouzeix-collocation",
         &file("general", 3, &["collocation"], sdirk),

@@ -9,9 +9,11 @@ use num_traits::Zero;
 use super::CertifyError;
 use super::conditions::Claim;
 use super::digits::{Digits, Distance, distances};
+use super::newton::Equations;
 use super::printed::{MAX_DIGITS, Printed};
 use super::proof::{LOST_BITS, Proof};
 use super::structure::{Coefficient, Structure, Target};
+use super::system::System;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::simplest_between;
 use crate::arithmetic::rounding::Decimal;
@@ -85,8 +87,8 @@ pub(super) enum Solution {
 
 /// Enclosures of the unknowns with more and more binary places.
 #[derive(Debug)]
-pub(super) struct Enclosed {
-    proof: Proof,
+pub(crate) struct Enclosed<S = System> {
+    proof: Proof<S>,
     /// The unknowns that are rational: those that are fixed, and those that they determine linearly.
     known: Vec<Option<BigRational>>,
     levels: Mutex<Vec<Level>>,
@@ -101,6 +103,14 @@ struct Level {
 
 impl Enclosed {
     pub fn new(proof: Proof) -> Self {
+        let known = proof.square.linear_values();
+        Enclosed::with_known(proof, known)
+    }
+}
+
+impl<S: Equations> Enclosed<S> {
+    /// With the unknowns that are known to be rational.
+    pub fn with_known(proof: Proof<S>, known: Vec<Option<BigRational>>) -> Self {
         let solution = proof.solution(&proof.center, proof.bits);
         let first = Level {
             bits: proof.bits,
@@ -108,10 +118,24 @@ impl Enclosed {
             solution: Arc::new(solution),
         };
         Enclosed {
-            known: proof.square.linear_values(),
+            known,
             proof,
             levels: Mutex::new(vec![first]),
         }
+    }
+
+    /// Enclosures of all unknowns.
+    pub fn unknowns(&self, bits: u32) -> Vec<Interval> {
+        let free = self.free(bits);
+        let places = free.first().map_or(bits, Interval::bits);
+        let all = self.proof.square.arguments(&free, places);
+        let known = self.known.iter().zip(&all);
+        known
+            .map(|(known, enclosure)| match known {
+                Some(value) => Interval::enclosing(value, bits),
+                None => enclosure.with_bits(bits),
+            })
+            .collect()
     }
 
     /// Enclosures of the free unknowns with a width of at most `2^(−bits)`.
@@ -149,18 +173,7 @@ impl Solution {
                 .iter()
                 .map(|x| Interval::enclosing(x, bits))
                 .collect(),
-            Solution::Enclosed(enclosed) => {
-                let free = enclosed.free(bits);
-                let places = free.first().map_or(bits, Interval::bits);
-                let all = enclosed.proof.square.arguments(&free, places);
-                let known = enclosed.known.iter().zip(&all);
-                known
-                    .map(|(known, enclosure)| match known {
-                        Some(value) => Interval::enclosing(value, bits),
-                        None => enclosure.with_bits(bits),
-                    })
-                    .collect()
-            }
+            Solution::Enclosed(enclosed) => enclosed.unknowns(bits),
         }
     }
 }

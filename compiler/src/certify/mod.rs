@@ -50,16 +50,23 @@ mod structure;
 mod system;
 mod words;
 
+pub(crate) use certificate::Enclosed;
 pub use certificate::{Certificate, Fixed};
 pub use conditions::{Claim, Condition, Conditions, MAX_ORDER, MAX_PERTURBED_ORDER};
 pub use digits::Digits;
 pub use error::CertifyError;
 pub(crate) use linear::middle;
 pub(crate) use minimax::{Row, minimax};
+pub(crate) use newton::{Equations, Square};
 pub use printed::{MAX_DIGITS, Printed};
+pub(crate) use proof::Proof;
+pub(crate) use search::PROOF_BITS;
 pub use search::{certify, certify_composition};
+pub(crate) use selection::pivots;
+pub(crate) use settle::{Settled, settle};
 pub use splitting::{MAX_STAGES, Splitting};
 pub use structure::{Coefficient, Structure};
+pub(crate) use structure::{Target, Unknown};
 pub use words::{Alphabet, Word};
 pub(crate) use words::{DRIFT, KICK, split_lyndon};
 

@@ -14,10 +14,28 @@ const MAX_ITERATIONS: usize = 24;
 /// The iteration is given up when an unknown exceeds `2^12`.
 const MAX_MAGNITUDE_BITS: u64 = 12;
 
+/// Equations between arguments.
+pub trait Equations: Clone + std::fmt::Debug {
+    /// Enclosures of the residuals for all arguments in a box.
+    fn residuals(&self, arguments: &[Interval]) -> Vec<Interval>;
+    /// Enclosures of the derivatives by some arguments, for all arguments in a box.
+    fn derivatives(&self, arguments: &[Interval], by: &[usize]) -> Vec<Vec<Interval>>;
+}
+
+impl Equations for System {
+    fn residuals(&self, arguments: &[Interval]) -> Vec<Interval> {
+        self.residuals(arguments)
+    }
+
+    fn derivatives(&self, arguments: &[Interval], by: &[usize]) -> Vec<Vec<Interval>> {
+        self.derivatives(arguments, by)
+    }
+}
+
 /// Conditions with as many unknowns: the other arguments are fixed.
 #[derive(Debug, Clone)]
-pub struct Square {
-    pub system: System,
+pub struct Square<S = System> {
+    pub system: S,
     /// The values of the arguments that are fixed.
     pub fixed: Vec<Option<BigRational>>,
     /// The others.
@@ -25,18 +43,6 @@ pub struct Square {
 }
 
 impl Square {
-    /// All arguments, from those that are free.
-    pub fn arguments(&self, free: &[Interval], bits: u32) -> Vec<Interval> {
-        let mut next = free.iter();
-        let value = |fixed: &Option<BigRational>| match fixed {
-            Some(value) => Interval::enclosing(value, bits),
-            None => next
-                .next()
-                .map_or_else(|| point(&BigInt::zero(), bits), Interval::clone),
-        };
-        self.fixed.iter().map(value).collect()
-    }
-
     /// The arguments that are rational numbers: those that are fixed, and those that a linear condition determines when all
     /// others in it are.
     pub fn linear_values(&self) -> Vec<Option<BigRational>> {
@@ -47,6 +53,20 @@ impl Square {
             known[argument] = Some(value);
         }
         known
+    }
+}
+
+impl<S: Equations> Square<S> {
+    /// All arguments, from those that are free.
+    pub fn arguments(&self, free: &[Interval], bits: u32) -> Vec<Interval> {
+        let mut next = free.iter();
+        let value = |fixed: &Option<BigRational>| match fixed {
+            Some(value) => Interval::enclosing(value, bits),
+            None => next
+                .next()
+                .map_or_else(|| point(&BigInt::zero(), bits), Interval::clone),
+        };
+        self.fixed.iter().map(value).collect()
     }
 
     /// Enclosures of the residuals for free arguments in a box.

@@ -25,7 +25,8 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::linear::{Dyadics, ball, magnitude, middle, point, rescaled};
-use super::newton::{Square, largest, points};
+use super::newton::{Equations, Square, largest, points};
+use super::system::System;
 use crate::arithmetic::interval::Interval;
 
 /// A proof is given up if evaluating the conditions loses more binary places than this, whatever their number. Those of
@@ -39,8 +40,8 @@ const SMALL_RADIUS_BITS: u32 = 64;
 
 /// A cube with exactly one solution, which a point approximates.
 #[derive(Debug, Clone)]
-pub struct Proof {
-    pub square: Square,
+pub struct Proof<S = System> {
+    pub square: Square<S>,
     /// The binary places of `center`, `matrix` and `radius`.
     pub bits: u32,
     /// The middle of the cube.
@@ -51,9 +52,9 @@ pub struct Proof {
     radius: BigInt,
 }
 
-impl Proof {
+impl<S: Equations> Proof<S> {
     /// Proves that there is a solution near an approximate one; `None` if that fails.
-    pub fn new(square: Square, center: Vec<BigInt>, bits: u32) -> Option<Self> {
+    pub fn new(square: Square<S>, center: Vec<BigInt>, bits: u32) -> Option<Self> {
         let matrix = square.inverse_derivative(&center, bits)?;
         let mut proof = Proof {
             square,

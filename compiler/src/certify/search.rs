@@ -77,7 +77,7 @@ pub fn certify_composition(weights: &[Printed], order: usize) -> Result<Certific
 }
 
 /// The binary places with which the proof is done.
-const PROOF_BITS: u32 = 320;
+pub(crate) const PROOF_BITS: u32 = 320;
 
 /// The binary places with which digits are compared: more than they have.
 fn digit_bits<'a>(all: impl Iterator<Item = &'a Printed>) -> u32 {
@@ -301,7 +301,13 @@ fn certified(
         moved.fixed = values;
         solved(moved)
     };
-    match settle(&square, reading, digit_bits, PROOF_BITS) {
+    match settle(
+        &square,
+        &reading.unknowns,
+        &reading.targets,
+        digit_bits,
+        PROOF_BITS,
+    ) {
         Settled::All(values) => match again(values) {
             Some(moved) if right(&moved.2) => with(moved, Digits::All, Vec::new()),
             _ => with(first, Digits::NotFound, Vec::new()),

@@ -1,5 +1,6 @@
 //! Which coefficients are solved for, and which are fixed as exact numbers.
 
+use super::newton::Equations;
 use super::structure::{Reading, Unknown};
 use super::system::System;
 use crate::arithmetic::interval::Interval;
@@ -17,52 +18,60 @@ const RANK_THRESHOLD: f64 = 1e-12;
 /// # Errors
 /// The numerical rank, if it is smaller than the number of conditions.
 pub fn free_unknowns(system: &System, reading: &Reading) -> Result<Vec<usize>, usize> {
-    let all: Vec<usize> = (0..reading.unknowns.len()).collect();
+    let pivots = pivots(system, &reading.unknowns, RANK_THRESHOLD);
+    if pivots.len() < system.conditions.conditions().len() {
+        return Err(pivots.len());
+    }
+    let mut free: Vec<usize> = pivots.into_iter().map(|(_, column)| column).collect();
+    free.sort_unstable();
+    Ok(free)
+}
+
+/// Independent equations with the unknowns to solve them for: pivots of the derivatives at the printed point, none below
+/// a threshold.
+pub fn pivots<S: Equations>(
+    system: &S,
+    unknowns: &[Unknown],
+    threshold: f64,
+) -> Vec<(usize, usize)> {
+    let all: Vec<usize> = (0..unknowns.len()).collect();
     let at = |unknown: &Unknown| Interval::enclosing(&unknown.start, 192);
-    let start: Vec<Interval> = reading.unknowns.iter().map(at).collect();
-    let mut rows: Vec<Vec<f64>> = system
-        .derivatives(&start, &all)
-        .iter()
-        .map(|row| normalised(row))
-        .collect();
+    let start: Vec<Interval> = unknowns.iter().map(at).collect();
+    let mut rows: Vec<(usize, Vec<f64>)> = {
+        let rows = system.derivatives(&start, &all).into_iter();
+        rows.map(|row| normalised(&row)).enumerate().collect()
+    };
     let class_of = |column: usize| {
-        let unknown = &reading.unknowns[column];
+        let unknown = &unknowns[column];
         u8::from(unknown.simple.is_some()) + u8::from(unknown.exact)
     };
-    let mut free = Vec::new();
-    let mut done = 0;
+    let mut pivots: Vec<(usize, usize)> = Vec::new();
     for class in 0..=2 {
-        while done < rows.len() {
-            let columns = all
-                .iter()
-                .filter(|&&c| class_of(c) == class && !free.contains(&c));
+        while pivots.len() < rows.len() {
+            let done = pivots.len();
+            let taken = |column: usize| pivots.iter().any(|(_, known)| *known == column);
+            let columns = all.iter().filter(|&&c| class_of(c) == class && !taken(c));
             let candidates = columns.flat_map(|&c| (done..rows.len()).map(move |r| (r, c)));
             // The first of the largest, so that the choice does not depend on anything else.
             let best = candidates.fold(None, |best: Option<(usize, usize)>, (r, c)| match best {
-                Some((i, j)) if rows[i][j].abs() >= rows[r][c].abs() => best,
+                Some((i, j)) if rows[i].1[j].abs() >= rows[r].1[c].abs() => best,
                 _ => Some((r, c)),
             });
-            let Some((row, column)) = best.filter(|&(r, c)| rows[r][c].abs() > RANK_THRESHOLD)
-            else {
+            let Some((row, column)) = best.filter(|&(r, c)| rows[r].1[c].abs() > threshold) else {
                 break;
             };
             rows.swap(done, row);
-            let reference = rows[done].clone();
-            for row in rows.iter_mut().skip(done + 1) {
+            let (index, reference) = rows[done].clone();
+            for (_, row) in rows.iter_mut().skip(done + 1) {
                 let factor = row[column] / reference[column];
                 for (entry, r) in row.iter_mut().zip(&reference) {
                     *entry -= factor * r;
                 }
             }
-            free.push(column);
-            done += 1;
+            pivots.push((index, column));
         }
     }
-    if done < rows.len() {
-        return Err(done);
-    }
-    free.sort_unstable();
-    Ok(free)
+    pivots
 }
 
 fn normalised(row: &[Interval]) -> Vec<f64> {

@@ -26,9 +26,9 @@ use num_traits::{One, Signed, Zero};
 use super::digits::smallest;
 use super::linear::{Dyadics, ball, magnitude, middle, point};
 use super::minimax::{Best, Row, minimax};
-use super::newton::{Square, points};
+use super::newton::{Equations, Square, points};
 use super::printed::power_of_ten;
-use super::structure::{Coefficient, Reading, Target};
+use super::structure::{Coefficient, Target, Unknown};
 use crate::arithmetic::interval::Interval;
 
 /// The most shifts; a few suffice, because each one squares what is left.
@@ -41,7 +41,7 @@ const MAX_SUSPECTS: usize = 4;
 const GUARD_BITS: u64 = 40;
 
 /// What was found.
-pub(super) enum Settled {
+pub(crate) enum Settled {
     /// Values of the fixed unknowns with which all numbers round to their prints.
     All(Vec<Option<BigRational>>),
     /// None.
@@ -54,14 +54,20 @@ pub(super) enum Settled {
 }
 
 /// A printed number that could be the wrong one.
-pub(super) struct Suspect {
+pub(crate) struct Suspect {
     pub coefficient: Coefficient,
     /// Values of the fixed unknowns with which all others round to their prints.
     pub fixed: Vec<Option<BigRational>>,
 }
 
 /// Looks for an exact method near that of `square` which has all printed digits.
-pub(super) fn settle(square: &Square, reading: &Reading, digit_bits: u32, bits: u32) -> Settled {
+pub(crate) fn settle<S: Equations>(
+    square: &Square<S>,
+    unknowns: &[Unknown],
+    targets: &[Target],
+    digit_bits: u32,
+    bits: u32,
+) -> Settled {
     let nothing = Settled::Wrong {
         excluded: false,
         suspects: Vec::new(),
@@ -71,8 +77,8 @@ pub(super) fn settle(square: &Square, reading: &Reading, digit_bits: u32, bits: 
         return nothing;
     }
     let search = Search {
-        reading,
-        prints: prints(reading),
+        unknowns,
+        prints: prints(targets),
         bits,
     };
     let Some(start) = search.solved(square.clone()) else {
@@ -90,9 +96,9 @@ pub(super) fn settle(square: &Square, reading: &Reading, digit_bits: u32, bits: 
 }
 
 /// The printed numbers, equal ones once.
-fn prints(reading: &Reading) -> Vec<Target> {
+fn prints(targets: &[Target]) -> Vec<Target> {
     let mut prints: Vec<Target> = Vec::new();
-    for target in &reading.targets {
+    for target in targets {
         let same = |other: &Target| {
             (&other.terms, &other.printed, &other.half)
                 == (&target.terms, &target.printed, &target.half)
@@ -105,28 +111,28 @@ fn prints(reading: &Reading) -> Vec<Target> {
 }
 
 struct Search<'a> {
-    reading: &'a Reading,
+    unknowns: &'a [Unknown],
     prints: Vec<Target>,
     bits: u32,
 }
 
 /// A method: the conditions with what is fixed, and the solution.
 #[derive(Clone)]
-struct Method {
-    square: Square,
+struct Method<S> {
+    square: Square<S>,
     free: Vec<BigInt>,
 }
 
-enum Outcome {
-    Reached(Method),
+enum Outcome<S> {
+    Reached(Method<S>),
     /// With the method and the linear programme in which it was seen.
-    OutOfReach(Option<(Method, Best)>),
+    OutOfReach(Option<(Method<S>, Best)>),
 }
 
 impl Search<'_> {
     /// The solution with what is fixed in `square`, from the printed digits.
-    fn solved(&self, square: Square) -> Option<Method> {
-        let unknowns = &self.reading.unknowns;
+    fn solved<S: Equations>(&self, square: Square<S>) -> Option<Method<S>> {
+        let unknowns = self.unknowns;
         let start = square.free.iter().map(|&i| unknowns[i].start.clone());
         let start: Vec<BigRational> = start.collect();
         let free = square.solve(&start, self.bits)?;
@@ -134,7 +140,7 @@ impl Search<'_> {
     }
 
     /// All unknowns of a method.
-    fn values(&self, method: &Method) -> Vec<BigInt> {
+    fn values<S: Equations>(&self, method: &Method<S>) -> Vec<BigInt> {
         let free = points(&method.free, self.bits);
         let all = method.square.arguments(&free, self.bits);
         all.iter().map(middle).collect()
@@ -150,7 +156,7 @@ impl Search<'_> {
     }
 
     /// Whether all numbers round to their prints, apart from one; those printed exactly are left to the certificate.
-    fn reached(&self, method: &Method, apart_from: Option<usize>) -> bool {
+    fn reached<S: Equations>(&self, method: &Method<S>, apart_from: Option<usize>) -> bool {
         let values = self.values(method);
         let mut prints = self.prints.iter().enumerate();
         prints.all(|(index, print)| {
@@ -161,9 +167,9 @@ impl Search<'_> {
     }
 
     /// Shifts what is fixed until all numbers round to their prints, apart from one.
-    fn shifted(&self, start: Method, apart_from: Option<usize>) -> Outcome {
+    fn shifted<S: Equations>(&self, start: Method<S>, apart_from: Option<usize>) -> Outcome<S> {
         let mut method = start;
-        let mut last: Option<(Method, Best)> = None;
+        let mut last: Option<(Method<S>, Best)> = None;
         for _ in 0..MAX_SHIFTS {
             if self.reached(&method, apart_from) {
                 return Outcome::Reached(method);
@@ -190,12 +196,12 @@ impl Search<'_> {
     }
 
     /// The unknowns that are fixed and may move: not those that are printed exactly.
-    fn movable(&self, square: &Square, apart_from: Option<usize>) -> Vec<usize> {
-        let unknowns = self.reading.unknowns.iter().enumerate();
+    fn movable<S: Equations>(&self, square: &Square<S>, apart_from: Option<usize>) -> Vec<usize> {
+        let unknowns = self.unknowns.iter().enumerate();
         let wrong = apart_from.map(|index| &self.prints[index].terms);
         let may_move = |index: usize| {
             let is_wrong = wrong.is_some_and(|terms| terms.iter().any(|(i, _)| *i == index));
-            !self.reading.unknowns[index].exact || is_wrong
+            !self.unknowns[index].exact || is_wrong
         };
         let movable = unknowns.map(|(index, _)| index);
         movable
@@ -210,7 +216,12 @@ impl Search<'_> {
     }
 
     /// The best shift at a method.
-    fn best(&self, method: &Method, movable: &[usize], apart_from: Option<usize>) -> Option<Best> {
+    fn best<S: Equations>(
+        &self,
+        method: &Method<S>,
+        movable: &[usize],
+        apart_from: Option<usize>,
+    ) -> Option<Best> {
         let halves = self.prints.iter().map(|print| &print.half);
         let finest = halves.filter(|half| half.is_positive()).min()?;
         let places = (finest.denom() / finest.numer()).bits() + GUARD_BITS;
@@ -243,7 +254,12 @@ impl Search<'_> {
     }
 
     /// `A_i`, rounded, for every print.
-    fn slopes(&self, method: &Method, values: &[BigInt], movable: &[usize]) -> Option<Dyadics> {
+    fn slopes<S: Equations>(
+        &self,
+        method: &Method<S>,
+        values: &[BigInt],
+        movable: &[usize],
+    ) -> Option<Dyadics> {
         let square = &method.square;
         let at = points(values, self.bits);
         let inverse = square.inverse_derivative(&method.free, self.bits)?;
@@ -275,7 +291,7 @@ impl Search<'_> {
     }
 
     /// The conditions with what is fixed moved by a shift, to a few decimal places more than are printed.
-    fn moved(&self, square: &Square, movable: &[usize], best: &Best) -> Square {
+    fn moved<S: Equations>(&self, square: &Square<S>, movable: &[usize], best: &Best) -> Square<S> {
         let places = self.prints.iter().map(|print| print.half.denom().bits());
         // A decimal place takes 3.32 binary ones.
         let places = places.max().unwrap_or(0) * 3 / 10 + 4;
@@ -293,7 +309,7 @@ impl Search<'_> {
 
     /// The printed numbers apart from which some method has all digits. The first one is the last in the step: papers
     /// compute it from the others.
-    fn suspects(&self, start: &Method) -> Vec<Suspect> {
+    fn suspects<S: Equations>(&self, start: &Method<S>) -> Vec<Suspect> {
         let level = |index: usize| {
             let movable = self.movable(&start.square, Some(index));
             Some((self.best(start, &movable, Some(index))?.level, index))
@@ -314,12 +330,12 @@ impl Search<'_> {
     }
 
     /// Whether it is proved that no method rounds to all prints.
-    fn excluded(&self, method: &Method, best: &Best) -> Option<bool> {
+    fn excluded<S: Equations>(&self, method: &Method<S>, best: &Best) -> Option<bool> {
         let square = &method.square;
         let enclosing = |x: &BigRational| Interval::enclosing(x, self.bits);
         // The printed unknowns, and the box of all that round to them.
         let center: Vec<Interval> = {
-            let unknowns = self.reading.unknowns.iter();
+            let unknowns = self.unknowns.iter();
             unknowns.map(|unknown| enclosing(&unknown.start)).collect()
         };
         let halves: Vec<BigInt> = (0..center.len())
@@ -391,7 +407,7 @@ impl Search<'_> {
 
     /// How far an unknown that rounds to its prints is from its printed value, at most, in units of `2⁻ᵇⁱᵗˢ`.
     fn reach(&self, index: usize) -> Option<BigInt> {
-        let start = &self.reading.unknowns[index].start;
+        let start = &self.unknowns[index].start;
         let alone = self
             .prints
             .iter()

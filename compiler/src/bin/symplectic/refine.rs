@@ -20,8 +20,10 @@ use crate::output;
 ///
 /// Butcher arrays: `[printed]` with `a` and `b`, perhaps `c`, `a_tilde`, `b_tilde`, `c_tilde`; `[claim]` with `class =
 /// "general"`, `"separable"` or `"nystrom"`, `order = 6`, and perhaps `properties = ["symplectic", "symmetric",
-/// "collocation"]`. Refined are collocation methods with polynomials, alone or with their symplectic partner, steps of the
-/// implicit midpoint rule, and explicit symplectic pairs, of at most 16 stages. A `c` that is not the row sum is an error.
+/// "collocation"]`. Refined are collocation methods with polynomials, alone or with their symplectic partner, or the
+/// partner alone (Radau IA, Lobatto IIIB); steps of the implicit midpoint rule; explicit symplectic pairs, all of at most 16
+/// stages; short fractions and surds (Lobatto IIIC, Crouzeix's methods, RK4); and any other table of at most 6 stages and
+/// order 8 by its equations. A `c` that is not the row sum is an error.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// The file.

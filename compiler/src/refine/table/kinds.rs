@@ -6,6 +6,7 @@ use num_traits::Signed;
 use super::RefinedTable;
 use super::composed::{explicit_pair, is_explicit, is_steps_of_midpoint, steps_of_midpoint};
 use super::exact::by_numbers;
+use super::general::by_equations;
 use super::nodes::{by_nodes, collocation_of};
 use super::read::{Claimed, OffSum, Table, not_certified, off_sums};
 use crate::arithmetic::rational::ratio;
@@ -30,7 +31,7 @@ pub(super) fn refine(file: Input<'_>, table: Table) -> Result<RefinedTable, Erro
     match off.iter().find(is_wrong) {
         Some(off) => Err(fault(off)),
         None => {
-            found.notes = off.into_iter().map(|off| off.message).collect();
+            found.notes.extend(off.into_iter().map(|off| off.message));
             Ok(found)
         }
     }
@@ -51,11 +52,17 @@ fn find(file: Input<'_>, table: &Table) -> Result<RefinedTable, Error> {
         steps_of_midpoint(file, table)
     } else if let Some(kicks_first) = explicit {
         explicit_pair(file, table, kicks_first)
-    } else if let Some(found) = by_numbers(file, table) {
-        found
     } else {
-        let message = "no exact method is looked for near these arrays: they are neither collocation with polynomials (alone, with its symplectic partner, or the partner alone), nor steps of the implicit midpoint rule, nor an explicit symplectic pair, nor roundings of short fractions and surds with one root; more digits may tell the last".to_owned();
-        Err(not_certified(file, table.order_span.clone(), message))
+        match by_numbers(file, table) {
+            Some(Ok(found)) => Ok(found),
+            None => by_equations(file, table),
+            // Another method may be as near.
+            Some(Err(error)) => {
+                let other = by_equations(file, table).ok();
+                let near = other.filter(|other| check_distance(file, table, other).is_ok());
+                near.ok_or(error)
+            }
+        }
     }?;
     check_distance(file, table, &found)?;
     Ok(found)

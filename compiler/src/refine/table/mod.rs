@@ -12,9 +12,10 @@
 //! c = ["0.211324865405", "0.788675134595"]
 //! ```
 //!
-//! Three kinds of arrays are refined, read off the digits:
+//! Five kinds of arrays are refined, read off the digits; the first that fits is taken.
 //!
-//! 1. **collocation** with polynomials, alone or with its symplectic partner, in either order of positions and momenta.
+//! 1. **collocation** with polynomials, alone or with its symplectic partner, in either order of positions and momenta, or
+//!    the partner alone, such as Radau IA and Lobatto IIIB.
 //!    The method is determined by its nodes (MW 2.6.2), and these by their polynomial `M`. The order `p` of the quadrature
 //!    means `∫M x^k = 0` for `k < p − s`; nodes that are printed as 0 or 1 or as fractions are roots; symmetric nodes mean
 //!    `M(1 − x) = ±M(x)`: all of it is linear in the coefficients of `M`, and is solved in rational numbers. What is left
@@ -23,12 +24,15 @@
 //! 2. **steps of the implicit midpoint rule**, the symplectic diagonally implicit methods: `a_ij = b_j` for `j < i`,
 //!    `a_ii = b_i/2`. The `b_i` are the weights of a composition, which are [certified](crate::certify).
 //! 3. **explicit pairs**, `a_ij = b_j` and `ã_ij = b̃_j` below or on the diagonal: a splitting, certified too.
-//!
-//! Other arrays are refused by name: they are not looked for.
+//! 4. **fractions and surds**, if all digits are the roundings of short `(m + n√d)/k` with one `d`: Lobatto IIIC,
+//!    Crouzeix's methods, the classical explicit ones. What is said of them is decided in exact arithmetic.
+//! 5. **no particular construction**: the entries are unknowns, and what is claimed are equations, which are solved near
+//!    the print. A solution is certified, or verified to some binary places if equations depend on one another.
 
 mod collocation;
 mod composed;
 mod exact;
+mod general;
 mod kinds;
 mod nodes;
 mod read;
@@ -125,6 +129,8 @@ pub(super) enum Exact {
         certificate: Box<Certificate>,
         terms: Vec<Terms>,
     },
+    /// Zeros of the equations that are claimed.
+    Solved(general::Solved),
 }
 
 /// An exact table behind printed digits.
@@ -169,7 +175,7 @@ pub struct RefinedTable {
 ///
 /// # Errors
 /// [`ErrorKind::Document`](crate::ErrorKind::Document) for what is no such file, and
-/// [`ErrorKind::NotCertified`](crate::ErrorKind::NotCertified) for a `c` that is not a row sum, for arrays of another kind,
+/// [`ErrorKind::NotCertified`](crate::ErrorKind::NotCertified) for a `c` that is not a row sum, where no exact method is found,
 /// for a claim that the method does not have, and where the nearest method is too far away. Each with its place.
 pub fn refine_table(file_name: &str, text: &str) -> Result<Option<RefinedTable>, Error> {
     let file = Input {
@@ -200,7 +206,7 @@ impl RefinedTable {
     /// All numbers to some significant digits and what is proved, as JSON.
     ///
     /// ```text
-    /// {"name", "source", "evidence": "proved" or "certified", "method", "facts": [string], "distance": D,
+    /// {"name", "source", "evidence": "proved", "certified" or "verified", "method", "facts": [string], "distance": D,
     ///  "wrong_digits": [{"coefficient", "distance": D}], "printed_digits": "all", "excluded" or "not found",
     ///  "notes": [string], "digits",
     ///  "a": [[C]], "b": [C], …}    with    C = {"printed": string, "decimal": string}, D = "1.9e-15"
@@ -230,11 +236,11 @@ impl RefinedTable {
         }
     }
 
-    /// The derived table, if the method is collocation.
+    /// The derived table, if the method is collocation or made of fractions and surds.
     pub fn tableau(&self) -> Option<&Tableau> {
         match &self.exact {
             Exact::Derived { tableau, .. } => Some(tableau),
-            Exact::Certified { .. } => None,
+            Exact::Certified { .. } | Exact::Solved(_) => None,
         }
     }
 
@@ -270,7 +276,7 @@ impl Exact {
         &self,
         cells: &[Cell],
         of_number: impl Fn(&Number<'_>) -> T,
-        of_terms: impl Fn(&Certificate, &Terms) -> T,
+        of_enclosures: impl Fn(&dyn Fn(u32) -> Interval) -> T,
     ) -> Vec<T> {
         match self {
             Exact::Derived { tableau, stages } => {
@@ -279,21 +285,28 @@ impl Exact {
                 cells.iter().map(number).collect()
             }
             Exact::Certified { certificate, terms } => {
-                let value = |terms: &Terms| of_terms(certificate, terms);
+                let value =
+                    |terms: &Terms| of_enclosures(&|bits| enclosed(certificate, terms, bits));
                 terms.iter().map(value).collect()
+            }
+            Exact::Solved(solved) => {
+                let value = |cell: usize| of_enclosures(&|bits| solved.enclose(cell, bits));
+                (0..cells.len()).map(value).collect()
             }
         }
     }
 
     pub fn enclosures(&self, cells: &[Cell], bits: u32) -> Vec<Interval> {
-        let of_terms =
-            |certificate: &Certificate, terms: &Terms| enclosed(certificate, terms, bits);
-        self.values(cells, |number| number.enclose(bits), of_terms)
+        self.values(
+            cells,
+            |number| number.enclose(bits),
+            |enclose| enclose(bits),
+        )
     }
 }
 
 /// An enclosure of a combination.
-pub(super) fn enclosed(certificate: &Certificate, terms: &Terms, bits: u32) -> Interval {
+fn enclosed(certificate: &Certificate, terms: &Terms, bits: u32) -> Interval {
     let zero = Interval::enclosing(&BigRational::from_integer(BigInt::from(0)), bits);
     terms.iter().fold(zero, |sum, (name, factor)| {
         match certificate.enclose(*name, bits) {

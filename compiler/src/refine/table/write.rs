@@ -6,7 +6,7 @@ use num_rational::BigRational;
 use num_traits::Zero;
 use serde_json::{Value, json};
 
-use super::{Array, Cell, Exact, RefinedTable, enclosed};
+use super::{Array, Cell, Exact, RefinedTable};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::simplest_between;
 use crate::arithmetic::rounding::Decimal;
@@ -27,7 +27,7 @@ fn decimals(table: &RefinedTable, digits: usize) -> Result<Vec<String>, Error> {
     Ok(table.exact.values(
         &table.cells,
         |number| number.decimal(digits).to_string(),
-        |certificate, terms| rounded(|bits| enclosed(certificate, terms, bits), digits),
+        |enclose| rounded(enclose, digits),
     ))
 }
 
@@ -50,9 +50,11 @@ fn rounded(enclose: impl Fn(u32) -> Interval, digits: usize) -> String {
 }
 
 fn evidence(table: &RefinedTable) -> &'static str {
-    match table.exact {
+    match &table.exact {
         Exact::Derived { .. } => "proved",
         Exact::Certified { .. } => "certified",
+        Exact::Solved(solved) if solved.is_certified() => "certified",
+        Exact::Solved(_) => "verified",
     }
 }
 
@@ -72,8 +74,12 @@ pub(super) fn text(table: &RefinedTable, digits: usize) -> Result<String, Error>
         text.push_str(&format!("{line}\n\n"));
     }
     text.push_str(&format!(
-        "{}: an exact method is within {} of the printed digits\n",
+        "{}: {} is within {} of the printed digits\n",
         evidence(table),
+        match evidence(table) {
+            "verified" => "a method",
+            _ => "an exact method",
+        },
         at_most(&farthest(table))
     ));
     let mut line = |name: &str, words: &str| text.push_str(&format!("  {name:<13}{words}\n"));
