@@ -24,7 +24,7 @@ use super::{Array, Cell, Exact, RefinedTable};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
 use crate::certify::{
-    Enclosed, Equations, PROOF_BITS, Proof, Settled, Square, Unknown, pivots, settle,
+    Coefficient, Enclosed, Equations, PROOF_BITS, Proof, Settled, Square, Unknown, pivots, settle,
 };
 use crate::error::Error;
 use crate::expression::Input;
