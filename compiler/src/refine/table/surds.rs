@@ -8,10 +8,9 @@ use num_traits::ToPrimitive;
 
 use super::{Cell, read::Table};
 
-/// The largest `d`, `k` and `|n|`. With 12 digits and more few decimals are such numbers by chance, and hardly ever several
-/// with the same `d`.
+/// The largest `d`, `k` and `|n|`.
 const MAX_RADICAND: i128 = 110;
-const MAX_DENOMINATOR: i128 = 2520;
+const MAX_DENOMINATOR: i128 = 5040;
 const MAX_MULTIPLE: i128 = 128;
 /// Binary places: with the bounds above and on entries nothing exceeds 127 bits.
 const PLACES: u32 = 96;
@@ -44,21 +43,20 @@ impl Scaled {
     /// The number with the smallest denominator that rounds to this one, for a root `√d`.
     fn surd(self, radicand: i128, root: i128) -> Option<String> {
         let one = 1i128 << PLACES;
-        for k in 1..=MAX_DENOMINATOR {
+        // Of all pairs of k and n one in a hundred decimals is near such a number by chance: the fewer digits, the fewer
+        // pairs.
+        let pairs = one / (100 * 4 * MAX_MULTIPLE * self.half.max(1));
+        for k in (1..=MAX_DENOMINATOR).take_while(|k| k * k <= pairs) {
             let value = self.value.checked_mul(k)?;
             // The roundings of the value and of n roots.
             let slack = self.half * k + k + MAX_MULTIPLE;
-            if slack > one / 8 {
-                return None;
-            }
-            let (mut up, mut down) = (value, value);
+            let (mut up, mut down) = (value + slack, value + slack);
             for n in 1..=MAX_MULTIPLE {
                 up -= root;
                 down += root;
-                for (rest, n) in [(up, n), (down, -n)] {
-                    let shifted = rest + slack;
-                    if shifted.rem_euclid(one) <= 2 * slack {
-                        let m = shifted.div_euclid(one);
+                for (shifted, n) in [(up, n), (down, -n)] {
+                    if shifted & (one - 1) <= 2 * slack {
+                        let m = shifted >> PLACES;
                         return Some(format!("({m} + ({n})*sqrt({radicand}))/{k}"));
                     }
                 }
@@ -122,6 +120,9 @@ mod tests {
         // (3 + √3)/6 and −√3/3.
         let crouzeix = found(&["0.788675134595", "-0.577350269190"]).expect("surds");
         assert_eq!(crouzeix, ["(3 + (1)*sqrt(3))/6", "(0 + (-1)*sqrt(3))/3"]);
+        // Lobatto IIIC with five stages.
+        let lobatto = found(&["0.281309183323043", "-0.052836961100821"]).expect("surds");
+        assert_eq!(lobatto[0], "(329 + (105)*sqrt(21))/2880");
         // √2/2 is in another field, and 0.788675134605 is none of these.
         assert!(found(&["0.788675134594813", "0.707106781186548"]).is_none());
         assert!(found(&["0.788675134594913", "-0.577350269189626"]).is_none());
