@@ -364,6 +364,8 @@ fn fractions_and_surds_are_recognised() {
     assert_eq!(entry, "0.7886751345948128822545743902509787278238");
 }
 
+/// Nørsett 1974, three stages, with a root of a cubic on the diagonal.
+const NOERSETT: &str = "a = [[\"1.0685790213016288\", \"0\", \"0\"], [\"-0.5685790213016288\", \"1.0685790213016288\", \"0\"], [\"2.1371580426032576\", \"-3.2743160852065152\", \"1.0685790213016288\"]]\nb = [\"0.1288864005157204\", \"0.7422271989685592\", \"0.1288864005157204\"]\n";
 /// Three stages with free coefficients, `a_ij = b_j/2 + w_ij/b_i` with a skew `w`.
 const SYMPLECTIC: &str = "a = [[\"0.1511881448353374\", \"0.4592403719568859\", \"-0.4787285167922233\"], [\"-0.0746293200334268\", \"0.1841662248053720\", \"0.3727630952280548\"], [\"0.7419754225213008\", \"-0.0486259102625607\", \"0.1646456303592907\"]]\nb = [\"0.3023762896706747\", \"0.3683324496107439\", \"0.3292912607185814\"]\nc = [\"0.1317000000000000\", \"0.4823000000000000\", \"0.8579951426180307\"]\n";
 /// A pair of two implicit halves, neither of which is collocation.
@@ -371,14 +373,45 @@ const PAIR: &str = "a = [[\"0.2137482918460000\", \"0.1178837462510000\"], [\"0.
 /// A symmetric diagonally implicit method with four stages, not steps of the midpoint rule.
 const SYMMETRIC: &str = "a = [[\"1.5128673650746718\", \"0\", \"0\", \"0\"], [\"-0.0052905628145118\", \"0.2000000000000000\", \"0\", \"0\"], [\"-0.0052905628145118\", \"0.5052905628145118\", \"0.3052905628145118\", \"0\"], [\"-0.0052905628145118\", \"0.5052905628145118\", \"0.5052905628145118\", \"-1.5181579278891836\"]]\nb = [\"-0.0052905628145118\", \"0.5052905628145118\", \"0.5052905628145118\", \"-0.0052905628145118\"]\n";
 
+/// Equations that depend on others are evaluated, and that is told.
+#[test]
+fn what_is_verified_is_not_called_proved() {
+    let text = file("general", 4, &[], NOERSETT);
+    let found = refined("noersett", &text);
+    assert_eq!(found["evidence"], "verified", "{found}");
+    assert_eq!(found["printed_digits"], "all", "{found}");
+    // x³ − 3x²/2 + x/2 − 1/24 = 0.
+    let entry = &found["a"][0][0]["decimal"];
+    assert_eq!(entry, "1.068579021301628806418833975960049381291");
+    let text = stdout(&["refine", &written("noersett", &text)]);
+    assert!(text.starts_with("verified: a method is within"), "{text}");
+    assert!(text.contains("verified to 2^-316, not proved"), "{text}");
+    assert!(text.contains("6 of 8 equations hold, certified"), "{text}");
+}
+
+/// The equations lead to fractions and surds where the digits do not.
+#[test]
+fn numbers_are_recognised_once_they_are_refined() {
+    let found = refined("surds-coarse", &file("general", 3, &[], COARSE));
+    assert_eq!(found["evidence"], "proved", "{found}");
+    assert_eq!(found["printed_digits"], "all", "{found}");
+    let entry = &found["a"][0][0]["decimal"];
+    assert_eq!(entry, "0.7886751345948128822545743902509787278238");
+    let wrong = LOBATTO_IIIC.replace("-0.333333333333333", "-0.333333333433333");
+    let found = refined("surds-wrong", &file("general", 4, &[], &wrong));
+    assert_eq!(found["evidence"], "proved", "{found}");
+    assert_eq!(found["printed_digits"], "excluded", "{found}");
+    let wrong = found["wrong_digits"].as_array().expect("a list");
+    assert_eq!(wrong.len(), 1, "{found}");
+    assert_eq!(wrong[0]["coefficient"], "a[0][1]");
+}
+
 #[test]
 fn tables_of_no_construction_are_certified() {
     for (name, order, properties, arrays) in [
         ("symplectic", 4, &["symplectic"][..], SYMPLECTIC),
         ("pair", 2, &["symplectic"], PAIR),
         ("symmetric", 4, &["symmetric"], SYMMETRIC),
-        // Too few digits for surds.
-        ("coarse", 3, &[], COARSE),
     ] {
         let name = format!("equations-{name}");
         let found = refined(&name, &file("general", order, properties, arrays));

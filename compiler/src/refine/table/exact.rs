@@ -2,7 +2,9 @@
 
 use super::read::{Claimed, Table, not_certified};
 use super::surds::recognised;
-use super::{Array, Exact, RefinedTable};
+use super::write::decimals;
+use super::{Array, Cell, Exact, RefinedTable};
+use crate::certify::Printed;
 use crate::definition::{Definition, Key};
 use crate::error::Error;
 use crate::expression::Input;
@@ -30,6 +32,41 @@ pub(super) fn by_numbers(file: Input<'_>, table: &Table) -> Option<Result<Refine
         notes: Vec::new(),
         only_one: false,
     }))
+}
+
+/// The same method in exact numbers, if those that were found are fractions and surds.
+pub(super) fn in_exact_numbers(
+    file: Input<'_>,
+    table: &Table,
+    found: RefinedTable,
+) -> RefinedTable {
+    const DIGITS: usize = 40;
+    let reprinted = |decimals: Vec<String>| -> Option<Table> {
+        let pairs = table.cells.iter().zip(decimals);
+        let cells = pairs.map(|(cell, decimal)| {
+            let printed = Printed::parse(&decimal).ok()?;
+            Some(Cell {
+                printed,
+                ..cell.clone()
+            })
+        });
+        Some(Table {
+            cells: cells.collect::<Option<_>>()?,
+            ..table.clone()
+        })
+    };
+    let decimals = decimals(&found, DIGITS).ok();
+    let exact = decimals.and_then(reprinted);
+    match exact.and_then(|exact| by_numbers(file, &exact)) {
+        Some(Ok(exact)) => RefinedTable {
+            cells: found.cells,
+            notes: found.notes,
+            only_one: found.only_one,
+            method: "fractions and surds, from the equations of the table".to_owned(),
+            ..exact
+        },
+        _ => found,
+    }
 }
 
 fn tableau(table: &Table, texts: &[String]) -> Option<Tableau> {

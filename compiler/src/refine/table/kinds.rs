@@ -5,7 +5,7 @@ use num_traits::Signed;
 
 use super::RefinedTable;
 use super::composed::{explicit_pair, is_explicit, is_steps_of_midpoint, steps_of_midpoint};
-use super::exact::by_numbers;
+use super::exact::{by_numbers, in_exact_numbers};
 use super::general::by_equations;
 use super::nodes::{by_nodes, collocation_of};
 use super::read::{Claimed, OffSum, Table, not_certified, off_sums};
@@ -55,10 +55,10 @@ fn find(file: Input<'_>, table: &Table) -> Result<RefinedTable, Error> {
     } else {
         match by_numbers(file, table) {
             Some(Ok(found)) => Ok(found),
-            None => by_equations(file, table),
+            None => from_equations(file, table),
             // Another method may be as near.
             Some(Err(error)) => {
-                let other = by_equations(file, table).ok();
+                let other = from_equations(file, table).ok();
                 let near = other.filter(|other| check_distance(file, table, other).is_ok());
                 near.ok_or(error)
             }
@@ -66,6 +66,11 @@ fn find(file: Input<'_>, table: &Table) -> Result<RefinedTable, Error> {
     }?;
     check_distance(file, table, &found)?;
     Ok(found)
+}
+
+fn from_equations(file: Input<'_>, table: &Table) -> Result<RefinedTable, Error> {
+    let found = by_equations(file, table)?;
+    Ok(in_exact_numbers(file, table, found))
 }
 
 fn claim_span(table: &Table, property: Claimed) -> std::ops::Range<usize> {

@@ -73,6 +73,7 @@ const PROPERTIES: [(&str, Claimed); 3] = [
 ];
 
 /// A file that is read.
+#[derive(Clone)]
 pub(super) struct Table {
     pub name: Option<String>,
     pub source: Option<String>,

@@ -15,7 +15,7 @@ use crate::error::{Error, ErrorKind};
 use crate::refine::write::at_most;
 
 /// All numbers, correctly rounded.
-fn decimals(table: &RefinedTable, digits: usize) -> Result<Vec<String>, Error> {
+pub(super) fn decimals(table: &RefinedTable, digits: usize) -> Result<Vec<String>, Error> {
     if digits > MAX_DIGITS {
         let error = CertifyError::Digits {
             digits,
