@@ -90,19 +90,30 @@ pub(super) fn by_equations(file: Input<'_>, table: &Table) -> Result<RefinedTabl
     let ways = [(true, true), (true, false), (false, true), (false, false)];
     let ways = ways.map(|(tied, simple)| Way { tied, simple });
     let mut best: Option<Found> = None;
+    let mut too_much: Option<String> = None;
     let rank = |found: &Found| (found.right, found.solved.is_certified());
-    for way in ways {
-        let Some(reading) = Reading::new(table, way) else {
+    let readings: Vec<Reading> = ways
+        .into_iter()
+        .filter_map(|way| Reading::new(table, way))
+        .collect();
+    for (index, reading) in readings.iter().enumerate() {
+        if let Err(message) = check_work(table, reading) {
+            too_much.get_or_insert(message);
             continue;
-        };
-        check_work(table, &reading).map_err(&refused)?;
-        let Some(mut found) = solve(&reading, table) else {
+        }
+        if readings[..index].iter().any(|known| known.is_same(reading)) {
+            continue;
+        }
+        let Some(mut found) = solve(reading, table) else {
             continue;
         };
         // Only the last way has all others in it.
-        found.excluded &= !way.tied && !way.simple;
+        let last = readings
+            .last()
+            .filter(|last| !last.way.tied && !last.way.simple);
+        found.excluded &= last.is_some_and(|last| last.is_same(reading));
         match &mut best {
-            Some(best) if rank(&found) <= rank(best) => best.excluded = found.excluded,
+            Some(best) if rank(&found) <= rank(best) => best.excluded |= found.excluded,
             _ => best = Some(found),
         }
         if best.as_ref().is_some_and(|best| rank(best) == (true, true)) {
@@ -110,11 +121,13 @@ pub(super) fn by_equations(file: Input<'_>, table: &Table) -> Result<RefinedTabl
         }
     }
     let Some(found) = best else {
-        let message = format!(
-            "no exact method with order {} for {} H and what else is claimed was found near these arrays; that there is none is not proved",
-            table.order, table.class
-        );
-        return Err(refused(message));
+        let none = || {
+            format!(
+                "no exact method with order {} for {} H and what else is claimed was found near these arrays; that there is none is not proved",
+                table.order, table.class
+            )
+        };
+        return Err(refused(too_much.unwrap_or_else(none)));
     };
     Ok(RefinedTable {
         name: table.name.clone(),

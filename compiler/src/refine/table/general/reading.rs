@@ -42,6 +42,7 @@ impl Form {
 
 /// One way to read a table.
 pub(super) struct Reading {
+    pub way: Way,
     pub unknowns: Vec<Unknown>,
     /// The number behind each cell.
     pub forms: Vec<Form>,
@@ -101,6 +102,14 @@ impl Reader<'_> {
 }
 
 impl Reading {
+    /// Whether another way leads to the same equations.
+    pub fn is_same(&self, other: &Reading) -> bool {
+        let (own, other) = (&self.system, &other.system);
+        own.positions == other.positions
+            && own.momenta == other.momenta
+            && own.quadratics == other.quadratics
+    }
+
     /// `None` if it contradicts the claim.
     pub fn new(table: &Table, way: Way) -> Option<Self> {
         let mut reader = Reader {
@@ -169,6 +178,7 @@ impl Reading {
             quadratics: Arc::new(quadratics),
         };
         Some(Reading {
+            way,
             targets: targets(table, &forms),
             unknowns: reader.unknowns,
             forms,
