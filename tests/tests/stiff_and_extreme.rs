@@ -14,7 +14,7 @@ use symplectic_tests::stiff_and_extreme::{
 /// and 8. By Newton's: midpoint, Gauss 4, Lobatto 3, Radau 3, Clenshaw–Curtis 4, Galerkin, trigonometric Gauss 4, triple jump of
 /// Gauss 2.
 ///
-/// Through a collision an explicit method leaps, and only the energy knows; the iteration of an implicit one stops.
+/// Through a collision an explicit method leaps, and only the energy knows; the iteration of most implicit ones stops.
 const EXPECTED: &[(&str, &str)] = &[
     (
         "spring pendulum, ω = 10⁴, resolved",
@@ -39,7 +39,7 @@ const EXPECTED: &[(&str, &str)] = &[
     ),
     (
         "Kepler, e = 0.999, not resolved",
-        "uuuuu uuubb uuuu ubbb bbubunbn",
+        "uuuuu uuubb uuuu ubbb bbububbn",
     ),
     (
         "Kepler, e = 1 − 10⁻⁹, resolved",
@@ -47,11 +47,11 @@ const EXPECTED: &[(&str, &str)] = &[
     ),
     (
         "Kepler, e = 1 − 10⁻⁹, not resolved",
-        "uuuuu uuuuu uuuu uuuu unuuunnn",
+        "uuuuu uuuuu uuuu uuuu uuunuuuu",
     ),
     (
         "Kepler, head-on collision",
-        "bbbbu bbbbb ubub bnnn nnbnnnnn",
+        "bbbbu bbbbb ubub bnnn nubnuunn",
     ),
     (
         "three bodies, not resolved",
