@@ -1,4 +1,4 @@
-//! Claims that are not certified.
+//! Claims that are not certified; that of `Sum` is: -1.7 is -1.7024143839… in two digits.
 
 symplectic::composition! {
     Higher { base: velocity-verlet, weights: [1.3512071920, -1.7024143839], symmetric: true, claim: separable(6) }
