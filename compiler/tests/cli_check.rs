@@ -88,7 +88,9 @@ fn what_is_written_is_checked() {
 fn what_is_no_table_file_is_bad_input() {
     let good = stdout(&["show", "midpoint", "--format", "toml"]);
     let folder = env!("CARGO_TARGET_TMPDIR").to_owned();
-    let garbage: Vec<u8> = (0..=255).rev().collect();
+    // The first two bytes of all in this order are the mark of UTF-16.
+    let garbage: Vec<u8> = (0..=254).rev().collect();
+    let marked: Vec<u8> = (0..=255).rev().collect();
     for (path, message) in [
         (
             file("truncated.toml", &good.as_bytes()[..good.len() / 2]),
@@ -100,6 +102,10 @@ fn what_is_no_table_file_is_bad_input() {
             "no UTF-8 text: the byte at offset 0 is wrong",
         ),
         (file("garbage.json", &garbage), "no UTF-8 text"),
+        (
+            file("marked.toml", &marked),
+            "is UTF-16 (little-endian) text",
+        ),
         (file("empty.toml", b""), "missing field `provenance`"),
         (file("empty.json", b""), "EOF while parsing a value"),
         (

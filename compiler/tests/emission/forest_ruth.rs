@@ -291,6 +291,7 @@ const _: () = {
         type Separable = ::symplectic::Splitting<ForestRuthSeparable>;
     }
     impl ::symplectic::ProvedFor<::symplectic::Separable> for ForestRuth {}
+    impl ::symplectic::ProvedFor<()> for ForestRuth {}
     pub struct ForestRuthGeneral;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for ForestRuthGeneral {

@@ -102,7 +102,7 @@ const _: () = {
         type General = ::symplectic::Coupled<Gauss2General>;
         type Separable = ::symplectic::Coupled<Gauss2Separable>;
     }
-    impl<C: ::symplectic::Class> ::symplectic::ProvedFor<C> for Gauss2 {}
+    impl<C> ::symplectic::ProvedFor<C> for Gauss2 {}
     pub struct Gauss2General;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for Gauss2General {

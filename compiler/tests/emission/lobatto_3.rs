@@ -185,7 +185,7 @@ const _: () = {
         type General = ::symplectic::Coupled<Lobatto3General>;
         type Separable = ::symplectic::Coupled<Lobatto3Separable>;
     }
-    impl<C: ::symplectic::Class> ::symplectic::ProvedFor<C> for Lobatto3 {}
+    impl<C> ::symplectic::ProvedFor<C> for Lobatto3 {}
     pub struct Lobatto3General;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for Lobatto3General {

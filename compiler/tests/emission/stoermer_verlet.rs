@@ -95,7 +95,7 @@ const _: () = {
         type General = ::symplectic::Coupled<StoermerVerletGeneral>;
         type Separable = ::symplectic::Splitting<StoermerVerletSeparable>;
     }
-    impl<C: ::symplectic::Class> ::symplectic::ProvedFor<C> for StoermerVerlet {}
+    impl<C> ::symplectic::ProvedFor<C> for StoermerVerlet {}
     pub struct StoermerVerletGeneral;
     #[allow(unused_variables)]
     impl ::symplectic::StagePlan for StoermerVerletGeneral {
