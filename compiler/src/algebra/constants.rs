@@ -40,7 +40,7 @@ const LONGEST_TEXT: usize = 2000;
 /// The largest product of the degree in `X` and the root of the number of constants: elimination among
 /// rational functions grows with both.
 const MAX_DEGREES: f64 = 160.0;
-/// Rationals with at most so many bits are as cheap as any.
+/// Rationals up to this many bits cost no more than short ones.
 const USUAL_BITS: u64 = 128;
 /// The largest product of the bits beyond that and the degrees in `X` and `θ`: exact arithmetic with long rationals takes
 /// far longer than enclosures.

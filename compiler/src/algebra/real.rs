@@ -14,9 +14,9 @@ use crate::symbolic::Constant;
 /// Binary places to which equations are verified, and to which a number is compared with zero when it is rounded.
 /// Half the smallest positive double is `2⁻¹⁰⁷⁵`, so that what is not told from zero is the double zero.
 pub const ZERO_BITS: u32 = 1280;
-/// Numbers that begin at so many binary places are nothing unusual.
+/// Binary places of smallness up to which no extra places are added.
 const USUAL_BITS: u64 = 256;
-/// At most so many binary places are added for numbers that begin later.
+/// The most binary places that are added for tiny numbers.
 const MOST_FINENESS: u32 = 1 << 14;
 
 /// The binary places beyond the usual ones at which a number begins, from those at which it does.

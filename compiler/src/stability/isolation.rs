@@ -143,14 +143,14 @@ pub(super) fn monotonic_within(
     Some(found)
 }
 
-/// After so many halvings, each of which costs a place, the coefficients are found anew.
+/// Halvings after which the coefficients are computed anew: each halving costs one binary place.
 const HALVINGS: u32 = 32;
 
 /// Sums of machine words that may be spent on one interval: about a tenth of a second.
 const MOST_WORDS: usize = 1 << 25;
 /// So many parts of an interval are looked at in any case.
 const FEWEST_PARTS: usize = 1 << 12;
-/// What goes with the sum of two numbers takes as long as so many words.
+/// The overhead of one addition, in machine words.
 const OVERHEAD: u32 = 32;
 
 /// Narrows an interval at the ends of which a function has different signs, around a root, to this many binary places, or

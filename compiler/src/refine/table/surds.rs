@@ -1,6 +1,6 @@
 //! The numbers `(m + n√d)/k` of which decimals are the roundings.
 //!
-//! They are a guess: what is made of them is proved or refuted afterwards.
+//! They are a guess: the table that follows from them is proved or refuted afterwards.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;

@@ -38,7 +38,7 @@ const MAX_UNKNOWNS: usize = 60;
 const MAX_PRODUCTS: usize = 300_000;
 /// Derivatives that differ by less are taken for dependent: printed numbers have few digits.
 const RANK_THRESHOLD: f64 = 1e-7;
-/// Equations that are left out hold to so many places at least.
+/// Binary places to which the equations left out hold at least.
 const VERIFIED_BITS: i64 = 200;
 
 /// The entries behind a table, as zeros of equations.
