@@ -156,30 +156,38 @@ fn order_text(report: &OrderReport) -> String {
     format!("{orders:?}")
 }
 
-/// What differs.
+/// What differs: what is told to users, and what usual enclosures alone decide, from what wide ones do.
 fn compare(tableau: &Tableau) -> Vec<Difference> {
-    let mut all: Vec<Difference> = Vec::new();
-    let (usual, more) = (
-        tableau.stability(),
-        over_algebra!(tableau, pair => Stability::with_more_bits(pair, TIMES)),
-    );
     let undecided = |evidence| matches!(evidence, Evidence::Undecided { .. });
-    if !undecided(usual.evidence) && !undecided(more.evidence) {
-        all.push(("stability", stability_text(&usual), stability_text(&more)));
-    }
+    let options = OrderOptions {
+        limit: 4,
+        ..OrderOptions::default()
+    };
+    let mut all: Vec<Difference> = Vec::new();
     over_algebra!(tableau, pair => {
-        let fine = pair.enclosed(BITS);
-        let numbers = fine.numbers();
-        let (usual, more) = (tableau.properties(), Properties::of_pair(&fine));
-        for ((name, usual), (_, more)) in usual.all().into_iter().zip(more.all()) {
-            if !undecided(usual.evidence) && !undecided(more.evidence) {
-                all.push((name, usual.holds.to_string(), more.holds.to_string()));
+        let (coarse, fine) = (pair.enclosed(BITS / TIMES), pair.enclosed(BITS));
+        let [few, more] = [1, TIMES].map(|times| Stability::with_more_bits(pair, times));
+        for stability in [tableau.stability(), few] {
+            if !undecided(stability.evidence) && !undecided(more.evidence) {
+                all.push(("stability", stability_text(&stability), stability_text(&more)));
             }
         }
-        all.push(("schedule", graphs(pair, &pair.numbers()), graphs(&fine, &numbers)));
-        let options = OrderOptions { limit: 4, ..OrderOptions::default() };
-        let usual = order_text(&order(pair, &options, None));
-        all.push(("order", usual, order_text(&order(&fine, &options, None))));
+        let more = Properties::of_pair(&fine);
+        for properties in [tableau.properties(), Properties::of_pair(&coarse)] {
+            for ((name, usual), (_, more)) in properties.all().into_iter().zip(more.all()) {
+                if !undecided(usual.evidence) && !undecided(more.evidence) {
+                    all.push((name, usual.holds.to_string(), more.holds.to_string()));
+                }
+            }
+        }
+        let more = graphs(&fine, &fine.numbers());
+        for graphs in [graphs(pair, &pair.numbers()), graphs(&coarse, &coarse.numbers())] {
+            all.push(("schedule", graphs, more.clone()));
+        }
+        let more = order_text(&order(&fine, &options, None));
+        for report in [order(pair, &options, None), order(&coarse, &options, None)] {
+            all.push(("order", order_text(&report), more.clone()));
+        }
     });
     all.retain(|(_, usual, more)| usual != more);
     all
@@ -188,8 +196,9 @@ fn compare(tableau: &Tableau) -> Vec<Difference> {
 /// `SYMPLECTIC_SEEDS=0..5000` compares more definitions.
 #[test]
 fn eight_times_the_bits_decide_the_same() {
-    let (mut compared, mut open, mut differences) = (0, 0, Vec::new());
-    for seed in seeds(0..24) {
+    let (mut tried, mut compared, mut open, mut differences) = (0, 0, 0, Vec::new());
+    for seed in seeds(0..80) {
+        tried += 1;
         let text = Numbers::new(seed).definition();
         // A stage with the weight zero, or a constant out of bounds.
         let Ok(tableau) = Definition::parse(&text).and_then(|d| d.derive(&Limits::default()))
@@ -208,8 +217,9 @@ fn eight_times_the_bits_decide_the_same() {
         }));
     }
     assert!(differences.is_empty(), "{}", differences.join("\n"));
+    // About a third of all definitions have a tableau, and nearly all of these are decided.
     assert!(
-        compared > 0 && 4 * open < compared,
-        "{compared}, {open} of them not decided"
+        5 * compared > tried && 20 * open <= compared,
+        "{compared} of {tried} compared, {open} of these not decided"
     );
 }

@@ -91,7 +91,7 @@ fn coprime_base<P: RealPolynomial>(polynomials: &[P]) -> Vec<P> {
         let mut finer = Vec::new();
         for known in base {
             let common = if long(&rest) {
-                known.gcd(&rest)
+                known.common_factor(&rest)
             } else {
                 rest.clone()
             };

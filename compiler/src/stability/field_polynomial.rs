@@ -109,10 +109,10 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
 
     /// The value at a rational point, if enclosures tell its sign.
     fn known_value(&self, point: &BigRational) -> Option<Ball> {
-        let tried = if self.is_exact() {
-            TRIED
-        } else {
-            PRECISIONS.len()
+        let is_enough = |finest| PRECISIONS.iter().position(|&bits| bits >= finest);
+        let tried = match self.field().finest_bits() {
+            None => TRIED,
+            Some(finest) => is_enough(finest).map_or(PRECISIONS.len(), |k| k + 1),
         };
         let known = |k| {
             if !self.is_exact() {
@@ -174,25 +174,6 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
             let mut pairs = all.iter().flat_map(|x| others.iter().map(move |y| (x, y)));
             pairs.all(|(x, y)| compare(x, y).is_some())
         })
-    }
-
-    /// The greatest common divisor as far as positive roots go, where what is zero is only known from enclosures.
-    ///
-    /// Those of Euclid's algorithm lose all their places where numbers differ much in size. So they are asked only
-    /// where enclosures do not tell the roots apart, and have to explain why not.
-    fn enclosed_gcd(&self, other: &Self) -> Self {
-        if self.is_apart_from(other) {
-            return self.with(vec![self.integer(1)]);
-        }
-        let common = self.euclid(other);
-        if common.degree() == Some(0) {
-            return common;
-        }
-        let [rest, others] = [self, other].map(|p| p.divide(&common).0);
-        if !rest.is_apart_from(&others) {
-            self.field().doubt();
-        }
-        common
     }
 
     fn euclid(&self, other: &Self) -> Self {
@@ -374,9 +355,6 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
             if bound == Some(0) {
                 return self.with(vec![self.integer(1)]);
             }
-            if !self.is_exact() {
-                return self.enclosed_gcd(other);
-            }
             let (long, short) = if m < n { (other, self) } else { (self, other) };
             if bound == short.degree() && long.remainder(short).is_zero() {
                 return short.signed_monic();
@@ -385,13 +363,35 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
         self.euclid(other)
     }
 
+    /// Where what is zero is only known from enclosures, those of Euclid's algorithm lose all their places if numbers differ
+    /// much in size. So they are asked only where enclosures do not tell the roots apart, and have to explain why not.
+    fn common_factor(&self, other: &Self) -> Self {
+        let constant = [self, other].iter().any(|p| p.degree() == Some(0));
+        if self.is_exact() || constant {
+            return self.gcd(other);
+        }
+        if !self.is_zero() && !other.is_zero() && self.is_apart_from(other) {
+            return self.with(vec![self.integer(1)]);
+        }
+        let common = self.gcd(other);
+        let is_nothing = |p: &Self| p.is_zero() || common.degree() == Some(0);
+        if is_nothing(self) || is_nothing(other) {
+            return common;
+        }
+        let [rest, others] = [self, other].map(|p| p.divide(&common).0);
+        if !rest.is_apart_from(&others) {
+            self.field().doubt();
+        }
+        common
+    }
+
     /// Where enclosures tell the positive roots apart, each of them is simple.
     fn squarefree(&self) -> Self {
         let simple = self.degree().unwrap_or(0) < 2 || !self.is_exact() && self.roots().is_some();
         if simple {
             return self.clone();
         }
-        self.divide(&self.gcd(&self.derivative())).0
+        self.divide(&self.common_factor(&self.derivative())).0
     }
 
     /// From the lowest coefficients upwards, for which nothing but polynomials in the generators of the

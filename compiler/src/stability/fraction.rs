@@ -1,5 +1,6 @@
 //! Rational functions in lowest terms.
 
+use std::cmp::Ordering;
 use std::fmt;
 
 use num_rational::BigRational;
@@ -36,6 +37,12 @@ impl<P: RealPolynomial> Fraction<P> {
     pub(super) fn is(&self, value: &BigRational) -> bool {
         let difference = self.numerator.subtract(&self.denominator.scale(value));
         difference.is_zero()
+    }
+
+    /// The sign of the value at a rational point.
+    pub(super) fn sign_at(&self, point: &BigRational) -> Ordering {
+        let [n, d] = [&self.numerator, &self.denominator].map(|p| p.sign_at(point));
+        if d.is_lt() { n.reverse() } else { n }
     }
 
     pub(super) fn exported(&self, variable: Variable) -> RationalFunction {

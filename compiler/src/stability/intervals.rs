@@ -2,12 +2,12 @@
 
 use std::cmp::Ordering;
 use std::fmt;
+use std::sync::Arc;
 
 use num_rational::BigRational;
 
 use super::cells::Cells;
 use super::end_point::{EndPoint, PositiveRoot};
-use super::fraction::Fraction;
 use super::oscillator::Step;
 use super::polynomial::RealPolynomial;
 
@@ -44,29 +44,12 @@ impl fmt::Display for StabilityInterval {
     }
 }
 
-/// What holds at a point.
-trait At {
-    fn sign(&self) -> Ordering;
-}
-
-/// A condition `f ≥ 0` on a rational function, at a cell or at a root.
-struct Signed<'a, P>(
-    &'a Fraction<P>,
-    &'a BigRational,
-    Option<&'a PositiveRoot<P>>,
-);
-
-impl<P: RealPolynomial> At for Signed<'_, P> {
-    /// The sign at the root, if there is one, which the sample lies next to; at the sample otherwise.
-    fn sign(&self) -> Ordering {
-        let Signed(fraction, sample, root) = self;
-        let vanishes = |root: &PositiveRoot<P>| fraction.numerator.is_multiple_of(&root.polynomial);
-        if root.is_some_and(vanishes) {
-            return Ordering::Equal;
-        }
-        let [n, d] = [&fraction.numerator, &fraction.denominator].map(|p| p.sign_at(sample));
-        if d.is_lt() { n.reverse() } else { n }
-    }
+/// What vanishes at all roots of a polynomial, which are roots of nothing else.
+struct Vanishing<P> {
+    polynomial: Arc<P>,
+    stages: bool,
+    conditions: [bool; 4],
+    scalar: bool,
 }
 
 /// The step sizes `ν > 0` for which the powers of the matrix are bounded.
@@ -82,7 +65,7 @@ pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Option<Vec<StabilityI
     for condition in &conditions {
         cuts.push(condition.numerator.clone());
         if !scalar.is_zero() && !condition.numerator.is_zero() {
-            cuts.push(condition.numerator.gcd(&scalar));
+            cuts.push(condition.numerator.common_factor(&scalar));
         }
     }
     let [area, _, one, minus_one] = [0, 1, 2, 3].map(|k| conditions[k].numerator.is_zero());
@@ -91,17 +74,32 @@ pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Option<Vec<StabilityI
         cuts.push(scalar.clone());
     }
     let cells = Cells::new(&cuts)?;
+    let mut vanishing: Vec<Vanishing<P>> = Vec::new();
+    for PositiveRoot { polynomial, .. } in &cells.roots {
+        if vanishing_at(&vanishing, polynomial).is_none() {
+            let vanishes = |p: &P| p.is_multiple_of(polynomial);
+            vanishing.push(Vanishing {
+                stages: vanishes(&step.stages),
+                conditions: [0, 1, 2, 3].map(|k| vanishes(&conditions[k].numerator)),
+                scalar: vanishes(&scalar),
+                polynomial: Arc::clone(polynomial),
+            });
+        }
+    }
+    // At a root, if there is one, which the sample lies next to; at the sample otherwise.
     let bounded = |sample: &BigRational, root: Option<&PositiveRoot<P>>| {
-        let on_root =
-            |polynomial: &P| root.is_some_and(|root| polynomial.is_multiple_of(&root.polynomial));
-        if on_root(&step.stages) {
+        let zero = root.and_then(|root| vanishing_at(&vanishing, &root.polynomial));
+        if zero.is_some_and(|zero| zero.stages) {
             return false;
         }
-        let [area, _, one, minus_one] =
-            [0, 1, 2, 3].map(|k| Signed(&conditions[k], sample, root).sign());
-        let signs = conditions.iter().map(|c| Signed(c, sample, root).sign());
+        let signs = [0, 1, 2, 3].map(|k| match zero {
+            Some(zero) if zero.conditions[k] => Ordering::Equal,
+            _ => conditions[k].sign_at(sample),
+        });
+        let [area, _, one, minus_one] = signs;
         let double = area.is_eq() && (one.is_eq() || minus_one.is_eq());
-        signs.into_iter().all(Ordering::is_ge) && (!double || scalar.is_zero() || on_root(&scalar))
+        let semisimple = || scalar.is_zero() || zero.is_some_and(|zero| zero.scalar);
+        signs.into_iter().all(Ordering::is_ge) && (!double || semisimple())
     };
     let mut intervals = Vec::new();
     let mut open: Option<(EndPoint, bool)> = None;
@@ -146,4 +144,9 @@ pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Option<Vec<StabilityI
         high_closed: false,
     }));
     Some(intervals)
+}
+
+fn vanishing_at<'a, P>(list: &'a [Vanishing<P>], polynomial: &Arc<P>) -> Option<&'a Vanishing<P>> {
+    let is_that = |v: &&Vanishing<P>| Arc::ptr_eq(&v.polynomial, polynomial);
+    list.iter().find(is_that)
 }

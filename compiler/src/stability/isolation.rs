@@ -92,14 +92,17 @@ pub(super) fn monotonic_within(
     let mut pending = vec![(low, high, bits, whole)];
     while let Some((low, high, bits, shifted)) = pending.pop() {
         let depth = bits - first_bits;
-        let anew = depth.is_multiple_of(HALVINGS) && depth > 0;
-        let shifted = match anew {
-            true => local(coefficients, &low, &high, bits, precision),
-            false => shifted,
-        };
         // The root may be a double one, however near.
-        let undecided = |k: usize| shifted.get(k).is_some_and(|c| c.sign().is_none());
-        if anew && undecided(0) && undecided(1) {
+        let undecided = |list: &[Ball]| {
+            let mut lowest = list.iter().take(2);
+            list.len() > 1 && lowest.all(|c| c.sign().is_none())
+        };
+        let shifted = if depth > 0 && depth.is_multiple_of(HALVINGS) || undecided(&shifted) {
+            local(coefficients, &low, &high, bits, precision)
+        } else {
+            shifted
+        };
+        if undecided(&shifted) {
             return None;
         }
         let sum = |first: usize, weighted: bool| {
@@ -294,6 +297,7 @@ pub(super) fn root_bound(coefficients: &[Ball]) -> Option<i64> {
 mod tests {
     use super::*;
     use crate::algebra::{Balls, Field};
+    use crate::arithmetic::polynomial::Polynomial;
     use crate::arithmetic::rational::ratio;
 
     fn found(coefficients: &[i64], shift: i64) -> Option<Vec<Interval>> {
@@ -318,11 +322,27 @@ mod tests {
                 intervals.iter().position(|i| i.contains(&root))
             };
             let places: Vec<_> = (1..4).map(|k| holds(k).expect("somewhere")).collect();
-            assert!(places.is_sorted() && places[0] < places[1] && places[1] < places[2]);
+            assert!(places[0] < places[1] && places[1] < places[2]);
+            // In the other intervals the polynomial is monotonic and has no root.
+            assert_eq!(with_a_root(&product, shift, &intervals), places);
         }
-        // Without a root, the ends have the same sign.
-        let ends = found(&[1, 0, 1], 0).expect("told apart");
-        assert!(ends.iter().all(|i| i.low() > ratio(0, 1)));
+        let intervals = found(&[1, 0, 1], 0).expect("told apart");
+        assert!(with_a_root(&[1, 0, 1], 0, &intervals).is_empty());
+    }
+
+    /// The places of the intervals in which a polynomial in `2ˢx` changes its sign or vanishes at the upper end.
+    fn with_a_root(coefficients: &[i64], shift: i64, intervals: &[Interval]) -> Vec<usize> {
+        let scale = ratio(2, 1).pow(shift as i32);
+        let list: Vec<_> = coefficients.iter().map(|&c| ratio(c, 1)).collect();
+        let polynomial = Polynomial::from_rationals(&list);
+        let changes = |interval: &Interval| {
+            let ends = [interval.low(), interval.high()];
+            let [low, high] = ends.map(|end| polynomial.sign_at(&(end * &scale)));
+            low.is_ne() && low != high
+        };
+        (0..intervals.len())
+            .filter(|&k| changes(&intervals[k]))
+            .collect()
     }
 
     #[test]

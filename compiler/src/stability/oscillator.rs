@@ -236,8 +236,8 @@ impl<P: RealPolynomial> Step<P> {
             true => n11.subtract(n22),
             false => n11.multiply(d22).subtract(&n22.multiply(d11)),
         };
-        let off = self.m12.numerator.gcd(&self.m21.numerator);
-        off.gcd(&difference)
+        let off = self.m12.numerator.common_factor(&self.m21.numerator);
+        off.common_factor(&difference)
     }
 
     /// Whether `det M = 1`.

@@ -39,6 +39,10 @@ pub(super) trait RealPolynomial: Clone + Debug + 'static {
     fn divide(&self, divisor: &Self) -> (Self, Self);
     /// A greatest common divisor.
     fn gcd(&self, other: &Self) -> Self;
+    /// A common divisor with all positive roots that both have.
+    fn common_factor(&self, other: &Self) -> Self {
+        self.gcd(other)
+    }
     /// The derivative.
     fn derivative(&self) -> Self;
     /// Polynomials `f, g` with `self(iy) = f(y²) + iy g(y²)`.
@@ -92,7 +96,7 @@ pub(super) trait RealPolynomial: Clone + Debug + 'static {
         if self.degree().unwrap_or(0) < 2 {
             return self.clone();
         }
-        self.divide(&self.gcd(&self.derivative())).0
+        self.divide(&self.common_factor(&self.derivative())).0
     }
 }
 
