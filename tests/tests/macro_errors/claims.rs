@@ -3,6 +3,7 @@
 symplectic::composition! {
     Higher { base: velocity-verlet, weights: [1.3512071920, -1.7024143839], symmetric: true, claim: separable(6) }
     Sum { base: velocity-verlet, weights: [1.3512071920, -1.7], symmetric: true, claim: separable(4) }
+    WrongSum { base: velocity-verlet, weights: [1.3512071920, -1.71], symmetric: true, claim: separable(4) }
     NotSymmetric { base: ruth-1983, weights: [1.3512071920, -1.7024143839], symmetric: true, claim: separable(4) }
 }
 
