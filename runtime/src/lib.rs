@@ -74,133 +74,54 @@ extern crate alloc;
 #[macro_use]
 extern crate std;
 
-mod array;
-mod at_once;
-mod chain;
-mod change;
-mod class;
-mod closures;
-mod coefficient;
-mod components;
-mod composition;
-mod coupled;
-mod dense;
-mod diagnosis;
-mod elementary;
 mod error;
-mod event;
-mod explicit;
-mod fixed_point;
-#[cfg(feature = "alloc")]
-mod generating_function;
-mod hamiltonian;
-mod in_lanes;
+mod state;
+
 mod integrator;
-mod interpolation;
-mod invariant;
-mod iteration;
-mod kernel;
-mod lane_movement;
-mod lane_stages;
-mod lanes;
-mod layout;
-mod long_splitting;
 mod method;
-mod moves;
-#[cfg(feature = "alloc")]
-mod newton;
+mod number;
 mod output;
-mod partial;
-mod progress;
-mod proved;
-mod relax;
 #[cfg(feature = "report")]
 pub mod report;
-mod retry;
-mod root;
-mod rows;
-mod scalar;
-mod second_order;
 mod solver;
-mod splitting;
-mod splitting_macros;
-mod stage;
-mod stage_tableau;
-mod starting_values;
-mod state;
-mod states;
-mod statistics;
-mod step;
-mod stopping;
-mod summation;
-mod tableau_macro;
-mod time;
-mod vector;
-mod work;
+mod system;
+#[cfg(feature = "alloc")]
+mod variational;
 
-pub use at_once::AtOnceInLanes;
-pub use chain::{Bonds, Chain};
-pub use change::{Change, PartChange};
-pub use class::{Class, General, Separable};
-pub use closures::{
-    HamiltonianClosures, Momentum, NoEnergy, SeparableClosures, acceleration, hamiltonian,
-    separable,
-};
-pub use coefficient::{Coefficient, Coefficients};
-pub use components::{Components, MOST_ROW_STAGES, StageRows};
-pub use composition::{Composition, CompositionMemory, Substep, Substeps};
-pub use coupled::Coupled;
-pub use dense::DenseOutput;
 pub use error::{Error, Quantity};
-pub use event::{Event, Events, Moment};
-pub use explicit::Explicit;
-pub use fixed_point::FixedPoint;
-#[cfg(feature = "alloc")]
-pub use generating_function::{GeneratingFunction, generating_function};
-pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
-pub use in_lanes::InLanes;
-pub use integrator::Integrator;
-pub use interpolation::{Inside, Interpolation};
-pub use invariant::Invariant;
-pub use kernel::{
-    advance, combine, copy, copy_to, factors, increment, relative, scale, total, transform,
-    weighted_total, weights,
+pub use integrator::{Integrator, Retry, Statistics};
+pub use method::{
+    Change, Composition, CompositionMemory, Coupled, Decoupling, Drift, EvaluationCounts,
+    Evaluations, Explicit, Failure, Force, HalfTableau, Inside, Interpolation, Kept, LowerOrder,
+    Method, Moves, Orders, Outcome, PartChange, Plan, ProvedFor, SecondOrderTableau, SeparableOnly,
+    Solver, Span, Splitting, SplittingPlan, StagePlan, StagePolynomial, StageStorage, StageTableau,
+    Stages, Step, Stopping, StoredEvaluations, Substep, Substeps, Witness, Work, composition, rows,
+    splitting, staircase, tableau,
 };
-pub use lane_stages::LaneStages;
-pub use lanes::{F64x2, F64x4, F64x8, HamiltonianInLanes, Lanes};
-pub use layout::Layout;
-pub use long_splitting::{SeparableOnly, rows, staircase};
-pub use method::{Method, Plan, StagePlan};
-pub use moves::{Drift, Force, Moves};
 pub use nalgebra;
+pub use num_traits;
+pub use number::{
+    Coefficient, Coefficients, Compensated, F64x2, F64x4, F64x8, HamiltonianInLanes, Lanes, Plain,
+    Scalar, Summation, Vector, advance, combine, copy, copy_to, factors, increment, relative,
+    scale, total, transform, weighted_total, weights,
+};
+pub use output::{DenseOutput, Event, Events, Invariant, Moment, Progress, States};
 #[cfg(feature = "alloc")]
-pub use newton::{
+pub use solver::{
     Analytic, BandMatrix, Banded, Coupling, Dense, Derivatives, Differences, EveryStage,
     FixedPointThenNewton, FixedPointThenNewtonMemory, Jacobian, LinearSolver, Linearized, Matrices,
     Newton, NewtonMemory, Parts,
 };
-#[cfg(feature = "num-dual")]
-pub use newton::{DualNumbers, HamiltonianInDuals};
-pub use num_traits;
-pub use progress::Progress;
-pub use proved::{LowerOrder, Orders, ProvedFor};
-pub use relax::relax;
-pub use retry::Retry;
-pub use scalar::Scalar;
-pub use second_order::{SecondOrderInLanes, SecondOrderStages};
-pub use solver::Solver;
-pub use splitting::{Splitting, SplittingPlan};
-pub use splitting_macros::{composition, splitting};
-pub use stage::{Evaluations, StageStorage, Stages};
-pub use stage_tableau::{
-    Decoupling, HalfTableau, SecondOrderTableau, StagePolynomial, StageTableau, StoredEvaluations,
+pub use solver::{
+    AtOnceInLanes, FixedPoint, InLanes, LaneStages, SecondOrderInLanes, SecondOrderStages, relax,
 };
+#[cfg(feature = "num-dual")]
+pub use solver::{DualNumbers, HamiltonianInDuals};
 pub use state::State;
-pub use states::States;
-pub use statistics::Statistics;
-pub use step::{EvaluationCounts, Kept, Outcome, Span, Step, Witness};
-pub use stopping::Stopping;
-pub use summation::{Compensated, Plain, Summation};
-pub use tableau_macro::tableau;
-pub use vector::Vector;
-pub use work::{Failure, Work};
+pub use system::{
+    Bonds, Chain, Class, Components, General, Hamiltonian, HamiltonianClosures, Layout,
+    MOST_ROW_STAGES, Momentum, NoEnergy, Separable, SeparableClosures, SeparableHamiltonian,
+    StageRows, acceleration, hamiltonian, separable,
+};
+#[cfg(feature = "alloc")]
+pub use variational::{GeneratingFunction, generating_function};

@@ -2,7 +2,8 @@
 
 use nalgebra::SVector;
 
-use crate::{Error, Scalar, Vector};
+use crate::error::Error;
+use crate::number::{Scalar, Vector};
 
 /// A point of phase space at a time.
 ///

@@ -1,6 +1,7 @@
 //! Whether the kinetic energy is quadratic, as far as evaluations of the velocity can tell.
 
-use crate::{Hamiltonian, Scalar, Vector};
+use crate::number::{Scalar, Vector};
+use crate::system::Hamiltonian;
 
 /// A component of a velocity that is not linear in the momentum.
 pub(crate) struct NonLinear {

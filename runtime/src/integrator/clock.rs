@@ -1,0 +1,82 @@
+//! Times that do not drift, and steps that end where they should.
+
+use num_traits::Float;
+
+use crate::error::Error;
+
+/// The times `start + k size`.
+#[derive(Clone, Copy)]
+pub(crate) struct Clock {
+    start: f64,
+    size: f64,
+    count: u64,
+}
+
+impl Clock {
+    pub(crate) const fn new(start: f64, size: f64) -> Self {
+        Self {
+            start,
+            size,
+            count: 0,
+        }
+    }
+
+    /// The time after one step more.
+    pub(crate) fn next(&self) -> f64 {
+        self.later(1)
+    }
+
+    /// The time after so many steps more.
+    pub(crate) fn later(&self, steps: u64) -> f64 {
+        self.start + (self.count + steps) as f64 * self.size
+    }
+
+    pub(crate) const fn tick(&mut self) {
+        self.skip(1);
+    }
+
+    pub(crate) const fn skip(&mut self, steps: u64) {
+        self.count += steps;
+    }
+}
+
+/// Checks that steps from `start` to `end` can be counted.
+pub(crate) fn check_count(start: f64, end: f64, step_size: f64) -> Result<(), Error> {
+    if ((end - start) / step_size).abs() < MOST_STEPS {
+        Ok(())
+    } else {
+        Err(Error::StepCount {
+            time: start,
+            end,
+            step_size,
+        })
+    }
+}
+
+/// The numbers of steps below this one are doubles.
+const MOST_STEPS: f64 = (1_u64 << 53) as f64;
+
+/// The smallest number of equal steps from `start` to `end` that are no longer than `|step_size|`, and their size.
+pub(crate) fn uniform(start: f64, end: f64, step_size: f64) -> Result<(u64, f64), Error> {
+    let span = end - start;
+    if !span.is_finite() {
+        return Err(Error::EndTime { value: end });
+    }
+    if span == 0.0 {
+        return Ok((0, 0.0));
+    }
+    let ratio = (span / step_size).abs();
+    // 1.2 is not three times 0.4 in f64, nor 1000.4 − 1000.1 three times 0.1: the ratio of a whole number of
+    // steps can come out above it by the roundings of both times, the step size, the difference and the quotient.
+    let doubt = f64::EPSILON * (2.0 * ratio + ((start.abs() + end.abs()) / step_size).abs());
+    let count = Float::ceil(ratio - doubt).max(1.0);
+    if count < MOST_STEPS {
+        Ok((count as u64, span / count))
+    } else {
+        Err(Error::StepCount {
+            time: start,
+            end,
+            step_size,
+        })
+    }
+}

@@ -1,0 +1,198 @@
+//! What steps change.
+
+use core::mem;
+
+use crate::integrator::Statistics;
+use crate::method::storage::is_finite;
+use crate::method::{Failure, Kept, Outcome, Plan, Solver, StageStorage, Step, Stopping, Work};
+use crate::number::vector::{SHORT, is_in_place};
+use crate::number::{Summation, Vector, copy};
+use crate::state::State;
+use crate::system::Hamiltonian;
+
+/// What steps change: the state, and what a step leaves behind for the next one.
+pub(super) struct Course<V, T> {
+    pub(super) state: State<V>,
+    /// What the position and the momentum of the state leave out.
+    pub(super) low: (V, V),
+    /// Where a step writes its result; swapped with the state when it is accepted.
+    pub(super) next: (V, V),
+    /// What they leave out.
+    pub(super) next_low: (V, V),
+    /// What that step took.
+    work: Work,
+    pub(super) memory: T,
+    /// What `memory` holds for the next step.
+    pub(super) kept: Kept,
+    /// Size of the step before.
+    pub(super) last_size: f64,
+    /// Time at the start of the step before.
+    pub(super) last_time: f64,
+    pub(super) statistics: Statistics,
+}
+
+impl<V: Vector, T: StageStorage<V>> Course<V, T> {
+    /// That which begins at a state.
+    pub(super) fn new(state: State<V>) -> Self {
+        let zeros = || (state.q.zeros_like(), state.q.zeros_like());
+        Self {
+            low: zeros(),
+            next: zeros(),
+            next_low: zeros(),
+            work: Work::default(),
+            memory: T::like(&state.q),
+            kept: Kept::default(),
+            last_size: 0.0,
+            last_time: state.time,
+            statistics: Statistics::default(),
+            state,
+        }
+    }
+
+    /// The same from here, with nothing left behind by steps.
+    pub(super) fn anew(&self) -> Self {
+        Self {
+            low: self.low.clone(),
+            statistics: self.statistics,
+            ..Self::new(self.state.clone())
+        }
+    }
+
+    /// The same with a memory of another kind.
+    pub(super) fn with_memory<U: StageStorage<V>>(self) -> Course<V, U> {
+        Course {
+            memory: U::like(&self.state.q),
+            kept: Kept::default(),
+            state: self.state,
+            low: self.low,
+            next: self.next,
+            next_low: self.next_low,
+            work: self.work,
+            last_size: self.last_size,
+            last_time: self.last_time,
+            statistics: self.statistics,
+        }
+    }
+
+    /// The same from another state of the same dimension.
+    pub(super) fn set_state(&mut self, state: State<V>) {
+        self.state = state;
+        self.low = (self.state.q.zeros_like(), self.state.q.zeros_like());
+        self.kept = Kept::default();
+    }
+
+    /// The same from another state of the same dimension, copied.
+    pub(super) fn copy_state(&mut self, state: &State<V>) {
+        self.state.time = state.time;
+        copy(&mut self.state.q, &state.q);
+        copy(&mut self.state.p, &state.p);
+        for low in [&mut self.low.0, &mut self.low.1] {
+            low.as_mut_slice().fill(num_traits::Zero::zero());
+        }
+        self.kept = Kept::default();
+    }
+
+    /// Computes a step of size `size` into `next` and checks it.
+    #[inline(always)]
+    pub(super) fn attempt<P, R, S, N>(
+        &mut self,
+        system: &S,
+        size: f64,
+        stopping: Stopping,
+    ) -> Result<(), Option<Failure>>
+    where
+        P: Plan<Class = S::Class, Memory<V, S, N> = T>,
+        R: Summation,
+        S: Hamiltonian<V>,
+        N: Solver<V, S>,
+    {
+        // Nothing is kept until the step is accepted: the system may panic.
+        let before = mem::take(&mut self.kept);
+        let kept = Kept {
+            stages: before.stages && size == self.last_size,
+            ..before
+        };
+        let (step, outcome, memory) = self.lend(size);
+        self.work = P::take::<R, V, S, N>(&step, system, memory, kept, stopping, outcome)?;
+        if self.is_sound() { Ok(()) } else { Err(None) }
+    }
+
+    /// Whether `next` is finite, and was made of evaluations of the right dimension.
+    #[inline(always)]
+    pub(super) fn is_sound(&self) -> bool {
+        let (q1, p1) = &self.next;
+        let dimension = self.state.q.dimension();
+        self.memory.mismatch(dimension).is_none() && is_finite(q1) && is_finite(p1)
+    }
+
+    /// Exchanges the state and `next`.
+    #[inline(always)]
+    pub(super) fn swap<R: Summation>(&mut self) {
+        swap(&mut self.state.q, &mut self.next.0);
+        swap(&mut self.state.p, &mut self.next.1);
+        if R::COMPENSATED {
+            swap(&mut self.low.0, &mut self.next_low.0);
+            swap(&mut self.low.1, &mut self.next_low.1);
+        }
+    }
+
+    /// Makes the step that [`attempt`](Self::attempt) has computed, to the time `time`, the present state.
+    #[inline(always)]
+    pub(super) fn accept<R: Summation>(&mut self, size: f64, time: f64) {
+        self.swap::<R>();
+        self.last_time = mem::replace(&mut self.state.time, time);
+        self.statistics.count(self.work);
+        self.last_size = size;
+        self.kept = Kept {
+            evaluation: true,
+            stages: true,
+            scales: self.work.scales,
+        };
+    }
+
+    /// Forgets what steps have left behind.
+    pub(super) fn forget(&mut self) {
+        self.memory = T::like(&self.state.q);
+        self.kept = Kept::default();
+    }
+
+    /// A step of size `size` from the present state, places for its result, and the memory.
+    #[inline(always)]
+    pub(super) const fn lend(&mut self, size: f64) -> (Step<'_, V>, Outcome<'_, V>, &mut T) {
+        let step = Step {
+            time: self.state.time,
+            size,
+            q: &self.state.q,
+            q_low: &self.low.0,
+            p: &self.state.p,
+            p_low: &self.low.1,
+        };
+        let outcome = Outcome {
+            q: &mut self.next.0,
+            q_low: &mut self.next_low.0,
+            p: &mut self.next.1,
+            p_low: &mut self.next_low.1,
+        };
+        (step, outcome, &mut self.memory)
+    }
+}
+
+/// Exchanges two vectors, or their handles: what is short without [`mem::swap`], which may be a call and keep it out of
+/// registers. Copies of six components as a whole are two that overlap, which processors wait for; by component they are not.
+#[inline(always)]
+fn swap<V: Vector>(a: &mut V, b: &mut V) {
+    let short = size_of::<V>() <= SHORT && is_in_place(a) && is_in_place(b);
+    match short {
+        true if size_of::<V>().is_power_of_two() => {
+            let first = mem::replace(a, V::blank());
+            *a = mem::replace(b, first);
+        }
+        true => {
+            let (a, b) = (a.as_mut_slice(), b.as_mut_slice());
+            for k in 0..a.len().min(b.len()) {
+                (a[k], b[k]) = (b[k], a[k]);
+            }
+        }
+        false => mem::swap(a, b),
+    }
+}

@@ -1,0 +1,695 @@
+//! Steps, and what holds between them.
+
+pub(crate) mod clock;
+pub(crate) mod partial_step;
+pub(crate) mod retry;
+pub(crate) mod statistics;
+
+pub use retry::Retry;
+pub use statistics::Statistics;
+
+use core::convert::Infallible;
+use core::fmt;
+use core::marker::PhantomData;
+use core::ops::ControlFlow;
+
+use crate::error::Error;
+use crate::integrator::clock::{Clock, uniform};
+use crate::method::interpolation::Line;
+use crate::method::{Inside, Interpolation, Method, Plan, ProvedFor, Solver, Stopping};
+#[cfg(feature = "alloc")]
+use crate::method::{Kept, Step};
+use crate::number::{Compensated, HamiltonianInLanes, Plain, Scalar, Summation, Vector};
+use crate::output::States;
+use crate::output::dense::LastStep;
+use crate::output::event::LastEvent;
+use crate::solver::{AtOnceInLanes, FixedPoint, InLanes, SecondOrderInLanes};
+use crate::state::State;
+use crate::system::{Class, Hamiltonian};
+#[cfg(feature = "alloc")]
+use crate::variational::GeneratingFunction;
+#[cfg(feature = "alloc")]
+use crate::variational::generating_function::generating;
+
+pub(crate) mod linearity;
+mod many_steps;
+mod memory;
+mod one_step;
+mod retry_in_parts;
+pub(crate) mod validation;
+
+use memory::Course;
+use validation::{
+    check_local_forces, check_masses, check_pass, check_quadratic_kinetic, check_slopes,
+    check_state, check_step_size,
+};
+
+/// The plan of the method `M` for the class of the system `S`.
+pub(crate) type PlanOf<M, S, V> = <<S as Hamiltonian<V>>::Class as Class>::Plan<M>;
+
+/// The memory of that plan with the solver `N`.
+type MemoryOf<M, S, V, N> = <PlanOf<M, S, V> as Plan>::Memory<V, S, N>;
+
+/// A method that steps a system from a state.
+///
+/// All memory is made by [`new`](Self::new); a step allocates nothing. A step that fails leaves the state and the
+/// counts as they were.
+///
+/// The time after `k` steps is `start + k h`, computed so and not summed up. It starts again where the step size or
+/// the state is set and where [`integrate_to`](Self::integrate_to) ends.
+///
+/// ```
+/// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+/// use symplectic::nalgebra::Vector2;
+/// use symplectic::{Error, Integrator, State, separable};
+///
+/// # fn main() -> Result<(), Error> {
+/// let kepler = separable(
+///     |_time, p: &Vector2<f64>, velocity| *velocity = *p,
+///     |_time, q, force| *force = -q / q.norm().powi(3),
+/// );
+/// let start = State::new(0.0, Vector2::new(1.0, 0.0), Vector2::new(0.0, 1.0));
+/// let mut integrator = Integrator::new(StoermerVerlet, kepler, start, 0.01)?;
+///
+/// let first = integrator.step()?;
+/// assert_eq!(first.time, 0.01);
+/// for state in integrator.states().take(2) {
+///     let state = state?;
+///     assert!((state.q.norm() - 1.0).abs() < 1e-4);
+/// }
+/// let end = integrator.integrate_to(core::f64::consts::TAU)?;
+/// assert_eq!(end.time, core::f64::consts::TAU);
+/// assert_eq!(integrator.steps(), 3 + 626);
+/// # Ok(())
+/// # }
+/// ```
+pub struct Integrator<
+    M: Method,
+    S: Hamiltonian<V>,
+    V: Vector,
+    R: Summation = Compensated,
+    N: Solver<V, S> = FixedPoint,
+> {
+    system: S,
+    course: Course<V, MemoryOf<M, S, V, N>>,
+    clock: Clock,
+    step_size: f64,
+    stopping: Stopping,
+    retry: Retry,
+    last_event: Option<LastEvent>,
+    method: PhantomData<(M, R, N)>,
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
+    /// An integrator at `state`, with steps of size `step_size`, negative to go backward, and with [`Compensated`]
+    /// sums.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`],
+    /// [`Error::NotQuadraticKinetic`], [`Error::NotUnitMasses`], [`Error::NotTheSameForce`], [`Error::NotTheSameSlopes`].
+    pub fn new(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error>
+    where
+        M: ProvedFor<S::Class>,
+    {
+        Self::with_summation(method, system, state, step_size)
+    }
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V, Plain> {
+    /// [`new`](Integrator::new) with [`Plain`] sums.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Integrator::new).
+    ///
+    /// ```
+    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, separable};
+    /// # fn main() -> Result<(), Error> {
+    /// let oscillator = || separable::<Vector1<f64>, _, _>(|_, p, velocity| *velocity = *p, |_, q, force| *force = -q);
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+    /// let mut plain = Integrator::plain(StoermerVerlet, oscillator(), start.clone(), 0.1)?;
+    /// let mut compensated = Integrator::new(StoermerVerlet, oscillator(), start, 0.1)?;
+    /// let difference = plain.integrate_to(1e4)?.q - compensated.integrate_to(1e4)?.q;
+    /// assert!(difference[0] != 0.0 && difference[0].abs() < 1e-9);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn plain(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error>
+    where
+        M: ProvedFor<S::Class>,
+    {
+        Self::with_summation(method, system, state, step_size)
+    }
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> Integrator<M, S, V, Plain, N> {
+    /// Sets how far a sweep may move the coupled stages and be the last one: no position by more than `tolerance` in its unit, nor,
+    /// where the Hamiltonian is not separable or the iteration is Newton's, a momentum. Where changes
+    /// shrink by `κ` a sweep, `κ/(1 − κ)` of the last one is left of the error. Zero, as it is at first, and anything below eight
+    /// units of [`Scalar::EPSILON`] of the largest position or momentum: down to rounding.
+    ///
+    /// A tolerance saves sweeps, and the search for the largest position that rounding is compared with. It is for plain sums only:
+    /// compensated ones are for runs without drift, and the energy drifts by iterations that end above rounding.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Tolerance`], where it is negative, infinite or not a number; the one before then holds.
+    ///
+    /// ```
+    /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, acceleration};
+    /// # fn main() -> Result<(), Error> {
+    /// let pendulum = acceleration(|_time, q: &Vector1<f64>, acceleration| acceleration[0] = -q[0].sin());
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+    /// let mut integrator = Integrator::plain(Gauss4, pendulum, start, 0.1)?;
+    /// integrator.take_steps(100)?;
+    /// let to_rounding = integrator.iterations();
+    /// integrator.set_tolerance(1e-10)?;
+    /// integrator.take_steps(100)?;
+    /// assert!(integrator.iterations() - to_rounding < to_rounding);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub const fn set_tolerance(&mut self, tolerance: f64) -> Result<(), Error> {
+        if !(tolerance >= 0.0 && tolerance.is_finite()) {
+            return Err(Error::Tolerance { value: tolerance });
+        }
+        self.stopping.tolerance = tolerance;
+        Ok(())
+    }
+}
+
+impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
+    Integrator<M, S, V, R>
+{
+    /// The same integrator with coupled stages side by side, [`InLanes`]: for a system that is generic over its
+    /// scalar. Vectors may be long. An explicit method stays what it is.
+    ///
+    /// ```
+    /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
+    /// use symplectic::nalgebra::SVector;
+    /// use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, State};
+    ///
+    /// struct Kepler;
+    ///
+    /// impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
+    ///     fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+    ///         *velocity = *p;
+    ///     }
+    ///
+    ///     fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    ///         let square = q.dot(q);
+    ///         *force = -q * (square * square.sqrt()).recip();
+    ///     }
+    /// }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let start = || State::new(0.0, SVector::from([0.4, 0.0]), SVector::from([0.0, 2.0]));
+    /// let mut one_by_one = Integrator::new(Gauss4, Kepler, start(), 0.05)?;
+    /// let mut side_by_side = Integrator::new(Gauss4, Kepler, start(), 0.05)?.in_lanes();
+    /// // The same to the last bit.
+    /// assert_eq!(one_by_one.integrate_to(10.0)?, side_by_side.integrate_to(10.0)?);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn in_lanes(self) -> Integrator<M, S, V, R, InLanes> {
+        self.with_solver(InLanes)
+    }
+
+    /// [`in_lanes`](Self::in_lanes) for a Hamiltonian that is not separable, with positions and momenta iterated at once:
+    /// [`AtOnceInLanes`], which says where that pays.
+    pub fn at_once_in_lanes(self) -> Integrator<M, S, V, R, AtOnceInLanes> {
+        self.with_solver(AtOnceInLanes)
+    }
+
+    /// [`in_lanes`](Self::in_lanes) for a second-order system `q'' = M⁻¹ f(q)`, one whose velocity `M⁻¹ p` is linear in the
+    /// momentum: by [`SecondOrderInLanes`], which iterates the positions only.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotSecondOrder`], where the velocity is not linear in the momentum, or depends on time;
+    /// [`Error::NotTheSameLocalForce`], where the force component by component, or in rows, is another one, and [`Error::NoSuchRow`], where
+    /// there is no such row.
+    pub fn in_second_order_lanes(
+        self,
+    ) -> Result<Integrator<M, S, V, R, SecondOrderInLanes>, Error> {
+        check_local_forces(&self.system, &self.course.state, self.step_size)?;
+        let State { time, q, p } = &self.course.state;
+        let solver = SecondOrderInLanes::new(&self.system, *time, q, p)?;
+        Ok(self.with_solver(solver))
+    }
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+    Integrator<M, S, V, R, N>
+{
+    /// A bound on the sweeps of one step, for [`set_max_iterations`](Self::set_max_iterations). An iteration that
+    /// needs more gains less than a factor of 1.2 a sweep.
+    pub const DEFAULT_MAX_ITERATIONS: u32 = Stopping::DEFAULT.max_iterations;
+
+    /// What the states inside a step are computed from, and their order: see [`dense`](Self::dense).
+    ///
+    /// ```
+    /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, Hamiltonian, Interpolation, Method, acceleration};
+    /// fn order<M: Method, S: Hamiltonian<Vector1<f64>>>(_method: M, _system: S) -> u32 {
+    ///     Integrator::<M, S, Vector1<f64>>::INTERPOLATION.order()
+    /// }
+    /// assert_eq!(order(Gauss4, acceleration(|_, q: &Vector1<f64>, acceleration| *acceleration = -q)), 5);
+    /// ```
+    pub const INTERPOLATION: Interpolation = <PlanOf<M, S, V> as Plan>::INTERPOLATION;
+
+    /// [`new`](Integrator::new) with the sums that the type says.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Integrator::new).
+    pub fn with_summation(
+        _method: M,
+        system: S,
+        state: State<V>,
+        step_size: f64,
+    ) -> Result<Self, Error>
+    where
+        M: ProvedFor<S::Class>,
+    {
+        check_step_size(step_size)?;
+        check_state(state.time, &state.q, &state.p, state.q.dimension())?;
+        check_masses(&system, &state)?;
+        check_quadratic_kinetic::<M, V, S>(&system, &state)?;
+        if !R::COMPENSATED {
+            check_pass(&system, &state, step_size)?;
+        }
+        check_slopes(&system, &state)?;
+        Ok(Self {
+            system,
+            clock: Clock::new(state.time, step_size),
+            course: Course::new(state),
+            step_size,
+            stopping: Stopping::DEFAULT,
+            retry: Retry::default(),
+            last_event: None,
+            method: PhantomData,
+        })
+    }
+
+    /// The same integrator with another [`Solver`] for coupled stages: from here on, with the counts so far.
+    pub fn with_solver<O: Solver<V, S>>(self, _solver: O) -> Integrator<M, S, V, R, O> {
+        Integrator {
+            system: self.system,
+            course: self.course.with_memory(),
+            clock: self.clock,
+            step_size: self.step_size,
+            stopping: self.stopping,
+            retry: self.retry,
+            last_event: self.last_event,
+            method: PhantomData,
+        }
+    }
+
+    /// Takes one step and returns the state after it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoConvergence`], [`Error::NonFinite`], [`Error::EvaluationDimension`], [`Error::TimeResolution`], with
+    /// a Newton iteration [`Error::SingularMatrix`];
+    /// the state is untouched.
+    pub fn step(&mut self) -> Result<&State<V>, Error> {
+        self.advance(self.step_size, self.clock.next())?;
+        self.clock.tick();
+        Ok(&self.course.state)
+    }
+
+    /// Takes so many steps and returns the state after them: as often [`step`](Self::step), to the last bit, and faster where
+    /// the method is a splitting or vectors are short.
+    ///
+    /// A splitting takes them in place, and whether its states are finite is seen after some hundred of them; where one
+    /// is not, they are taken once more, one by one. Coupled stages of short vectors stay in registers from step to step.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`step`](Self::step); the state is then that after the last good step.
+    ///
+    /// ```
+    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, acceleration};
+    /// # fn main() -> Result<(), Error> {
+    /// let oscillator = || acceleration::<Vector1<f64>, _>(|_, q, acceleration| *acceleration = -q);
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+    /// let mut at_once = Integrator::new(StoermerVerlet, oscillator(), start.clone(), 0.125)?;
+    /// let mut one_by_one = Integrator::new(StoermerVerlet, oscillator(), start, 0.125)?;
+    /// for _ in 0..1000 {
+    ///     one_by_one.step()?;
+    /// }
+    /// assert_eq!(at_once.take_steps(1000)?, one_by_one.state());
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn take_steps(&mut self, count: u64) -> Result<&State<V>, Error> {
+        let mut clock = self.clock;
+        let size = self.step_size;
+        let outcome = self.advance_by(count, size, &mut clock, None);
+        self.clock = clock;
+        outcome.map(|()| &self.course.state)
+    }
+
+    /// Takes one step and returns its generating function at the position before and the momentum after it, the
+    /// `p0` and `q1` of which are the momentum before and the position after it, up to rounding.
+    ///
+    /// The stages are solved for once more, and memory is allocated: see
+    /// [`generating_function`](crate::generating_function).
+    ///
+    /// # Errors
+    ///
+    /// Those of [`step`](Self::step), [`Error::NoEnergy`], [`Error::TwoClocks`]; the state is untouched.
+    ///
+    /// ```
+    /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, hamiltonian};
+    /// # fn main() -> Result<(), Error> {
+    /// let system = hamiltonian::<Vector1<f64>, _, _>(|_, q, _p, velocity| *velocity = *q, |_, _q, p, force| *force = -p)
+    ///     .with_energy(|_, q, p| q[0] * p[0]);
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(1.0));
+    /// let mut integrator = Integrator::new(Midpoint, system, start, 0.5)?;
+    /// let generating = integrator.step_with_generating_function()?;
+    /// assert!((generating.q1[0] - integrator.state().q[0]).abs() < 1e-15);
+    /// assert!((generating.p0[0] - 1.0).abs() < 1e-15);
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[cfg(feature = "alloc")]
+    pub fn step_with_generating_function(&mut self) -> Result<GeneratingFunction<V>, Error> {
+        let (size, time) = (self.step_size, self.clock.next());
+        self.prepare(size, time)?;
+        let step = Step {
+            time: self.course.state.time,
+            size,
+            q: &self.course.state.q,
+            q_low: &self.course.low.0,
+            p: &self.course.next.1,
+            p_low: &self.course.next_low.1,
+        };
+        let number = self.course.statistics.steps + 1;
+        let outcome = generating::<M, S, V>(&self.system, &step, number, self.stopping);
+        if outcome.is_ok() {
+            self.accept(size, time);
+            self.clock.tick();
+        } else {
+            // The stages are those of a step that was not taken.
+            self.course.kept = Kept::default();
+        }
+        outcome
+    }
+
+    /// Goes to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size, up
+    /// to rounding; forward or backward, whatever the sign of the step size. At `end` already, it takes no step.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the
+    /// last good step.
+    pub fn integrate_to(&mut self, end: f64) -> Result<&State<V>, Error> {
+        let (count, size) = uniform(self.course.state.time, end, self.step_size)?;
+        let mut clock = Clock::new(self.course.state.time, size);
+        let outcome = self.advance_by(count, size, &mut clock, Some(end));
+        self.restart_clock();
+        outcome.map(|()| &self.course.state)
+    }
+
+    /// [`integrate_to`](Self::integrate_to) that shows `observe` the state after every step.
+    ///
+    /// # Errors
+    ///
+    /// As for [`integrate_to`](Self::integrate_to).
+    ///
+    /// ```
+    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, separable};
+    /// # fn main() -> Result<(), Error> {
+    /// let oscillator = separable::<Vector1<f64>, _, _>(|_, p, velocity| *velocity = *p, |_, q, force| *force = -q);
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+    /// let mut integrator = Integrator::new(StoermerVerlet, oscillator, start, 0.1)?;
+    /// let mut times = Vec::new();
+    /// integrator.integrate_with(0.5, |state| times.push(state.time))?;
+    /// assert_eq!(times, [0.1, 0.2, 0.1 * 3.0, 0.4, 0.5]);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn integrate_with<F: FnMut(&State<V>)>(
+        &mut self,
+        end: f64,
+        mut observe: F,
+    ) -> Result<&State<V>, Error> {
+        self.steps_to(end, |integrator, next| {
+            integrator.advance(next.size, next.time)?;
+            observe(integrator.state());
+            Ok(ControlFlow::<Infallible>::Continue(()))
+        })?;
+        Ok(&self.course.state)
+    }
+
+    /// Lets `take` take the steps of [`integrate_to`](Self::integrate_to), until it breaks.
+    #[inline]
+    pub(crate) fn steps_to<B>(
+        &mut self,
+        end: f64,
+        mut take: impl FnMut(&mut Self, NextStep) -> Result<ControlFlow<B>, Error>,
+    ) -> Result<ControlFlow<B>, Error> {
+        let start = self.course.state.time;
+        let (steps, size) = uniform(start, end, self.step_size)?;
+        let mut clock = Clock::new(start, size);
+        let mut outcome = Ok(ControlFlow::Continue(()));
+        for number in 1..=steps {
+            let next = NextStep {
+                size,
+                time: if number == steps { end } else { clock.next() },
+                number,
+                steps,
+            };
+            outcome = take(self, next);
+            if !matches!(outcome, Ok(ControlFlow::Continue(()))) {
+                break;
+            }
+            clock.tick();
+        }
+        self.restart_clock();
+        outcome
+    }
+
+    /// One step, like [`step`](Self::step), the parts of which are shown to `see`.
+    pub(crate) fn step_in_sight(
+        &mut self,
+        mut see: impl FnMut(&Self) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let (size, time) = (self.step_size, self.clock.next());
+        let outcome = self.advance_in_sight(size, time, &mut |integrator| {
+            see(integrator)?;
+            Ok(ControlFlow::<Infallible>::Continue(()))
+        });
+        match outcome {
+            Ok(_) => self.clock.tick(),
+            Err(_) => self.restart_clock(),
+        }
+        outcome.map(|_| ())
+    }
+
+    /// An endless iterator over the states after each step. [`Iterator::take`] what is needed.
+    pub const fn states(&mut self) -> States<'_, M, S, V, R, N> {
+        States::new(self)
+    }
+
+    /// The present state, rounded.
+    pub const fn state(&self) -> &State<V> {
+        &self.course.state
+    }
+
+    /// What the position and the momentum of [`state`](Self::state) leave out: less than half a unit in their last
+    /// places, and zero with [`Plain`] sums.
+    pub const fn remainder(&self) -> (&V, &V) {
+        (&self.course.low.0, &self.course.low.1)
+    }
+
+    /// Puts another state of the same dimension in place of the present one.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Dimension`], [`Error::NonFiniteState`]; the state is then untouched.
+    pub fn set_state(&mut self, state: State<V>) -> Result<(), Error> {
+        check_state(
+            state.time,
+            &state.q,
+            &state.p,
+            self.course.state.q.dimension(),
+        )?;
+        self.course.set_state(state);
+        self.restart_clock();
+        Ok(())
+    }
+
+    /// [`set_state`](Self::set_state) without an allocation.
+    pub(crate) fn copy_state(&mut self, state: &State<V>) -> Result<(), Error> {
+        check_state(
+            state.time,
+            &state.q,
+            &state.p,
+            self.course.state.q.dimension(),
+        )?;
+        self.course.copy_state(state);
+        self.restart_clock();
+        Ok(())
+    }
+
+    /// The event that was found last.
+    pub(crate) const fn last_event(&self) -> Option<LastEvent> {
+        self.last_event
+    }
+
+    pub(crate) const fn set_last_event(&mut self, event: Option<LastEvent>) {
+        self.last_event = event;
+    }
+
+    /// The present state, given away.
+    pub fn into_state(self) -> State<V> {
+        self.course.state
+    }
+
+    /// The step size.
+    pub const fn step_size(&self) -> f64 {
+        self.step_size
+    }
+
+    /// Changes the step size; negative to go backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`]; the step size is then untouched.
+    pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
+        check_step_size(step_size)?;
+        self.step_size = step_size;
+        self.restart_clock();
+        Ok(())
+    }
+
+    /// Sets the bound on the sweeps of one step, beyond which it fails with [`Error::NoConvergence`]; 0 counts as 1.
+    pub const fn set_max_iterations(&mut self, max_iterations: u32) {
+        self.stopping.max_iterations = if max_iterations == 0 {
+            1
+        } else {
+            max_iterations
+        };
+    }
+
+    /// Sets what is done about a step that fails; at first nothing, [`Retry::Never`].
+    ///
+    /// ```
+    /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
+    /// # use symplectic::nalgebra::Vector2;
+    /// # use symplectic::{Error, Integrator, Retry, State, separable};
+    /// # fn main() -> Result<(), Error> {
+    /// let kepler = separable(
+    ///     |_time, p: &Vector2<f64>, velocity| *velocity = *p,
+    ///     |_time, q, force| *force = -q / q.norm().powi(3),
+    /// );
+    /// // From the apocentre of an orbit with eccentricity 0.99; at the pericentre steps of 1/16 do not converge.
+    /// let start = State::new(0.0, Vector2::new(1.99, 0.0), Vector2::new(0.0, (0.01_f64 / 1.99).sqrt()));
+    /// let mut integrator = Integrator::new(Midpoint, kepler, start, 0.0625)?;
+    /// integrator.set_retry(Retry::Split { halvings: 8 });
+    /// integrator.integrate_to(6.0)?;
+    /// assert!(integrator.statistics().rejected > 0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub const fn set_retry(&mut self, retry: Retry) {
+        self.retry = retry;
+    }
+
+    /// The system.
+    pub const fn system(&self) -> &S {
+        &self.system
+    }
+
+    /// What the steps have taken so far.
+    pub const fn statistics(&self) -> &Statistics {
+        &self.course.statistics
+    }
+
+    /// Number of steps taken.
+    pub const fn steps(&self) -> u64 {
+        self.course.statistics.steps
+    }
+
+    /// Number of fixed-point sweeps in all steps taken; 0 for an explicit method.
+    pub const fn iterations(&self) -> u64 {
+        self.course.statistics.iterations
+    }
+
+    /// The energy of the present state, where the system knows it.
+    pub fn energy(&self) -> Option<V::Scalar> {
+        let State { time, q, p } = &self.course.state;
+        self.system.energy(V::Scalar::from_f64(*time), q, p)
+    }
+
+    /// The last step, if its stages are still there.
+    pub(crate) fn last_step(&self) -> Option<LastStep<'_, V>> {
+        self.course.kept.stages.then_some(LastStep {
+            start: self.course.last_time,
+            end: self.course.state.time,
+            size: self.course.last_size,
+            positions: Line {
+                start: (&self.course.next.0, &self.course.next_low.0),
+                end: (&self.course.state.q, &self.course.low.0),
+            },
+            momenta: Line {
+                start: (&self.course.next.1, &self.course.next_low.1),
+                end: (&self.course.state.p, &self.course.low.1),
+            },
+        })
+    }
+
+    /// When the iteration of one step stops.
+    pub(crate) const fn stopping(&self) -> Stopping {
+        self.stopping
+    }
+
+    /// Adds what the stages of the last step say about its inside: see [`Plan::extend`].
+    pub(crate) fn extend(&self, at: Inside<'_, V>, q: &mut V, p: &mut V) {
+        <PlanOf<M, S, V> as Plan>::extend::<V, S, N>(&self.course.memory, at, q, p);
+    }
+
+    const fn restart_clock(&mut self) {
+        self.clock = Clock::new(self.course.state.time, self.step_size);
+    }
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Debug
+    for Integrator<M, S, V, R, N>
+{
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("Integrator")
+            .field("method", &M::NAME)
+            .field("state", &self.course.state)
+            .field("step_size", &self.step_size)
+            .field("statistics", &self.course.statistics)
+            .finish_non_exhaustive()
+    }
+}
+
+/// A step that is to be taken.
+#[derive(Clone, Copy)]
+pub(crate) struct NextStep {
+    pub(crate) size: f64,
+    /// Where it ends.
+    pub(crate) time: f64,
+    /// Its number, from 1, among all `steps`.
+    pub(crate) number: u64,
+    pub(crate) steps: u64,
+}

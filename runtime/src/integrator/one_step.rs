@@ -1,0 +1,90 @@
+//! One step: taken, checked, and accepted or not.
+
+use core::ops::ControlFlow;
+
+use super::{Integrator, PlanOf};
+use crate::error::Error;
+use crate::method::diagnosis::{Attempt, FirstFault};
+use crate::method::{Failure, Method, Plan, Solver};
+use crate::number::{Summation, Vector};
+use crate::system::Hamiltonian;
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+    Integrator<M, S, V, R, N>
+{
+    /// One step of size `size`, to the time `time`. The clock is the caller's.
+    #[inline]
+    pub(crate) fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
+        match self.prepare(size, time) {
+            Ok(()) => {
+                self.accept(size, time);
+                Ok(())
+            }
+            Err(error) => self.take_again(size, time, error).map(|_| ()),
+        }
+    }
+
+    /// [`advance`](Self::advance) that shows the step to `see` as long as it does not break: each of its parts, if it has
+    /// to be taken in parts.
+    #[inline]
+    pub(crate) fn advance_in_sight<B>(
+        &mut self,
+        size: f64,
+        time: f64,
+        see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
+    ) -> Result<ControlFlow<B>, Error> {
+        match self.prepare(size, time) {
+            Ok(()) => {
+                self.accept(size, time);
+                see(self)
+            }
+            Err(error) => self.take_again_in_sight(size, time, error, see),
+        }
+    }
+
+    /// Computes a step of size `size`, to the time `time`, into `next`.
+    #[inline]
+    pub(super) fn prepare(&mut self, size: f64, time: f64) -> Result<(), Error> {
+        if time == self.course.state.time {
+            return Err(Error::TimeResolution {
+                time,
+                step_size: size,
+            });
+        }
+        let attempt =
+            self.course
+                .attempt::<PlanOf<M, S, V>, R, S, N>(&self.system, size, self.stopping);
+        attempt.map_err(|failure| self.fail(size, failure))
+    }
+
+    /// Makes the step that [`prepare`](Self::prepare) has computed the present state.
+    #[inline]
+    pub(super) fn accept(&mut self, size: f64, time: f64) {
+        self.course.accept::<R>(size, time);
+    }
+
+    /// Says why a step failed, and forgets everything that it left behind.
+    #[cold]
+    pub(super) fn fail(&mut self, size: f64, failure: Option<Failure>) -> Error {
+        let attempt = Attempt {
+            time: self.course.state.time,
+            step_size: size,
+            step: self.course.statistics.steps + 1,
+            dimension: self.course.state.q.dimension(),
+        };
+        let mut fault = FirstFault::new(attempt.dimension);
+        if failure.is_none() {
+            let (step, outcome, memory) = self.course.lend(size);
+            <PlanOf<M, S, V> as Plan>::observe::<R, V, S, N, FirstFault>(
+                &step,
+                &self.system,
+                memory,
+                outcome,
+                &mut fault,
+            );
+        }
+        let error = attempt.error(failure, &fault, &self.course.memory, &self.course.next.0);
+        self.course.forget();
+        error
+    }
+}

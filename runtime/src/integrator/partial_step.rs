@@ -1,0 +1,77 @@
+//! Shorter steps from the start of the last one.
+
+use crate::error::Error;
+use crate::integrator::Integrator;
+use crate::integrator::PlanOf;
+use crate::method::diagnosis::{Attempt, FirstFault};
+use crate::method::{Kept, Method, Outcome, Plan, Solver, StageStorage, Step};
+use crate::number::{Summation, Vector, copy};
+use crate::state::State;
+use crate::system::Hamiltonian;
+
+/// What steps need that an integrator takes beside its own ones.
+pub(crate) struct PartialSteps<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> {
+    memory: <PlanOf<M, S, V> as Plan>::Memory<V, S, N>,
+    low: (V, V),
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, N> {
+    /// Memory for vectors like this one.
+    pub(crate) fn like(prototype: &V) -> Self {
+        Self {
+            memory: StageStorage::like(prototype),
+            low: (prototype.zeros_like(), prototype.zeros_like()),
+        }
+    }
+
+    /// Takes a step from the start of the last one of an integrator to `time`, and writes its result into `state`.
+    pub(crate) fn take<R: Summation>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        time: f64,
+        state: &mut State<V>,
+    ) -> Result<(), Error> {
+        let last = integrator.last_step().ok_or(Error::NoStep)?;
+        let ((q, q_low), (p, p_low)) = (last.positions.start, last.momenta.start);
+        state.time = time;
+        if time == last.start {
+            copy(&mut state.q, q);
+            copy(&mut state.p, p);
+            return Ok(());
+        }
+        let step = Step {
+            time: last.start,
+            size: last.size * ((time - last.start) / (last.end - last.start)),
+            q,
+            q_low,
+            p,
+            p_low,
+        };
+        let taken = <PlanOf<M, S, V> as Plan>::take::<R, V, S, N>(
+            &step,
+            integrator.system(),
+            &mut self.memory,
+            Kept::default(),
+            integrator.stopping(),
+            Outcome {
+                q: &mut state.q,
+                q_low: &mut self.low.0,
+                p: &mut state.p,
+                p_low: &mut self.low.1,
+            },
+        );
+        match taken {
+            Ok(_) => Ok(()),
+            Err(failure) => {
+                let attempt = Attempt {
+                    time: step.time,
+                    step_size: step.size,
+                    step: integrator.steps(),
+                    dimension: q.dimension(),
+                };
+                let fault = FirstFault::new(attempt.dimension);
+                Err(attempt.error(Some(failure), &fault, &self.memory, &state.q))
+            }
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! A step that failed, taken again as several shorter ones.
+
+use core::convert::Infallible;
+use core::ops::ControlFlow;
+
+use super::Integrator;
+use crate::error::Error;
+use crate::integrator::Retry;
+use crate::integrator::clock::Clock;
+use crate::method::{Kept, Method, Solver};
+use crate::number::{Summation, Vector};
+use crate::system::Hamiltonian;
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+    Integrator<M, S, V, R, N>
+{
+    /// [`take_again`](Self::take_again), and once more for `see` when it is known in how many parts.
+    #[cold]
+    pub(super) fn take_again_in_sight<B>(
+        &mut self,
+        size: f64,
+        time: f64,
+        error: Error,
+        see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
+    ) -> Result<ControlFlow<B>, Error> {
+        let (state, low) = (self.course.state.clone(), self.course.low.clone());
+        let parts = self.take_again(size, time, error)?;
+        let statistics = self.course.statistics;
+        (self.course.state, self.course.low, self.course.kept) = (state, low, Kept::default());
+        let seen = self.take_in_parts(size, time, parts, see);
+        self.course.statistics = statistics;
+        seen
+    }
+
+    /// Takes a step that failed with `error` once more in parts, if it is to be; returns how many.
+    #[cold]
+    pub(super) fn take_again(&mut self, size: f64, time: f64, error: Error) -> Result<u32, Error> {
+        let of_the_size = matches!(
+            error,
+            Error::NoConvergence { .. }
+                | Error::Stagnation { .. }
+                | Error::NonFinite { .. }
+                | Error::SingularMatrix { .. }
+        );
+        if !of_the_size || self.retry == Retry::Never {
+            return Err(error);
+        }
+        let (state, low) = (self.course.state.clone(), self.course.low.clone());
+        let statistics = self.course.statistics;
+        for (failed, parts) in (1..).zip(self.retry.parts()) {
+            let mut unseen = |_: &Self| Ok(ControlFlow::<Infallible>::Continue(()));
+            if self.take_in_parts(size, time, parts, &mut unseen).is_ok() {
+                self.course.statistics.rejected += failed;
+                return Ok(parts);
+            }
+            self.course.state = state.clone();
+            self.course.low = low.clone();
+            self.course.statistics = statistics;
+        }
+        Err(error)
+    }
+
+    /// Takes a step as several equal ones, which `see` sees until it breaks; where one fails, the state is that before it.
+    fn take_in_parts<B>(
+        &mut self,
+        size: f64,
+        end: f64,
+        parts: u32,
+        see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
+    ) -> Result<ControlFlow<B>, Error> {
+        let mut seen = ControlFlow::Continue(());
+        let part = size / f64::from(parts);
+        let mut clock = Clock::new(self.course.state.time, part);
+        for number in 1..=parts {
+            let time = if number == parts { end } else { clock.next() };
+            self.prepare(part, time)?;
+            self.accept(part, time);
+            clock.tick();
+            if seen.is_continue() {
+                seen = see(self)?;
+            }
+        }
+        Ok(seen)
+    }
+}

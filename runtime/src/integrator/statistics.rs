@@ -1,0 +1,72 @@
+//! What an integration has taken.
+
+use crate::method::Work;
+
+/// Counts over all steps taken; a step that fails changes none of them.
+///
+/// ```
+/// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
+/// # use symplectic::nalgebra::Vector1;
+/// # use symplectic::{Error, Integrator, State, separable};
+/// # fn main() -> Result<(), Error> {
+/// let pendulum = separable::<Vector1<f64>, _, _>(|_, p, velocity| *velocity = *p, |_, q, force| force[0] = -q[0].sin());
+/// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+/// let mut integrator = Integrator::new(Midpoint, pendulum, start, 0.1)?;
+/// integrator.integrate_to(10.0)?;
+/// let statistics = integrator.statistics();
+/// assert_eq!(statistics.steps, 100);
+/// // A velocity and a force in each sweep, and the velocity that the first step begins with.
+/// assert_eq!(statistics.evaluations, 2 * statistics.iterations + 1);
+/// assert!(statistics.mean_iterations() < f64::from(statistics.most_iterations));
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Steps taken; of one that was [split](crate::Retry::Split), its parts.
+    pub steps: u64,
+    /// Attempts at a step, or at its parts, that failed and were made good by shorter steps or by another solver.
+    pub rejected: u64,
+    /// Fixed-point sweeps; 0 for an explicit method.
+    pub iterations: u64,
+    /// The most sweeps that one step took.
+    pub most_iterations: u32,
+    /// Evaluations of a velocity or a force.
+    pub evaluations: u64,
+    /// Times the linear systems of a Newton iteration were made and factored: one for each pair of stages.
+    pub factorisations: u64,
+    /// The largest residual of a step by Newton's iteration: the relative change of the stages in its last sweep, of the positions or of
+    /// the momenta. In a stiff system it is the rounding error of the force, divided by the step size: it may be far above
+    /// [`Scalar::EPSILON`](crate::Scalar::EPSILON). 0 for other iterations.
+    pub largest_residual: f64,
+}
+
+impl Statistics {
+    /// Sweeps a step; 0 before the first one.
+    pub fn mean_iterations(&self) -> f64 {
+        if self.steps == 0 {
+            0.0
+        } else {
+            self.iterations as f64 / self.steps as f64
+        }
+    }
+
+    /// Counts so many explicit steps with so many evaluations each.
+    #[inline]
+    pub(crate) fn count_explicit(&mut self, steps: u64, evaluations: u32) {
+        self.steps += steps;
+        self.evaluations += steps * u64::from(evaluations);
+    }
+
+    /// Counts a step that was accepted.
+    #[inline]
+    pub(crate) fn count(&mut self, work: Work) {
+        self.steps += 1;
+        self.iterations += u64::from(work.iterations);
+        self.most_iterations = self.most_iterations.max(work.iterations);
+        self.evaluations += u64::from(work.evaluations);
+        self.factorisations += u64::from(work.factorisations);
+        self.rejected += u64::from(work.rejected);
+        self.largest_residual = self.largest_residual.max(work.residual);
+    }
+}

@@ -1,0 +1,118 @@
+//! How much a sweep changed the stages.
+
+use crate::number::Scalar;
+
+/// How much one fixed-point sweep changed the stage values, positions and momenta apart, for they have different
+/// units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Change {
+    /// Change of the positions.
+    pub q: PartChange,
+    /// Change of the momenta.
+    pub p: PartChange,
+}
+
+impl Change {
+    /// The larger of the two [relative changes](PartChange::relative); NaN if either is.
+    ///
+    /// ```
+    /// use symplectic::Change;
+    ///
+    /// let mut change = Change::default();
+    /// assert_eq!(change.residual(), 0.0);
+    /// change.q.record(1.0, 3.0, 4.0);
+    /// change.p.record(0.0, 8.0, 8.0);
+    /// assert_eq!(change.residual(), 0.25);
+    ///
+    /// let mut change = Change::default();
+    /// change.q.record(0.0, 3.0, 0.0);
+    /// assert_eq!(change.residual(), 1.0);
+    /// change.p.record(0.0, 1.0, f64::NAN);
+    /// change.p.record(0.0, 1.0, 1.0);
+    /// assert!(change.residual().is_nan());
+    /// ```
+    pub fn residual(&self) -> f64 {
+        larger(self.q.relative(), self.p.relative())
+    }
+
+    /// Whether the relative change of the positions or that of the momenta is NaN.
+    #[inline(always)]
+    pub(crate) const fn is_undefined(&self) -> bool {
+        self.q.is_undefined() || self.p.is_undefined()
+    }
+
+    /// The largest position and the largest momentum.
+    #[inline(always)]
+    pub(crate) const fn scales(&self) -> [f64; 2] {
+        [self.q.scale, self.p.scale]
+    }
+}
+
+/// How much the positions, or the momenta, of all stages changed in one sweep.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PartChange {
+    difference: f64,
+    scale: f64,
+}
+
+impl PartChange {
+    /// A change of the size `difference` of values of the size `scale`.
+    pub(crate) const fn new(difference: f64, scale: f64) -> Self {
+        Self { difference, scale }
+    }
+
+    /// Whether the [relative](Self::relative) change is NaN.
+    #[inline(always)]
+    pub(crate) const fn is_undefined(&self) -> bool {
+        self.difference.is_nan() || self.difference.is_infinite() && self.scale.is_infinite()
+    }
+
+    /// The largest |new − old|.
+    #[inline(always)]
+    pub(crate) const fn difference(&self) -> f64 {
+        self.difference
+    }
+
+    /// The largest of all |base| and |new|.
+    #[inline(always)]
+    pub(crate) const fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// Notes that a component of a stage value, `base` plus an increment, went from `old` to `new`.
+    #[inline(always)]
+    pub fn record<T: Scalar>(&mut self, base: T, old: T, new: T) {
+        self.difference = larger(self.difference, (new - old).magnitude());
+        // The rounding error of `base + increment` goes with the larger of the base and the result: where the
+        // two nearly cancel, the result alone would ask for digits that the sum does not have.
+        self.scale = larger(self.scale, larger(base.magnitude(), new.magnitude()));
+    }
+
+    /// Notes a change of this size among values of this size.
+    #[inline(always)]
+    pub(crate) fn join(&mut self, difference: f64, scale: f64) {
+        self.difference = larger(self.difference, difference);
+        self.scale = larger(self.scale, scale);
+    }
+
+    /// The largest |new − old| divided by the largest of all |base| and |new|.
+    ///
+    /// Nothing recorded, or everything zero: 0. Changed to zero everywhere: 1. Something not finite: NaN.
+    #[inline(always)]
+    pub fn relative(&self) -> f64 {
+        // Without a branch: both are zero, or one of them, or neither.
+        let alone = if self.difference == 0.0 {
+            1.0
+        } else {
+            self.difference
+        };
+        let scale = if self.scale == 0.0 { alone } else { self.scale };
+        self.difference / scale
+    }
+}
+
+/// The larger of two numbers; NaN if either is, unlike [`f64::max`].
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
+}

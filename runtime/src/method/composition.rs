@@ -1,0 +1,219 @@
+//! Steps of other methods one after another.
+
+use core::marker::PhantomData;
+
+use crate::error::Quantity;
+use crate::method::diagnosis::{FirstFault, culprit};
+use crate::method::storage::is_finite;
+use crate::method::{
+    Failure, Inside, Interpolation, Kept, Outcome, Plan, Solver, StageStorage, Step, Stopping,
+    Witness, Work,
+};
+use crate::number::{Coefficient, Summation, Vector};
+use crate::system::{Class, Hamiltonian};
+
+/// A step `Φ_{γh}` of a composition.
+#[derive(Clone, Copy, Debug)]
+pub struct Substep {
+    /// The sum of the fractions before it: where it starts, as a fraction of the whole step.
+    pub start: Coefficient,
+    /// The fraction γ of the whole step.
+    pub fraction: Coefficient,
+    /// What the memory of its plan holds from the step before it, or from the last one of the whole step before.
+    pub kept: Kept,
+    /// The stages of the substeps before it, for error messages.
+    pub stages: usize,
+}
+
+/// The steps `Φ_{γ_m h} ∘ … ∘ Φ_{γ_1 h}` of a composition, as the macro emits them.
+pub trait Substeps {
+    /// The class of systems that they step.
+    type Class: Class;
+    /// The memory of the plans that they are taken by.
+    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>>: StageStorage<V>;
+
+    /// The steps in their order.
+    const SUBSTEPS: &'static [Substep];
+
+    /// [`Plan::take`] of the substep with this number, from 0.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`]
+    fn take<R, V, S, N>(
+        number: usize,
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<V, S, N>,
+        kept: Kept,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>;
+
+    /// [`Plan::observe`] of the substep with this number, from 0.
+    fn observe<R, V, S, N, W>(
+        number: usize,
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<V, S, N>,
+        outcome: Outcome<'_, V>,
+        witness: &mut W,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+        W: Witness;
+}
+
+/// A composition at the level of steps: each finds its own stages, from the result of the one before.
+///
+/// So the work of an iteration is that of one substep, and it converges as that of the base method does with `γh`. The
+/// sums between the substeps are those of a step: compensated ones lose nothing there either. Compositions of explicit
+/// splittings are no `Composition` but one splitting, in which neighbouring drifts and kicks are merged.
+#[derive(Clone, Copy, Debug)]
+pub struct Composition<L>(PhantomData<L>);
+
+/// The memory of a [`Composition`].
+#[derive(Clone, Debug)]
+pub struct CompositionMemory<V, T> {
+    /// That of the plans of the substeps.
+    plans: T,
+    /// A state between two substeps: position, what it leaves out, momentum, what it leaves out.
+    between: [V; 4],
+}
+
+impl<V: Vector, T: StageStorage<V>> StageStorage<V> for CompositionMemory<V, T> {
+    fn like(prototype: &V) -> Self {
+        Self {
+            plans: T::like(prototype),
+            between: core::array::from_fn(|_| prototype.zeros_like()),
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.plans.non_finite()
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        self.plans.mismatch(dimension)
+    }
+}
+
+impl<L: Substeps> Plan for Composition<L> {
+    type Class = L::Class;
+    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>> =
+        CompositionMemory<V, L::Memory<V, S, N>>;
+
+    #[inline]
+    fn take<R, V, S, N>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<V, S, N>,
+        kept: Kept,
+        stopping: Stopping,
+        mut outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+        let CompositionMemory {
+            plans,
+            between: [q, q_low, p, p_low],
+        } = memory;
+        let mut between = Outcome { q, q_low, p, p_low };
+        let mut outcome = outcome.reborrow();
+        let mut work = Work::default();
+        let count = L::SUBSTEPS.len();
+        for (number, substep) in L::SUBSTEPS.iter().enumerate() {
+            // Results go to one of two places in turn, the last one to where it belongs.
+            let (here, there) = if (count - number) % 2 == 1 {
+                (&mut outcome, &between)
+            } else {
+                (&mut between, &outcome)
+            };
+            let (q, q_low, p, p_low) = if number == 0 {
+                (step.q, step.q_low, step.p, step.p_low)
+            } else {
+                (&*there.q, &*there.q_low, &*there.p, &*there.p_low)
+            };
+            let part = Step {
+                time: step.time + substep.start.double() * step.size,
+                size: substep.fraction.double() * step.size,
+                q,
+                q_low,
+                p,
+                p_low,
+            };
+            let kept = Kept {
+                evaluation: substep.kept.evaluation && (number > 0 || kept.evaluation),
+                stages: substep.kept.stages && (number > 0 || kept.stages),
+                scales: if number > 0 { work.scales } else { kept.scales },
+            };
+            let taken = L::take::<R, V, S, N>(
+                number,
+                &part,
+                system,
+                plans,
+                kept,
+                stopping,
+                here.reborrow(),
+            );
+            let taken = taken.and_then(|taken| {
+                if is_finite(here.q) && is_finite(here.p) {
+                    return Ok(taken);
+                }
+                let mut fault = FirstFault::new(step.q.dimension());
+                L::observe::<R, V, S, N, _>(
+                    number,
+                    &part,
+                    system,
+                    plans,
+                    here.reborrow(),
+                    &mut fault,
+                );
+                let (what, stage) = culprit(&fault, plans, here.q);
+                Err(Failure::NonFinite { what, stage })
+            });
+            let taken = taken.map_err(|failure| failure.after(substep.stages))?;
+            work += taken;
+        }
+        Ok(work)
+    }
+
+    /// A substep that fails has been observed already.
+    fn observe<R, V, S, N, W>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _memory: &mut Self::Memory<V, S, N>,
+        _outcome: Outcome<'_, V>,
+        _witness: &mut W,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+        W: Witness,
+    {
+    }
+
+    const INTERPOLATION: Interpolation = Interpolation::Hermite;
+
+    /// Only the stages of the last substep are left.
+    fn extend<V, S, N>(_memory: &Self::Memory<V, S, N>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
+    where
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+    }
+}

@@ -1,0 +1,65 @@
+//! Steps some stages of which depend on each other.
+
+use core::marker::PhantomData;
+
+use crate::method::{
+    Failure, Inside, Interpolation, Kept, Outcome, Plan, Solver, StageTableau, Step, Stopping,
+    Witness, Work,
+};
+use crate::number::{Summation, Vector};
+use crate::system::Hamiltonian;
+
+/// The plan of a step some stages of which depend on each other: a [`Solver`] finds them.
+#[derive(Clone, Copy, Debug)]
+pub struct Coupled<P>(PhantomData<P>);
+
+impl<P: StageTableau> Plan for Coupled<P> {
+    type Class = P::Class;
+    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>> = N::Memory<P>;
+
+    #[inline(always)]
+    fn take<R, V, S, N>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut N::Memory<P>,
+        kept: Kept,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+    {
+        N::take::<P, R>(step, system, memory, kept, stopping, outcome)
+    }
+
+    /// The evaluations are in the memory.
+    fn observe<R, V, S, N, W>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _memory: &mut N::Memory<P>,
+        _outcome: Outcome<'_, V>,
+        _witness: &mut W,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+        W: Witness,
+    {
+    }
+
+    const INTERPOLATION: Interpolation =
+        Interpolation::of_stages(P::MOMENTA.polynomial, P::POSITIONS.polynomial);
+
+    fn extend<V, S, N>(memory: &N::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V)
+    where
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+    {
+        N::extend::<P>(memory, at, q, p);
+    }
+}

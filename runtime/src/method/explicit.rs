@@ -1,0 +1,71 @@
+//! Steps whose stages come one after another.
+
+use core::marker::PhantomData;
+
+use crate::method::{
+    Failure, Inside, Interpolation, Kept, Outcome, Plan, Solver, StagePlan, StageStorage, Step,
+    Stopping, Witness, Work,
+};
+use crate::number::{Summation, Vector};
+use crate::system::Hamiltonian;
+
+/// The plan of a step in which every stage is computed from the ones before it. There is no solver in its code.
+#[derive(Clone, Copy, Debug)]
+pub struct Explicit<P>(PhantomData<P>);
+
+impl<P: StagePlan> Plan for Explicit<P> {
+    type Class = P::Class;
+    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>> = P::Stages<V>;
+
+    #[inline(always)]
+    fn take<R, V, S, N>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut P::Stages<V>,
+        kept: Kept,
+        _stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+    {
+        P::begin::<R, V, S>(step, system, memory, kept);
+        P::finish::<R, V, S, ()>(step, system, memory, kept, outcome, &mut ());
+        Ok(Work {
+            evaluations: P::EVALUATIONS.at_begin(kept) + P::EVALUATIONS.finish,
+            ..Work::default()
+        })
+    }
+
+    fn observe<R, V, S, N, W>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut P::Stages<V>,
+        outcome: Outcome<'_, V>,
+        witness: &mut W,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+        W: Witness,
+    {
+        *memory = P::Stages::like(step.q);
+        P::begin::<R, V, S>(step, system, memory, Kept::default());
+        P::finish::<R, V, S, W>(step, system, memory, Kept::default(), outcome, witness);
+    }
+
+    const INTERPOLATION: Interpolation = Interpolation::Hermite;
+
+    /// Stages of an explicit method make no polynomial.
+    fn extend<V, S, N>(_memory: &P::Stages<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
+    where
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+    }
+}

@@ -1,0 +1,466 @@
+//! Kicks and drifts: what a splitting is made of.
+
+use core::mem;
+
+use crate::error::Quantity;
+use crate::method::{Span, Witness};
+use crate::number::linear_combination::{advance, kick_and_drift, velocity};
+use crate::number::{Coefficient, Scalar, Summation, Vector};
+use crate::system::{Hamiltonian, Layout};
+
+/// The velocity of a splitting that makes a drift.
+#[derive(Clone, Copy, Debug)]
+pub struct Drift {
+    /// The step.
+    pub span: Span,
+    /// The number of its stage, from 1.
+    pub stage: usize,
+    /// Its time, as a fraction of the step.
+    pub time: Coefficient,
+    /// Its weight in the result of the step.
+    pub weight: Coefficient,
+    /// Whether it has been evaluated before.
+    pub known: bool,
+}
+
+/// The force of a splitting that makes kicks.
+#[derive(Clone, Copy, Debug)]
+pub struct Force {
+    /// The step.
+    pub span: Span,
+    /// The number of its stage, from 1.
+    pub stage: usize,
+    /// Its time, as a fraction of the step.
+    pub time: Coefficient,
+}
+
+/// How the kicks and drifts of a splitting are made: one by one, `()`, or so that they wait for the drift after them.
+pub trait Moves {
+    /// Evaluates the force, for the kicks that come next.
+    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
+        &mut self,
+        force: Force,
+        system: &S,
+        place: &mut V,
+        position: &mut V,
+        momentum: (&mut V, &mut V),
+        witness: &mut W,
+    );
+
+    /// Adds `(h weight) force` to the momentum.
+    fn kick<R: Summation, V: Vector, S: Hamiltonian<V>>(
+        &mut self,
+        h: f64,
+        weight: Coefficient,
+        system: &S,
+        force: &mut V,
+        position: &mut V,
+        momentum: (&mut V, &mut V),
+    );
+
+    /// Evaluates the velocity, and adds it to the position.
+    fn drift<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
+        &mut self,
+        drift: Drift,
+        system: &S,
+        evaluations: (&mut V, &mut V),
+        position: (&mut V, &mut V),
+        momentum: (&mut V, &mut V),
+        witness: &mut W,
+    );
+
+    /// Makes what waits: before there is another force, and in the end.
+    fn settle<R: Summation, V: Vector, S: Hamiltonian<V>>(
+        &mut self,
+        system: &S,
+        force: &mut V,
+        position: &mut V,
+        momentum: (&mut V, &mut V),
+    );
+}
+
+impl Moves for () {
+    #[inline(always)]
+    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
+        &mut self,
+        Force { span, stage, time }: Force,
+        system: &S,
+        place: &mut V,
+        q: &mut V,
+        (p, _p_low): (&mut V, &mut V),
+        witness: &mut W,
+    ) {
+        system.force(span.at(time), q, p, place);
+        witness.evaluation(Quantity::Force, stage, q, place);
+    }
+
+    #[inline(always)]
+    fn kick<R: Summation, V: Vector, S: Hamiltonian<V>>(
+        &mut self,
+        h: f64,
+        weight: Coefficient,
+        _system: &S,
+        force: &mut V,
+        _position: &mut V,
+        (p, p_low): (&mut V, &mut V),
+    ) {
+        advance::<R, V>(p, p_low, h, weight, force);
+    }
+
+    #[inline(always)]
+    fn drift<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
+        &mut self,
+        Drift {
+            span,
+            stage,
+            time,
+            weight,
+            known,
+        }: Drift,
+        system: &S,
+        (place, _force): (&mut V, &mut V),
+        (q, q_low): (&mut V, &mut V),
+        (p, _p_low): (&mut V, &mut V),
+        witness: &mut W,
+    ) {
+        let slope = velocity(system, span.at(time), q, p, place, known);
+        witness.evaluation(Quantity::Velocity, stage, &*p, slope);
+        advance::<R, V>(q, q_low, span.size, weight, slope);
+    }
+
+    #[inline(always)]
+    fn settle<R: Summation, V: Vector, S: Hamiltonian<V>>(
+        &mut self,
+        _system: &S,
+        _force: &mut V,
+        _position: &mut V,
+        _momentum: (&mut V, &mut V),
+    ) {
+    }
+}
+
+/// A force that has not been evaluated yet, and kicks by one force that the momentum has not been given yet: they wait for the drift
+/// that comes next, which makes them on its own way through the momentum. With long vectors every way through memory counts. The
+/// force too is made on this way if the system [can](Hamiltonian::kick_and_drift), and many ways are made in the
+/// [layout](Hamiltonian::layout) that it likes best.
+///
+/// The sums are plain, and every component has the same bits as where nothing waits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Waiting {
+    force: Option<Force>,
+    /// The step size and the weight of each kick: where two steps meet, there are two.
+    kicks: [(f64, Coefficient); 2],
+    /// How many kicks wait.
+    count: usize,
+    /// How many passes are to come, at least, while the layout has not been chosen.
+    passes: u64,
+    /// How positions and momenta lie in memory.
+    layout: Layout,
+}
+
+/// Passes that are worth two changes of the layout.
+const MANY: u64 = 1 << 6;
+
+impl Waiting {
+    /// Nothing waits, and there will be so many passes, or more.
+    pub(crate) const fn new(passes: u64) -> Self {
+        Self {
+            force: None,
+            kicks: [(0.0, Coefficient::exact(0.0)); 2],
+            count: 0,
+            passes,
+            layout: Layout::NATURAL,
+        }
+    }
+
+    /// The factors of the kicks that wait.
+    #[inline(always)]
+    fn factors<T: Scalar>(&self) -> ([T; 2], usize) {
+        let factors = self.kicks.map(|(h, weight)| T::weight(h, weight));
+        (factors, self.count.min(factors.len()))
+    }
+
+    /// Kicks and a drift in one pass; `false`, and positions and momenta in their order, where the system cannot.
+    #[inline(always)]
+    fn pass<V: Vector, S: Hamiltonian<V>>(
+        &mut self,
+        system: &S,
+        time: V::Scalar,
+        (q, p): (&mut V, &mut V),
+        place: &mut V,
+        kicks: &[V::Scalar],
+        drift: V::Scalar,
+    ) -> bool {
+        if mem::take(&mut self.passes) > MANY {
+            let layout = system.layout(q.as_slice(), p.as_slice());
+            if layout.put_vectors((q, p), place) {
+                self.layout = layout;
+            }
+        }
+        let state = (q.as_mut_slice(), p.as_mut_slice());
+        let made = system.kick_and_drift(time, state, self.layout, kicks, drift);
+        if !made {
+            self.put_back((q, p), place);
+        }
+        made
+    }
+
+    /// A drift before which there is no kick, in whatever layout there is.
+    #[inline(always)]
+    fn drift_alone<V: Vector>(&self, q: &mut V, p: &V, drift: V::Scalar) {
+        let (q, p) = (q.as_mut_slice(), p.as_slice());
+        let n = q.len().min(p.len());
+        for part in self.layout.parts(n) {
+            let (of_q, of_p) = (&mut q[part.in_q()], &p[part.in_p()]);
+            for (q, p) in of_q.iter_mut().zip(of_p) {
+                *q = drift.fused(*p, *q);
+            }
+        }
+    }
+
+    /// Puts positions and momenta back into their order.
+    #[inline(always)]
+    fn put_back<V: Vector>(&mut self, (q, p): (&mut V, &mut V), place: &mut V) {
+        let are_back = mem::take(&mut self.layout).put_vectors_back((q, p), place);
+        debug_assert!(are_back, "a place as long as the one before");
+    }
+
+    /// Evaluates the force that waits.
+    #[inline(always)]
+    fn evaluate<V: Vector, S: Hamiltonian<V>>(&mut self, system: &S, place: &mut V, q: &V, p: &V) {
+        if let Some(Force { span, time, .. }) = self.force.take() {
+            system.force(span.at(time), q, p, place);
+        }
+    }
+}
+
+impl Moves for Waiting {
+    /// Shows no evaluation to the witness.
+    #[inline(always)]
+    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
+        &mut self,
+        force: Force,
+        system: &S,
+        place: &mut V,
+        position: &mut V,
+        momentum: (&mut V, &mut V),
+        _witness: &mut W,
+    ) {
+        if self.force.is_some() || self.count > 0 {
+            self.settle::<R, V, S>(system, place, position, momentum);
+        }
+        self.force = Some(force);
+    }
+
+    #[inline(always)]
+    fn kick<R: Summation, V: Vector, S: Hamiltonian<V>>(
+        &mut self,
+        h: f64,
+        weight: Coefficient,
+        system: &S,
+        force: &mut V,
+        position: &mut V,
+        momentum: (&mut V, &mut V),
+    ) {
+        if self.count == self.kicks.len() {
+            self.settle::<R, V, S>(system, force, position, momentum);
+        }
+        // Places known while compiling can be registers.
+        match self.count {
+            0 => self.kicks[0] = (h, weight),
+            _ => self.kicks[1] = (h, weight),
+        }
+        self.count += 1;
+    }
+
+    #[inline(always)]
+    fn drift<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
+        &mut self,
+        drift: Drift,
+        system: &S,
+        (velocity, force): (&mut V, &mut V),
+        position: (&mut V, &mut V),
+        momentum: (&mut V, &mut V),
+        witness: &mut W,
+    ) {
+        let (q, p) = (&mut *position.0, &mut *momentum.0);
+        if !S::UNIT_MASSES {
+            self.settle::<R, V, S>(system, force, q, (p, &mut *momentum.1));
+            return ().drift::<R, V, S, W>(
+                drift,
+                system,
+                (velocity, force),
+                position,
+                momentum,
+                witness,
+            );
+        }
+        let (factors, count) = self.factors();
+        let kicks = &factors[..count];
+        let step = V::Scalar::weight(drift.span.size, drift.weight);
+        if let (Some(Force { span, time, .. }), true) = (self.force, count > 0) {
+            // Velocities are momenta: there is none in its place.
+            if self.pass(system, span.at(time), (q, p), velocity, kicks, step) {
+                (self.force, self.count) = (None, 0);
+                return;
+            }
+        }
+        if self.force.is_none() && count == 0 {
+            return self.drift_alone(q, p, step);
+        }
+        self.put_back((q, p), velocity);
+        self.evaluate(system, force, q, p);
+        self.count = 0;
+        kick_and_drift(q, p, force, kicks, step);
+    }
+
+    #[inline(always)]
+    fn settle<R: Summation, V: Vector, S: Hamiltonian<V>>(
+        &mut self,
+        system: &S,
+        force: &mut V,
+        position: &mut V,
+        (p, p_low): (&mut V, &mut V),
+    ) {
+        self.put_back((position, p), force);
+        self.evaluate(system, force, position, p);
+        for (number, &(h, weight)) in self.kicks.iter().enumerate() {
+            if number < self.count {
+                advance::<R, V>(p, p_low, h, weight, force);
+            }
+        }
+        self.count = 0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::Plain;
+    use crate::system::{Bonds, Chain, acceleration, separable};
+    use nalgebra::SVector;
+
+    /// Long enough for rows.
+    type Long = SVector<f64, 40>;
+
+    /// Bonds that pull harder with time.
+    struct Pulling;
+
+    impl Bonds for Pulling {
+        fn tension<T: Scalar>(&self, time: T, stretch: T) -> T {
+            stretch * stretch + time
+        }
+    }
+
+    const SPAN: Span = Span {
+        time: 0.25,
+        size: 0.3,
+    };
+
+    /// What moves are made on.
+    #[derive(Clone, Debug, PartialEq)]
+    struct Places {
+        q: (Long, Long),
+        p: (Long, Long),
+        force: Long,
+    }
+
+    impl Places {
+        fn force(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Long>) {
+            let force = Force {
+                span: SPAN,
+                stage: 1,
+                time: Coefficient::exact(0.75),
+            };
+            let (place, p) = (&mut self.force, (&mut self.p.0, &mut self.p.1));
+            moves.force::<Plain, _, _, _>(force, system, place, &mut self.q.0, p, &mut ());
+        }
+
+        fn kick(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Long>, weight: f64) {
+            let (weight, p) = (Coefficient::exact(weight), (&mut self.p.0, &mut self.p.1));
+            let (force, q) = (&mut self.force, &mut self.q.0);
+            moves.kick::<Plain, _, _>(SPAN.size, weight, system, force, q, p);
+        }
+
+        fn drift(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Long>) {
+            let drift = Drift {
+                span: SPAN,
+                stage: 1,
+                time: Coefficient::exact(0.5),
+                weight: Coefficient::exact(0.75),
+                known: false,
+            };
+            let evaluations = (&mut Long::zeros(), &mut self.force);
+            let (q, p) = (
+                (&mut self.q.0, &mut self.q.1),
+                (&mut self.p.0, &mut self.p.1),
+            );
+            moves.drift::<Plain, _, _, _>(drift, system, evaluations, q, p, &mut ());
+        }
+
+        fn settle(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Long>) {
+            let p = (&mut self.p.0, &mut self.p.1);
+            moves.settle::<Plain, _, _>(system, &mut self.force, &mut self.q.0, p);
+        }
+    }
+
+    /// More kicks than a splitting has before a drift, forces without kicks, and kicks without a drift.
+    #[test]
+    fn what_waits_is_made_as_what_does_not() {
+        fn all(
+            mut moves: impl Moves,
+            mut places: Places,
+            system: &impl Hamiltonian<Long>,
+        ) -> Places {
+            for (forces, kicks) in [
+                (0, 1),
+                (1, 1),
+                (0, 0),
+                (1, 2),
+                (1, 3),
+                (2, 5),
+                (1, 0),
+                (0, 2),
+                (0, 0),
+            ] {
+                for _ in 0..forces {
+                    places.force(&mut moves, system);
+                }
+                for kick in 0..kicks {
+                    places.kick(&mut moves, system, 0.25 * f64::from(kick + 1));
+                }
+                places.drift(&mut moves, system);
+            }
+            places.force(&mut moves, system);
+            for weight in [0.5, -1.5] {
+                places.kick(&mut moves, system, weight);
+            }
+            for _ in 0..2 {
+                places.settle(&mut moves, system);
+            }
+            places
+        }
+        fn check(system: &impl Hamiltonian<Long>) {
+            let zero = Long::zeros();
+            let waves = |phase: f64| Long::from_fn(|i, _| 0.1 * (i as f64 + phase).sin());
+            let start = Places {
+                q: (waves(0.1), zero),
+                p: (waves(0.7), zero),
+                force: waves(1.9),
+            };
+            let expected = all((), start.clone(), system);
+            for passes in [0, u64::MAX] {
+                let waiting = Waiting::new(passes);
+                assert_eq!(all(waiting, start.clone(), system), expected);
+            }
+            assert!(expected.q.0.iter().all(|q| q.is_finite()));
+        }
+        check(&Chain::ring(Pulling));
+        check(&Chain::between_walls(Pulling));
+        check(&acceleration(|time, q: &Long, a| *a = *q * time));
+        check(&separable(
+            |_time, p: &Long, v| *v = *p * 0.5,
+            |time, q, f| *f = *q * time,
+        ));
+    }
+}

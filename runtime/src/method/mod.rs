@@ -1,0 +1,249 @@
+//! What the macro emits: a method, and how it goes through one step.
+
+pub(crate) mod change;
+pub(crate) mod composition;
+pub(crate) mod coupled;
+pub(crate) mod diagnosis;
+pub(crate) mod explicit;
+pub(crate) mod interpolation;
+pub(crate) mod kick_drift;
+pub(crate) mod proved;
+pub(crate) mod separable_only;
+pub(crate) mod solver;
+pub(crate) mod splitting;
+pub(crate) mod splitting_macros;
+pub(crate) mod step;
+pub(crate) mod stopping;
+pub(crate) mod storage;
+pub(crate) mod tableau;
+pub(crate) mod tableau_macro;
+pub(crate) mod work;
+
+pub use change::{Change, PartChange};
+pub use composition::{Composition, CompositionMemory, Substep, Substeps};
+pub use coupled::Coupled;
+pub use explicit::Explicit;
+pub use interpolation::{Inside, Interpolation};
+pub use kick_drift::{Drift, Force, Moves};
+pub use proved::{LowerOrder, Orders, ProvedFor};
+pub use separable_only::{SeparableOnly, rows, staircase};
+pub use solver::Solver;
+pub use splitting::{Splitting, SplittingPlan};
+pub use splitting_macros::{composition, splitting};
+pub use step::{EvaluationCounts, Kept, Outcome, Span, Step, Witness};
+pub use stopping::Stopping;
+pub use storage::{Evaluations, StageStorage, Stages};
+pub use tableau::{
+    Decoupling, HalfTableau, SecondOrderTableau, StagePolynomial, StageTableau, StoredEvaluations,
+};
+pub use tableau_macro::tableau;
+pub use work::{Failure, Work};
+
+use core::fmt::Debug;
+
+use crate::number::{Coefficients, Summation, Vector};
+use crate::system::{Class, General, Hamiltonian, Separable};
+
+/// A symplectic partitioned Runge–Kutta method: a type without a value, emitted from a proved tableau.
+///
+/// It can be run on separable systems. On general ones it can where it is [`ProvedFor`] them.
+pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static {
+    /// Name of the method.
+    const NAME: &'static str;
+    /// Number of stages s of the tableau; a plan may store fewer.
+    const STAGES: usize;
+    /// What it was derived from: `basis: polynomial(3), nodes: lobatto(3)`. The compiler derives the exact
+    /// tableau from it again.
+    const DEFINITION: &'static str;
+    /// The coefficients, for what is computed beside the step; the plans have theirs in their code.
+    const COEFFICIENTS: Coefficients;
+    /// Its order for each class of Hamiltonians.
+    const ORDERS: Orders;
+    /// Whether it is refused for separable systems whose kinetic energy is not quadratic: where its order is lower there.
+    const NEEDS_QUADRATIC_KINETIC: bool = Self::ORDERS.nystrom > Self::ORDERS.separable;
+
+    /// The same method, for every system: also where its order is lower or it is not symplectic.
+    ///
+    /// ```
+    /// symplectic::tableau! { ForestRuth { base: forest-ruth-1990 } }
+    /// use symplectic::nalgebra::Vector1;
+    /// use symplectic::{Error, Integrator, Method, State, hamiltonian};
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let system = hamiltonian::<Vector1<f64>, _, _>(
+    ///     |_, q, p, velocity| velocity[0] = p[0] * (q[0] * q[0] + 1.0),
+    ///     |_, q, p, force| force[0] = -q[0] * (p[0] * p[0] + 1.0),
+    /// );
+    /// let start = State::from_arrays(0.0, [0.0], [1.0]);
+    /// assert_eq!((ForestRuth::ORDERS.separable, ForestRuth::ORDERS.general), (4, 1));
+    /// let mut integrator = Integrator::new(ForestRuth.accept_lower_order(), system, start, 0.1)?;
+    /// integrator.step()?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    fn accept_lower_order(self) -> LowerOrder<Self> {
+        LowerOrder(self)
+    }
+
+    /// How it steps a system with any Hamiltonian.
+    type General: Plan<Class = General>;
+    /// How it steps a system with a separable Hamiltonian.
+    type Separable: Plan<Class = Separable>;
+}
+
+/// How a [`Method`] goes through one step of a system of one [`Class`]: by drifts and kicks, [`Splitting`], by other stages
+/// in their order, [`Explicit`], by stages that a [`Solver`] finds, [`Coupled`], or by steps of other methods,
+/// [`Composition`].
+///
+/// [`Splitting`]: crate::Splitting
+/// [`Explicit`]: crate::Explicit
+/// [`Coupled`]: crate::Coupled
+/// [`Composition`]: crate::Composition
+pub trait Plan {
+    /// The class of systems that it steps.
+    type Class: Class;
+    /// What it needs beside the state, made once and used for every step.
+    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>>: StageStorage<V>;
+
+    /// The evaluations of a step that is [taken in place](Self::take_in_place); `None` where steps cannot be.
+    const EVALUATIONS_IN_PLACE: Option<u32> = None;
+
+    /// Takes `step` and writes its result into `outcome`; returns what that took.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`], where the stages cannot be found. That the result is finite is left to the caller to check.
+    fn take<R, V, S, N>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<V, S, N>,
+        kept: Kept,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>;
+
+    /// Takes a step from `state`, in place, with the evaluations [kept](Kept::evaluation) by the step before; nothing where
+    /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`. `moves` may leave a force and kicks waiting.
+    #[inline(always)]
+    fn take_in_place<R, V, S, N, K>(
+        _span: Span,
+        _system: &S,
+        _memory: &mut Self::Memory<V, S, N>,
+        _state: Outcome<'_, V>,
+        _moves: &mut K,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+        K: Moves,
+    {
+    }
+
+    /// Gives the state what steps [taken in place](Self::take_in_place) have left waiting.
+    #[inline(always)]
+    fn settle_in_place<R, V, S, N, K>(
+        _system: &S,
+        _memory: &mut Self::Memory<V, S, N>,
+        _state: Outcome<'_, V>,
+        _moves: &mut K,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+        K: Moves,
+    {
+    }
+
+    /// Takes a step that failed once more and shows its evaluations to `witness`, if they are not in `memory`.
+    fn observe<R, V, S, N, W>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<V, S, N>,
+        outcome: Outcome<'_, V>,
+        witness: &mut W,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>,
+        W: Witness;
+
+    /// What values inside a step are computed from.
+    const INTERPOLATION: Interpolation;
+
+    /// Adds to `q` and `p` how far they are inside the last step from the straight line between its ends, where that
+    /// follows from the [stages](Interpolation::Stages) in `memory`.
+    fn extend<V, S, N>(memory: &Self::Memory<V, S, N>, at: Inside<'_, V>, q: &mut V, p: &mut V)
+    where
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        N: Solver<V, S>;
+}
+
+/// How the stages of a [`Method`] are found for systems of one [`Class`].
+///
+/// A step is `begin`, then `sweep` until the stages no longer change (never in an [`Explicit`](crate::Explicit) plan), with plain sums
+/// `increments`, then `finish`.
+///
+/// Stage `i` evaluates the force at `t0 + c_i h` and the velocity at `t0 + c̃_i h`: see
+/// [`Hamiltonian`](Hamiltonian#time). Plans of the class [`Separable`] pass for the argument that the system does not
+/// read whatever vector is at hand.
+///
+/// Where the method is symplectic and no weight is zero, coupled stages are sums of increments `h b_j velocity_j` and
+/// `h b̃_j force_j` with the coefficients `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, rounded so that `μ̃_ij + μ_ji = 1`
+/// exactly: the rounded method is symplectic too. A splitting, where every evaluation is in the later stages in full,
+/// applies it to the state at once and stores no stages.
+pub trait StagePlan {
+    /// The class of systems that it steps.
+    type Class: Class;
+    /// Where the stage values and evaluations are.
+    type Stages<V: Vector>: StageStorage<V>;
+
+    /// How many evaluations it makes.
+    const EVALUATIONS: EvaluationCounts;
+
+    /// Evaluates what is explicit before the coupled stages, and gives these their starting values: extrapolated from
+    /// the stages of the step before where they are [kept](Kept::stages), the start of the step elsewhere.
+    fn begin<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
+        step: &Step<'_, V>,
+        system: &S,
+        stages: &mut Self::Stages<V>,
+        kept: Kept,
+    );
+
+    /// One fixed-point sweep over the coupled stages: new forces, the momenta that follow from them, new velocities, and the
+    /// positions that follow from those. Returns how much the stage values changed.
+    ///
+    /// For a separable system one half comes after the other and uses its new evaluations: the stopping rule of
+    /// [`FixedPoint`](crate::FixedPoint) relies on it.
+    fn sweep<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
+        step: &Step<'_, V>,
+        system: &S,
+        stages: &mut Self::Stages<V>,
+    ) -> Change;
+
+    /// Makes increments of the evaluations of the coupled stages, where they are to be such. With
+    /// [compensated](Summation::COMPENSATED) sums every sweep does; with plain ones they stay as they are meanwhile, and the factors of
+    /// the sums make up for it.
+    #[inline(always)]
+    fn increments<V: Vector>(_step: &Step<'_, V>, _stages: &mut Self::Stages<V>) {}
+
+    /// Evaluates what comes after the coupled stages, and writes the result of the step.
+    ///
+    /// A splitting makes all its evaluations here, and shows them to `witness`.
+    fn finish<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>, W: Witness>(
+        step: &Step<'_, V>,
+        system: &S,
+        stages: &mut Self::Stages<V>,
+        kept: Kept,
+        outcome: Outcome<'_, V>,
+        witness: &mut W,
+    );
+}

@@ -1,0 +1,69 @@
+//! For which systems a method is what its name promises.
+
+use crate::method::Method;
+use crate::number::Coefficients;
+
+/// The order and the symplecticity of a method on the systems of class `C` are not lower than on a narrower class.
+///
+/// The macros implement it from what the compiler proves. Every method has it for [`Separable`](crate::Separable). A splitting is
+/// symplectic for separable Hamiltonians only and lacks it for [`General`](crate::General):
+/// [`Integrator::new`](crate::Integrator::new) does not compile there. [`Method::accept_lower_order`] lifts that.
+///
+/// Every method has it for `()` too, which is no class: where there were one class only, the compiler would conclude it from the
+/// method, and complain about the system.
+///
+/// Code that is generic over the method and the system asks for `M: Method + ProvedFor<S::Class>`.
+///
+/// A method whose order holds for quadratic kinetic energy only (Runge–Kutta–Nyström) is checked when the integrator is made: see
+/// [`Error::NotQuadraticKinetic`](crate::Error::NotQuadraticKinetic).
+///
+/// ```compile_fail
+/// symplectic::tableau! { ForestRuth { base: forest-ruth-1990 } }
+/// use symplectic::nalgebra::Vector1;
+/// use symplectic::{Integrator, State, hamiltonian};
+///
+/// // H = (q² + 1)(p² + 1)/2 is not T(p) + U(q).
+/// let system = hamiltonian::<Vector1<f64>, _, _>(
+///     |_, q, p, velocity| velocity[0] = p[0] * (q[0] * q[0] + 1.0),
+///     |_, q, p, force| force[0] = -q[0] * (p[0] * p[0] + 1.0),
+/// );
+/// let start = State::from_arrays(0.0, [0.0], [1.0]);
+/// let integrator = Integrator::new(ForestRuth, system, start, 0.1);
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` loses its order or its symplecticity on systems of class `{C}`",
+    label = "proved for separable Hamiltonians only",
+    note = "if H = T(p) + U(q), write the system with `separable(…)`, implement `SeparableHamiltonian`, or say `impl Hamiltonian<V, Class = Separable>`",
+    note = "otherwise take a method for general Hamiltonians, such as `basis: polynomial(s), nodes: gauss(s)` or `lobatto(s)`",
+    note = "to go on knowingly, write `.accept_lower_order()` after the method"
+)]
+pub trait ProvedFor<C> {}
+
+/// The order of a method for each class of Hamiltonians, as the compiler found it. The documentation of the method says how each
+/// order is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Orders {
+    /// For every `H(q, p)`.
+    pub general: u32,
+    /// For `H = T(p) + U(q)`.
+    pub separable: u32,
+    /// For `H = pᵀM⁻¹p/2 + U(q)`.
+    pub nystrom: u32,
+}
+
+/// A method on systems for which it has a lower order, or is not symplectic: what [`Method::accept_lower_order`] returns.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LowerOrder<M>(pub(crate) M);
+
+impl<M: Method> Method for LowerOrder<M> {
+    const NAME: &'static str = M::NAME;
+    const STAGES: usize = M::STAGES;
+    const DEFINITION: &'static str = M::DEFINITION;
+    const COEFFICIENTS: Coefficients = M::COEFFICIENTS;
+    const ORDERS: Orders = M::ORDERS;
+    const NEEDS_QUADRATIC_KINETIC: bool = false;
+    type General = M::General;
+    type Separable = M::Separable;
+}
+
+impl<M: Method, C> ProvedFor<C> for LowerOrder<M> {}

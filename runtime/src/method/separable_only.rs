@@ -1,0 +1,115 @@
+//! What the macros emit of a splitting that is too long for its matrices to be written out.
+
+use crate::method::{
+    Failure, Inside, Interpolation, Kept, Outcome, Plan, Solver, Step, Stopping, Witness, Work,
+};
+use crate::number::{Summation, Vector};
+use crate::system::{General, Hamiltonian};
+
+/// The matrix with the entries `weights[j]` in the row `i` for `j < i`, and for `j = i` where they are its `own`, and `zero`
+/// elsewhere: `a` and `ã` of a splitting.
+///
+/// ```
+/// const A: [[f64; 3]; 3] = symplectic::staircase([0.25, 0.5, 0.25], 0.0, false);
+/// assert_eq!(A, [[0.0, 0.0, 0.0], [0.25, 0.0, 0.0], [0.25, 0.5, 0.0]]);
+/// ```
+pub const fn staircase<T: Copy, const N: usize>(
+    weights: [T; N],
+    zero: T,
+    own: bool,
+) -> [[T; N]; N] {
+    let mut matrix = [[zero; N]; N];
+    let mut i = 0;
+    while i < N {
+        let steps = if own { i + 1 } else { i };
+        let mut j = 0;
+        while j < steps {
+            matrix[i][j] = weights[j];
+            j += 1;
+        }
+        i += 1;
+    }
+    matrix
+}
+
+/// The rows of a matrix, as [`Coefficients`](crate::Coefficients) have them.
+pub const fn rows<T, const N: usize>(matrix: &[[T; N]; N]) -> [&[T]; N] {
+    let mut rows: [&[T]; N] = [&[]; N];
+    let mut i = 0;
+    while i < N {
+        rows[i] = &matrix[i];
+        i += 1;
+    }
+    rows
+}
+
+/// The plan for general Hamiltonians of a splitting of more than 36 stages: there is none, and code that steps a system with
+/// such a Hamiltonian by the method does not compile.
+///
+/// For these every stage had to be solved for, and the method were of order 1 or 2 all the same.
+#[derive(Clone, Copy, Debug)]
+pub struct SeparableOnly;
+
+impl SeparableOnly {
+    /// Stops the compiler where a step is instantiated, which the vector has to be known for.
+    const fn refuse<V>() {
+        assert!(
+            size_of::<V>() == usize::MAX,
+            "a splitting of more than 36 stages steps separable Hamiltonians: implement the system as one, or take a method \
+             for general Hamiltonians"
+        );
+    }
+}
+
+impl Plan for SeparableOnly {
+    type Class = General;
+    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>> = crate::method::Evaluations<V>;
+
+    fn take<R, V, S, N>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _memory: &mut crate::method::Evaluations<V>,
+        _kept: Kept,
+        _stopping: Stopping,
+        _outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = General>,
+        N: Solver<V, S>,
+    {
+        const { Self::refuse::<V>() };
+        Ok(Work::default())
+    }
+
+    fn observe<R, V, S, N, W>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _memory: &mut crate::method::Evaluations<V>,
+        _outcome: Outcome<'_, V>,
+        _witness: &mut W,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = General>,
+        N: Solver<V, S>,
+        W: Witness,
+    {
+        const { Self::refuse::<V>() };
+    }
+
+    const INTERPOLATION: Interpolation = Interpolation::Hermite;
+
+    fn extend<V, S, N>(
+        _memory: &crate::method::Evaluations<V>,
+        _at: Inside<'_, V>,
+        _q: &mut V,
+        _p: &mut V,
+    ) where
+        V: Vector,
+        S: Hamiltonian<V, Class = General>,
+        N: Solver<V, S>,
+    {
+    }
+}

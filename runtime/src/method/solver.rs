@@ -1,0 +1,39 @@
+//! How coupled stages are found.
+
+use core::fmt::Debug;
+
+use crate::method::{
+    Failure, Inside, Kept, Outcome, StageStorage, StageTableau, Step, Stopping, Work,
+};
+use crate::number::{Summation, Vector};
+use crate::system::Hamiltonian;
+
+/// Finds the stages of a [`Coupled`](crate::Coupled) plan, for a system `S` over the vectors `V`.
+///
+/// [`FixedPoint`](crate::FixedPoint) is the one that every system has.
+pub trait Solver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
+    /// What it needs for one plan, made once and used for every step.
+    type Memory<P: StageTableau>: StageStorage<V>;
+
+    /// Takes `step` and writes its result into `outcome`; returns what that took.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`], where the stages cannot be found. That the result is finite is left to the caller to check.
+    fn take<P, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<P>,
+        kept: Kept,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        P: StageTableau,
+        R: Summation,
+        S: Hamiltonian<V, Class = P::Class>;
+
+    /// Adds to `q` and `p` how far they are inside the last step from the straight line between its ends, by the
+    /// [polynomials](crate::HalfTableau::polynomial) through the evaluations in `memory`.
+    fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V);
+}

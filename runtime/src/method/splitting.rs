@@ -1,0 +1,159 @@
+//! Splittings: drifts and kicks, applied to the state in place.
+
+use core::marker::PhantomData;
+
+use crate::method::{
+    Evaluations, Failure, Inside, Interpolation, Kept, Moves, Outcome, Plan, Solver, Span,
+    StageStorage, Step, Stopping, Witness, Work,
+};
+use crate::number::{Summation, Vector, copy};
+use crate::system::{Class, Hamiltonian};
+
+/// How a splitting goes through one step of a system of one [`Class`]: each evaluation is in the later stages in full, so
+/// it is applied to the state at once, and no stage is stored.
+pub trait SplittingPlan {
+    /// The class of systems that it steps.
+    type Class: Class;
+
+    /// The number of evaluations of a step.
+    const EVALUATIONS: u32;
+    /// How many of the first ones are not made where the step before has [kept](Kept::evaluation) them.
+    const CARRIED: u32;
+
+    /// Takes the step `span` from `state`, in place, by these `moves`, and shows its evaluations to `witness`.
+    fn apply<
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        K: Moves,
+        W: Witness,
+    >(
+        span: Span,
+        system: &S,
+        evaluations: &mut Evaluations<V>,
+        kept: Kept,
+        state: Outcome<'_, V>,
+        moves: &mut K,
+        witness: &mut W,
+    );
+}
+
+/// The plan of a splitting. There is no solver in its code.
+#[derive(Clone, Copy, Debug)]
+pub struct Splitting<P>(PhantomData<P>);
+
+impl<P: SplittingPlan> Splitting<P> {
+    /// Puts the state before `step` where the one after it is to be.
+    #[inline(always)]
+    fn start<R: Summation, V: Vector>(step: &Step<'_, V>, state: &mut Outcome<'_, V>) {
+        copy(state.q, step.q);
+        copy(state.p, step.p);
+        if R::COMPENSATED {
+            copy(state.q_low, step.q_low);
+            copy(state.p_low, step.p_low);
+        }
+    }
+}
+
+impl<P: SplittingPlan> Plan for Splitting<P> {
+    type Class = P::Class;
+    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>> = Evaluations<V>;
+
+    const EVALUATIONS_IN_PLACE: Option<u32> = Some(P::EVALUATIONS - P::CARRIED);
+
+    #[inline(always)]
+    fn take<R, V, S, N>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Evaluations<V>,
+        kept: Kept,
+        _stopping: Stopping,
+        mut outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+    {
+        Self::start::<R, V>(step, &mut outcome);
+        P::apply::<R, V, S, (), ()>(step.span(), system, memory, kept, outcome, &mut (), &mut ());
+        let carried = if kept.evaluation { P::CARRIED } else { 0 };
+        Ok(Work {
+            evaluations: P::EVALUATIONS - carried,
+            ..Work::default()
+        })
+    }
+
+    fn observe<R, V, S, N, W>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Evaluations<V>,
+        mut outcome: Outcome<'_, V>,
+        witness: &mut W,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+        W: Witness,
+    {
+        *memory = Evaluations::like(step.q);
+        Self::start::<R, V>(step, &mut outcome);
+        P::apply::<R, V, S, (), W>(
+            step.span(),
+            system,
+            memory,
+            Kept::default(),
+            outcome,
+            &mut (),
+            witness,
+        );
+    }
+
+    const INTERPOLATION: Interpolation = Interpolation::Hermite;
+
+    /// There are no stages to make a polynomial of.
+    fn extend<V, S, N>(_memory: &Evaluations<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
+    where
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+    {
+    }
+
+    #[inline(always)]
+    fn take_in_place<R, V, S, N, K>(
+        span: Span,
+        system: &S,
+        memory: &mut Evaluations<V>,
+        state: Outcome<'_, V>,
+        moves: &mut K,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+        K: Moves,
+    {
+        let kept = Kept::new(true, false);
+        P::apply::<R, V, S, K, ()>(span, system, memory, kept, state, moves, &mut ());
+    }
+
+    #[inline(always)]
+    fn settle_in_place<R, V, S, N, K>(
+        system: &S,
+        memory: &mut Evaluations<V>,
+        state: Outcome<'_, V>,
+        moves: &mut K,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = P::Class>,
+        N: Solver<V, S>,
+        K: Moves,
+    {
+        let momentum = (state.p, state.p_low);
+        moves.settle::<R, V, S>(system, &mut memory.force, state.q, momentum);
+    }
+}

@@ -1,0 +1,165 @@
+//! One step, as a plan sees it.
+
+use crate::error::Quantity;
+use crate::number::{Coefficient, Scalar, Vector};
+
+/// The step that is taken: from `(q, p)` at `time` to `time + size`.
+#[derive(Debug)]
+pub struct Step<'a, V> {
+    /// Time at the start, t0.
+    pub time: f64,
+    /// Step size h; negative for a step backward.
+    pub size: f64,
+    /// Position at the start, q0, rounded.
+    pub q: &'a V,
+    /// What `q` leaves out: with [`Compensated`](crate::Compensated) sums the position is `q + q_low`.
+    pub q_low: &'a V,
+    /// Momentum at the start, p0, rounded.
+    pub p: &'a V,
+    /// What `p` leaves out.
+    pub p_low: &'a V,
+}
+
+impl<V: Vector> Step<'_, V> {
+    /// What `take` makes of a copy: nothing points to the vectors themselves.
+    #[inline(always)]
+    pub(crate) fn copied<T>(&self, take: impl FnOnce(&Step<'_, V>) -> T) -> T {
+        let (q, q_low) = (self.q.clone(), self.q_low.clone());
+        let (p, p_low) = (self.p.clone(), self.p_low.clone());
+        take(&Step {
+            time: self.time,
+            size: self.size,
+            q: &q,
+            q_low: &q_low,
+            p: &p,
+            p_low: &p_low,
+        })
+    }
+}
+
+impl<V> Step<'_, V> {
+    /// The time `t0 + c h` of the node `c`.
+    #[inline(always)]
+    pub fn at<T: Scalar>(&self, c: Coefficient) -> T {
+        self.span().at(c)
+    }
+
+    /// From when to when it goes.
+    #[inline(always)]
+    pub const fn span(&self) -> Span {
+        Span {
+            time: self.time,
+            size: self.size,
+        }
+    }
+}
+
+/// From when to when a step goes: from `time` to `time + size`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Time at the start, t0.
+    pub time: f64,
+    /// Step size h; negative for a step backward.
+    pub size: f64,
+}
+
+impl Span {
+    /// The time `t0 + c h` of the node `c`; in double precision, as times are, whatever the scalar.
+    #[inline(always)]
+    pub fn at<T: Scalar>(&self, c: Coefficient) -> T {
+        T::from_f64(self.time + c.double() * self.size)
+    }
+}
+
+/// Where the result of a step is written; the old values mean nothing.
+#[derive(Debug)]
+pub struct Outcome<'a, V> {
+    /// Position q1, rounded.
+    pub q: &'a mut V,
+    /// What `q` leaves out; untouched by [`Plain`](crate::Plain) sums.
+    pub q_low: &'a mut V,
+    /// Momentum p1, rounded.
+    pub p: &'a mut V,
+    /// What `p` leaves out; untouched by [`Plain`](crate::Plain) sums.
+    pub p_low: &'a mut V,
+}
+
+impl<V> Outcome<'_, V> {
+    /// The same places, lent out.
+    pub const fn reborrow(&mut self) -> Outcome<'_, V> {
+        Outcome {
+            q: self.q,
+            q_low: self.q_low,
+            p: self.p,
+            p_low: self.p_low,
+        }
+    }
+}
+
+/// What the memory of the stages still holds from the step before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kept {
+    /// The evaluations at its end that are those at the start of this step, if there are any.
+    pub evaluation: bool,
+    /// The increments of its stages, from which those of this step can be extrapolated: the step before was taken by
+    /// the same method, from a step size equal to this one.
+    pub stages: bool,
+    /// How large [those stages](crate::Work::scales) were, as the step before has returned it: zero where that is not known.
+    pub scales: [f64; 2],
+}
+
+impl Kept {
+    /// Evaluations, stages, or both.
+    pub const fn new(evaluation: bool, stages: bool) -> Self {
+        Self {
+            evaluation,
+            stages,
+            scales: [0.0; 2],
+        }
+    }
+}
+
+impl Default for Kept {
+    /// Nothing. Written out, for that of an array would be a call: see `array.rs`.
+    #[inline(always)]
+    fn default() -> Self {
+        Self::new(false, false)
+    }
+}
+
+/// Evaluations that a [`StagePlan`](crate::StagePlan) makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EvaluationCounts {
+    /// Before the coupled stages; all of a splitting.
+    pub begin: u32,
+    /// Where the coupled stages start from, if no stages are [kept](Kept::stages).
+    pub start: u32,
+    /// In one sweep.
+    pub sweep: u32,
+    /// After the coupled stages.
+    pub finish: u32,
+    /// How many of the first ones are not made where the step before has [kept](Kept::evaluation) them; every accepted
+    /// step keeps them.
+    pub carried: u32,
+}
+
+impl EvaluationCounts {
+    /// Those before the coupled stages, with what is kept from the step before.
+    #[inline(always)]
+    pub(crate) const fn at_begin(&self, kept: Kept) -> u32 {
+        let carried = if kept.evaluation { self.carried } else { 0 };
+        let start = if kept.stages { 0 } else { self.start };
+        self.begin + start - carried
+    }
+}
+
+/// Who is shown every evaluation of a step that stores no stages; nobody, `()`, in a step that goes well.
+pub trait Witness {
+    /// Shows the evaluation `value` of a stage, from 1, at `argument`.
+    fn evaluation<V: Vector>(&mut self, what: Quantity, stage: usize, argument: &V, value: &V);
+}
+
+impl Witness for () {
+    #[inline(always)]
+    fn evaluation<V: Vector>(&mut self, _what: Quantity, _stage: usize, _at: &V, _value: &V) {}
+}

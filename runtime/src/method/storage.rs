@@ -1,0 +1,201 @@
+//! The memory of a step.
+
+use core::array;
+
+use crate::error::Quantity;
+use crate::number::{Scalar, Vector};
+
+/// Memory of one [`Plan`](crate::Plan), made once and used for every step.
+pub trait StageStorage<V: Vector>: Sized {
+    /// Whether single doubles are read from groups of lanes that processors read faster from memory than from a register.
+    const BROADCASTS: bool = false;
+
+    /// Storage for vectors of the dimension of `prototype`; every component is zero.
+    fn like(prototype: &V) -> Self;
+
+    /// The first evaluation that is not finite although the stage value that it was made from is: the quantity
+    /// and the number of the stage, from 1; of two with the same number, the force. `None` where stages are not stored.
+    fn non_finite(&self) -> Option<(Quantity, usize)>;
+
+    /// The number of the first stage, from 1, whose force is not finite; a sweep has moved the positions since.
+    fn non_finite_force(&self) -> Option<usize> {
+        None
+    }
+
+    /// The first evaluation whose dimension is not `dimension`: the quantity, the number of the stage, from 1, and the
+    /// dimension found.
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)>;
+}
+
+/// The memories of two plans.
+impl<V: Vector, A: StageStorage<V>, B: StageStorage<V>> StageStorage<V> for (A, B) {
+    fn like(prototype: &V) -> Self {
+        (A::like(prototype), B::like(prototype))
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.0.non_finite().or_else(|| self.1.non_finite())
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        let first = self.0.mismatch(dimension);
+        first.or_else(|| self.1.mismatch(dimension))
+    }
+}
+
+/// The memory of a splitting: the latest evaluation of each kind.
+#[derive(Clone, Debug)]
+pub struct Evaluations<V> {
+    /// The latest ∂H/∂p.
+    pub velocity: V,
+    /// The latest −∂H/∂q.
+    pub force: V,
+}
+
+impl<V: Vector> StageStorage<V> for Evaluations<V> {
+    fn like(prototype: &V) -> Self {
+        Self {
+            velocity: prototype.zeros_like(),
+            force: prototype.zeros_like(),
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        None
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        let (force, velocity) = (&self.force, &self.velocity);
+        first_mismatch(array::from_ref(force), array::from_ref(velocity), dimension)
+    }
+}
+
+/// `Q` positions with a force each, and `P` momenta with a velocity each.
+///
+/// For a separable system equal stages are stored once, so `Q` and `P` may differ and be smaller than the number
+/// of stages; a stage that equals the start or the result of the step is not stored at all, and its place stays
+/// unused.
+#[derive(Clone, Debug)]
+pub struct Stages<V, const Q: usize, const P: usize> {
+    /// Stage positions Q_i.
+    pub q: [V; Q],
+    /// Stage momenta P_i.
+    pub p: [V; P],
+    /// ∂H/∂p at the stage momenta, or the increments made of it.
+    pub velocity: [V; P],
+    /// −∂H/∂q at the stage positions, or the increments made of it.
+    pub force: [V; Q],
+}
+
+impl<V: Vector, const Q: usize, const P: usize> StageStorage<V> for Stages<V, Q, P> {
+    fn like(prototype: &V) -> Self {
+        Self {
+            q: array::from_fn(|_| prototype.zeros_like()),
+            p: array::from_fn(|_| prototype.zeros_like()),
+            velocity: array::from_fn(|_| prototype.zeros_like()),
+            force: array::from_fn(|_| prototype.zeros_like()),
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        first_non_finite((&self.q, &self.force), (&self.p, &self.velocity))
+    }
+
+    fn non_finite_force(&self) -> Option<usize> {
+        first_non_finite_of(&self.force)
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        first_mismatch(&self.force, &self.velocity, dimension)
+    }
+}
+
+/// The number of the first vector, from 1, that is not finite.
+pub(crate) fn first_non_finite_of<V: Vector>(vectors: &[V]) -> Option<usize> {
+    let first = vectors.iter().position(|vector| !is_finite(vector));
+    first.map(|index| index + 1)
+}
+
+/// [`StageStorage::non_finite`] of positions with their forces and momenta with their velocities.
+pub(crate) fn first_non_finite<V: Vector>(
+    (q, force): (&[V], &[V]),
+    (p, velocity): (&[V], &[V]),
+) -> Option<(Quantity, usize)> {
+    let first = |values: &[V], evaluations: &[V]| {
+        let mut pairs = values.iter().zip(evaluations);
+        pairs.position(|(value, evaluation)| is_finite(value) && !is_finite(evaluation))
+    };
+    // A stage that is not stored passes for finite: what was computed from it comes later in the order.
+    match (first(q, force), first(p, velocity)) {
+        (Some(i), Some(j)) if j < i => Some((Quantity::Velocity, j + 1)),
+        (Some(i), _) => Some((Quantity::Force, i + 1)),
+        (None, j) => j.map(|j| (Quantity::Velocity, j + 1)),
+    }
+}
+
+/// [`StageStorage::mismatch`] of forces and velocities.
+#[inline]
+pub(crate) fn first_mismatch<V: Vector>(
+    force: &[V],
+    velocity: &[V],
+    dimension: usize,
+) -> Option<(Quantity, usize, usize)> {
+    let first = |evaluations: &[V]| {
+        let mut dimensions = evaluations.iter().map(V::dimension).enumerate();
+        dimensions.find(|&(_, found)| found != dimension)
+    };
+    if let Some((i, found)) = first(force) {
+        return Some((Quantity::Force, i + 1, found));
+    }
+    first(velocity).map(|(i, found)| (Quantity::Velocity, i + 1, found))
+}
+
+/// Whether every component is finite.
+#[inline]
+pub(crate) fn is_finite<V: Vector>(vector: &V) -> bool {
+    // Every step checks its result with it, so it goes without a branch and vectorises: what is one above the largest exponent
+    // has a carry.
+    const SIGN: u64 = 1 << 63;
+    const LEAST_EXPONENT: u64 = 1 << 52;
+    let mut carries = 0;
+    for component in vector.as_slice() {
+        let size = component.magnitude().to_bits() & !SIGN;
+        carries |= size + LEAST_EXPONENT;
+    }
+    carries & SIGN == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn every_component_is_looked_at() {
+        for (number, finite) in [
+            (0.0, true),
+            (-0.0, true),
+            (f64::MAX, true),
+            (f64::MIN, true),
+            (5e-324, true),
+            (f64::INFINITY, false),
+            (f64::NEG_INFINITY, false),
+            (f64::NAN, false),
+            (-f64::NAN, false),
+            (f64::from_bits(0x7ff0_0000_0000_0001), false),
+        ] {
+            for place in 0..3 {
+                let mut vector = Vector3::new(1.0, -2.0, 3e300);
+                vector[place] = number;
+                assert_eq!(is_finite(&vector), finite, "{vector}");
+            }
+            // f32: the largest double is infinite in it.
+            let single = Vector3::new(1.0, number as f32, 2.0);
+            let finite = finite && number.abs() <= f64::from(f32::MAX);
+            assert_eq!(is_finite(&single), finite, "{single}");
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! The coefficients of coupled stages all together.
+
+use core::fmt::Debug;
+use core::marker::PhantomData;
+
+use crate::method::StagePlan;
+use crate::number::{Lanes, Vector};
+
+/// The coupled stages of a plan as matrices, for solvers that treat them all at once.
+///
+/// There may be fewer than the tableau has, for equal ones are one. With `Q_i` the position of the force `i` and `P_i` the
+/// momentum of the velocity `i`,
+///
+/// ```text
+/// Q_i = q0 + Σ_j positions_ij u_j    u_j = h b_j velocity_j
+/// P_i = p0 + Σ_j momenta_ij w_j      w_j = h b̃_j force_j
+/// ```
+///
+/// where the sums are of [`INCREMENTS`](Self::INCREMENTS), and `u_j = velocity_j`, `w_j = force_j` with factors of `h` in
+/// front of the sums elsewhere.
+pub trait StageTableau: StagePlan {
+    /// The lanes that the stages are put into.
+    type Lanes: Lanes;
+    /// As many lanes as there are stages.
+    type Groups<T: Debug>: Debug + AsRef<[T]> + AsMut<[T]>;
+
+    /// Whether stages are sums of increments, with `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, rounded so that they are
+    /// symplectic; else of evaluations, with `a_ij` and `ã_ij`.
+    const INCREMENTS: bool;
+    /// Positions, and the forces there.
+    const POSITIONS: HalfTableau;
+    /// Momenta, and the velocities there.
+    const MOMENTA: HalfTableau;
+    /// For systems whose velocity is the momentum, where the method is separably symplectic.
+    const SECOND_ORDER: Option<SecondOrderTableau>;
+
+    /// How the linear systems of a Newton iteration fall apart; `None` where they do not, or where it is not known.
+    const DECOUPLING: Option<Decoupling> = None;
+
+    /// A value for each group of lanes, by its number from 0.
+    fn groups<T: Debug>(make: impl FnMut(usize) -> T) -> Self::Groups<T>;
+
+    /// The velocities and the forces that a step has left in its memory.
+    fn stored<V: Vector>(stages: &Self::Stages<V>) -> [StoredEvaluations<'_, V>; 2];
+}
+
+/// Velocities or forces as a step leaves them, stage by stage.
+#[derive(Clone, Copy, Debug)]
+pub struct StoredEvaluations<'a, V> {
+    /// One for each stage: the evaluation, or the increment made of it.
+    pub values: &'a [V],
+    /// The stages whose evaluations are as they are although others are increments: the next step begins with them.
+    pub carried: &'static [usize],
+}
+
+/// The polynomial through the evaluations of a step at its nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StagePolynomial {
+    /// For k = 1, …, s − 1 an entry for each stage: `γ_jk` of its Lagrange polynomial `ℓ_j = Σ_k γ_jk L_k` in Legendre
+    /// polynomials on [0, 1], divided by the weight `b_j` where evaluations are increments. Correctly rounded.
+    pub legendre: &'static [&'static [f64]],
+    /// The order of its integral: see [`Interpolation`](crate::Interpolation).
+    pub order: u32,
+}
+
+/// One half of a [`StageTableau`]: stage values, and the evaluations at them.
+///
+/// Every list over the stages is as long as the lanes are together: the last stage is repeated to fill them.
+#[derive(Clone, Copy, Debug)]
+pub struct HalfTableau {
+    /// The number of stages.
+    pub count: usize,
+    /// The matrix by its columns: one for each evaluation of the other half, in it an entry for each stage.
+    pub columns: &'static [&'static [f64]],
+    /// The times of the evaluations, as fractions of the step.
+    pub times: &'static [f64],
+    /// The weights of the evaluations in the result of the step.
+    pub weights: &'static [f64],
+    /// The matrix that takes the increments of the evaluations to those of the next step of the same size, by its columns;
+    /// empty where there is none.
+    pub extrapolation: &'static [&'static [f64]],
+    /// What the evaluations are inside the step; none where times coincide or where the weights are not those of a
+    /// polynomial. It has as many entries as there are stages.
+    pub polynomial: Option<StagePolynomial>,
+}
+
+/// The coefficients for second-order systems `q'' = M⁻¹ f(q)`, from which the momentum stages are eliminated (Nyström):
+///
+/// ```text
+/// Q_i = q0 + h c_i v(p0) + h Σ_k ν_ik v(w_k)      q1 = q0 + h v(p0) + h Σ_k (1 − c_k) v(w_k)
+/// ```
+///
+/// with the velocity `v(p) = M⁻¹ p` and the increments `w_k = h b̃_k force_k` of the momentum. They are rounded so that `ν_ik − ν_ki = c_i − c_k` exactly: the rounded
+/// method is symplectic too (Suris, 1989).
+#[derive(Clone, Copy, Debug)]
+pub struct SecondOrderTableau {
+    /// `c_i`
+    pub nodes: &'static [f64],
+    /// `ν` by its columns.
+    pub columns: &'static [&'static [f64]],
+    /// `ν_ik b̃_k` by its columns: what the forces themselves are multiplied by, with `h²` before the sum.
+    pub of_forces: &'static [&'static [f64]],
+    /// `1 − c_k`
+    pub rest: &'static [f64],
+}
+
+/// The columns up to the last that is not zero: those after it add nothing. That the evaluation of such a column is not finite shows
+/// in no stage, but in the result of the step.
+const fn significant(columns: &'static [&'static [f64]]) -> &'static [&'static [f64]] {
+    let mut count = columns.len();
+    while count > 1 && is_zero(columns[count - 1]) {
+        count -= 1;
+    }
+    columns.split_at(count).0
+}
+
+const fn is_zero(column: &[f64]) -> bool {
+    let mut i = 0;
+    while i < column.len() && column[i] == 0.0 {
+        i += 1;
+    }
+    i == column.len()
+}
+
+/// The [`significant`] columns of the matrices of a plan.
+pub(crate) struct Columns<P>(PhantomData<P>);
+
+impl<P: StageTableau> Columns<P> {
+    pub(crate) const POSITIONS: &'static [&'static [f64]] = significant(P::POSITIONS.columns);
+    pub(crate) const MOMENTA: &'static [&'static [f64]] = significant(P::MOMENTA.columns);
+    /// Those of second-order systems; none where there are no coefficients for them.
+    pub(crate) const SECOND_ORDER: &'static [&'static [f64]] = match P::SECOND_ORDER {
+        Some(tableau) => significant(tableau.columns),
+        None => &[],
+    };
+    /// [`SECOND_ORDER`](Self::SECOND_ORDER), of forces.
+    pub(crate) const OF_FORCES: &'static [&'static [f64]] = match P::SECOND_ORDER {
+        Some(tableau) => significant(tableau.of_forces),
+        None => &[],
+    };
+}
+
+/// A transformation `X⁻¹ B X` of a stage matrix to blocks on the diagonal.
+///
+/// For a [`Separable`](crate::Separable) system `B = Ã A`, the product of the matrices of momenta and positions, which takes
+/// velocities to velocities. For a [`General`](crate::General) one `B = A`, and there is a transformation only where
+/// `A = Ã`. A real eigenvalue is a block, and so is a pair `α ± iω` of complex ones, `[[α, −ω], [ω, α]]`: s linear systems of
+/// n unknowns for a velocity each become as many of n unknowns that are solved one after the other, two in one complex
+/// system (Butcher, 1976; Hairer & Wanner, *Solving ODEs II*, IV.8).
+#[derive(Clone, Copy, Debug)]
+pub struct Decoupling {
+    /// The blocks in their order: `(α, ω)`, with `ω = 0` for a real eigenvalue.
+    pub blocks: &'static [(f64, f64)],
+    /// `X` by rows.
+    pub to_stages: &'static [&'static [f64]],
+    /// `X⁻¹` by rows.
+    pub from_stages: &'static [&'static [f64]],
+}

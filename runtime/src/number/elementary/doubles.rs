@@ -1,0 +1,147 @@
+//! Doubles as elementary functions see them: numbers that are bits too.
+
+use core::hint;
+use core::ops::{BitAnd, BitOr, BitXor, Shl, Shr};
+
+use bytemuck::cast;
+
+use crate::number::{F64x2, F64x4, F64x8, Lanes, Scalar};
+
+/// The sign of a double.
+const SIGN: u64 = 1 << 63;
+
+/// One double, or some side by side.
+pub(crate) trait Doubles: Scalar {
+    /// The bits of each.
+    type Bits: Copy
+        + BitAnd<Output = Self::Bits>
+        + BitOr<Output = Self::Bits>
+        + BitXor<Output = Self::Bits>
+        + Shl<u32, Output = Self::Bits>
+        + Shr<u32, Output = Self::Bits>;
+
+    /// The bits.
+    fn to_bits(self) -> Self::Bits;
+
+    /// The doubles with these bits.
+    fn from_bits(bits: Self::Bits) -> Self;
+
+    /// The same bits for each.
+    fn bits(bits: u64) -> Self::Bits;
+
+    /// The sum of integers modulo 2⁶⁴.
+    fn sum(a: Self::Bits, b: Self::Bits) -> Self::Bits;
+
+    /// Whether all are below `bound`; NaN is not.
+    fn all_below(self, bound: f64) -> bool;
+
+    /// `odd` where the last bit is one, `even` elsewhere. What is not chosen may not be made at all.
+    fn choose(bits: Self::Bits, odd: impl FnOnce() -> Self, even: impl FnOnce() -> Self) -> Self;
+
+    /// `function` of one after the other, in a function of its own.
+    #[inline(always)]
+    fn one_by_one(self, function: impl Fn(f64) -> f64) -> Self {
+        // Of a copy: of what the compiler knows the place it would be given the place, and all that is there kept in memory.
+        hint::black_box(self).apart(function)
+    }
+
+    /// [`one_by_one`](Self::one_by_one).
+    fn apart(self, function: impl Fn(f64) -> f64) -> Self;
+
+    /// The same with the other sign where that bit of `other` is one.
+    #[inline(always)]
+    fn with_sign_of_bit(self, bit: u32, other: Self) -> Self {
+        let sign = (other.to_bits() << (63 - bit)) & Self::bits(SIGN);
+        Self::from_bits(self.to_bits() ^ sign)
+    }
+}
+
+impl Doubles for f64 {
+    type Bits = u64;
+
+    #[inline(always)]
+    fn to_bits(self) -> u64 {
+        self.to_bits()
+    }
+
+    #[inline(always)]
+    fn from_bits(bits: u64) -> Self {
+        Self::from_bits(bits)
+    }
+
+    #[inline(always)]
+    fn bits(bits: u64) -> u64 {
+        bits
+    }
+
+    #[inline(always)]
+    fn sum(a: u64, b: u64) -> u64 {
+        a.wrapping_add(b)
+    }
+
+    #[inline(always)]
+    fn all_below(self, bound: f64) -> bool {
+        self < bound
+    }
+
+    #[inline(always)]
+    fn choose(bits: u64, odd: impl FnOnce() -> Self, even: impl FnOnce() -> Self) -> Self {
+        if bits & 1 == 1 { odd() } else { even() }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn apart(self, function: impl Fn(f64) -> f64) -> Self {
+        function(self)
+    }
+}
+
+macro_rules! doubles {
+    ($($name:ident $bits:ident),*) => {
+        $(
+            impl Doubles for $name {
+                type Bits = wide::$bits;
+
+                #[inline(always)]
+                fn to_bits(self) -> Self::Bits {
+                    cast(self.0)
+                }
+
+                #[inline(always)]
+                fn from_bits(bits: Self::Bits) -> Self {
+                    Self(cast(bits))
+                }
+
+                #[inline(always)]
+                fn bits(bits: u64) -> Self::Bits {
+                    wide::$bits::splat(bits)
+                }
+
+                #[inline(always)]
+                fn sum(a: Self::Bits, b: Self::Bits) -> Self::Bits {
+                    a + b
+                }
+
+                #[inline(always)]
+                fn all_below(self, bound: f64) -> bool {
+                    Lanes::all_below(self, bound)
+                }
+
+                #[inline(always)]
+                fn choose(bits: Self::Bits, odd: impl FnOnce() -> Self, even: impl FnOnce() -> Self) -> Self {
+                    let one = wide::$bits::splat(1);
+                    Self((bits & one).simd_eq(one).select(odd().0, even().0))
+                }
+
+                #[cold]
+                #[inline(never)]
+                fn apart(self, function: impl Fn(f64) -> f64) -> Self {
+                    let lanes = self.to_array();
+                    Self::from_fn(|lane| function(lanes[lane]))
+                }
+            }
+        )*
+    };
+}
+
+doubles! { F64x2 u64x2, F64x4 u64x4, F64x8 u64x8 }

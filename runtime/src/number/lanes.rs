@@ -1,0 +1,483 @@
+//! Doubles side by side, as one scalar.
+
+use core::fmt::Debug;
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use num_traits::{One, Zero};
+
+use crate::number::array::array;
+use crate::number::scalar::elementary;
+use crate::number::{Scalar, Vector};
+use crate::system::{Components, Hamiltonian};
+
+/// A few doubles side by side, in one register of the processor where it has so wide ones.
+///
+/// Every lane is computed as a double of its own would be, to the last bit, by all lanes at once; only `tan`, inverse and hyperbolic
+/// functions are taken lane by lane. How wide the registers are is the target's: with `-C target-cpu=native` the compiler
+/// uses all that the processor has.
+///
+/// ```
+/// use symplectic::{F64x4, Lanes, Scalar};
+///
+/// let x = F64x4::from_fn(|lane| lane as f64);
+/// assert_eq!((x * x + F64x4::from_f64(0.5)).to_array(), [0.5, 1.5, 4.5, 9.5]);
+/// assert_eq!(x.sin().to_array()[3], Scalar::sin(3.0_f64));
+/// ```
+pub trait Lanes: Scalar {
+    /// One double for each lane.
+    type Array: Copy + Debug + AsRef<[f64]>;
+
+    /// The number of lanes.
+    const WIDTH: usize;
+
+    /// The double of each lane, by its number from 0.
+    fn from_fn(lane: impl FnMut(usize) -> f64) -> Self;
+
+    /// The double of each lane.
+    fn from_array(doubles: Self::Array) -> Self;
+
+    /// The doubles of the lanes.
+    fn to_array(self) -> Self::Array;
+
+    /// The larger of two numbers in each lane; either where one of them is NaN.
+    fn larger(self, other: Self) -> Self;
+
+    /// The larger of two numbers in each lane that [`abs`](Scalar::abs) has given; NaN where one of them is.
+    fn larger_or_nan(self, other: Self) -> Self;
+
+    /// The largest number; any where one of them is NaN.
+    fn largest(self) -> f64;
+
+    /// Whether a number is above `bound`; NaN is not.
+    fn any_above(self, bound: f64) -> bool;
+
+    /// Whether all numbers are below `bound`; NaN is not.
+    fn all_below(self, bound: f64) -> bool;
+
+    /// Whether a number is NaN.
+    fn any_nan(self) -> bool;
+
+    /// [`Hamiltonian::velocity`] in every lane at once.
+    fn velocity<V, S>(
+        system: &S,
+        time: Self,
+        q: &V::With<Self>,
+        p: &V::With<Self>,
+        velocity: &mut V::With<Self>,
+    ) where
+        V: Vector,
+        S: HamiltonianInLanes<V>;
+
+    /// [`Hamiltonian::force`] in every lane at once.
+    fn force<V, S>(
+        system: &S,
+        time: Self,
+        q: &V::With<Self>,
+        p: &V::With<Self>,
+        force: &mut V::With<Self>,
+    ) where
+        V: Vector,
+        S: HamiltonianInLanes<V>;
+
+    /// [`Hamiltonian::LOCAL_FORCE`] of a system over these lanes.
+    fn has_local_force<V, S>() -> bool
+    where
+        V: Vector,
+        S: HamiltonianInLanes<V>;
+
+    /// [`Hamiltonian::local_force`] in every lane at once.
+    fn local_force<V, S>(system: &S, time: Self, components: &mut impl Components<Self>)
+    where
+        V: Vector,
+        S: HamiltonianInLanes<V>;
+
+    /// [`Hamiltonian::slopes`] in every lane at once.
+    fn slopes<V, S>(
+        system: &S,
+        time: Self,
+        q: &V::With<Self>,
+        p: &V::With<Self>,
+        slopes: (&mut V::With<Self>, &mut V::With<Self>),
+    ) where
+        V: Vector,
+        S: HamiltonianInLanes<V>;
+}
+
+/// A system over vectors of doubles and over vectors of [`Lanes`]: every one that is generic over its scalar.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a Hamiltonian system over the vectors `{V}` with lanes in place of doubles",
+    label = "this needs a system that is generic over its `Scalar`: `impl<T: Scalar> SeparableHamiltonian<SVector<T, N>> for …`"
+)]
+pub trait HamiltonianInLanes<V: Vector>:
+    Hamiltonian<V>
+    + Hamiltonian<V::With<F64x2>>
+    + Hamiltonian<V::With<F64x4>>
+    + Hamiltonian<V::With<F64x8>>
+{
+}
+
+impl<V: Vector, S> HamiltonianInLanes<V> for S where
+    S: Hamiltonian<V>
+        + Hamiltonian<V::With<F64x2>>
+        + Hamiltonian<V::With<F64x4>>
+        + Hamiltonian<V::With<F64x8>>
+{
+}
+
+/// The largest of some numbers, any where one of them is NaN: half by half, for registers are narrower then.
+trait Largest {
+    fn largest(self) -> f64;
+}
+
+impl Largest for [f64; 8] {
+    #[inline(always)]
+    fn largest(self) -> f64 {
+        let lower = wide::f64x4::new(array(0.0, |lane| self[lane]));
+        let upper = wide::f64x4::new(array(0.0, |lane| self[lane + 4]));
+        lower.fast_max(upper).to_array().largest()
+    }
+}
+
+impl Largest for [f64; 4] {
+    #[inline(always)]
+    fn largest(self) -> f64 {
+        let [a, b, c, d] = self;
+        let (lower, upper) = (wide::f64x2::new([a, b]), wide::f64x2::new([c, d]));
+        lower.fast_max(upper).to_array().largest()
+    }
+}
+
+impl Largest for [f64; 2] {
+    #[inline(always)]
+    fn largest(self) -> f64 {
+        let [a, b] = self;
+        if a > b { a } else { b }
+    }
+}
+
+macro_rules! operator {
+    ($name:ident, $($operator:ident $function:ident $assign:ident $assigning:ident),*) => {
+        $(
+            impl $operator for $name {
+                type Output = Self;
+                #[inline(always)]
+                fn $function(self, other: Self) -> Self {
+                    Self($operator::$function(self.0, other.0))
+                }
+            }
+
+            impl $assign for $name {
+                #[inline(always)]
+                fn $assigning(&mut self, other: Self) {
+                    *self = $operator::$function(*self, other);
+                }
+            }
+        )*
+    };
+}
+
+macro_rules! lane_by_lane {
+    ($($function:ident)*) => {
+        $(
+            #[inline]
+            fn $function(self) -> Self {
+                let lanes = self.to_array();
+                Self::from_fn(|lane| Scalar::$function(lanes[lane]))
+            }
+        )*
+    };
+}
+
+macro_rules! lanes {
+    ($name:ident, $inner:ty, $width:literal, $text:literal) => {
+        #[doc = $text]
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $name(pub(crate) $inner);
+
+        operator! { $name,
+            Add add AddAssign add_assign, Sub sub SubAssign sub_assign,
+            Mul mul MulAssign mul_assign, Div div DivAssign div_assign
+        }
+
+        impl Neg for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                Self(-self.0)
+            }
+        }
+
+        impl Zero for $name {
+            #[inline(always)]
+            fn zero() -> Self {
+                Self::from_f64(0.0)
+            }
+
+            fn is_zero(&self) -> bool {
+                *self == Self::zero()
+            }
+        }
+
+        impl One for $name {
+            #[inline(always)]
+            fn one() -> Self {
+                Self::from_f64(1.0)
+            }
+        }
+
+        impl Scalar for $name {
+            const EPSILON: f64 = f64::EPSILON;
+
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                Self(<$inner>::splat(value))
+            }
+
+            #[inline]
+            fn magnitude(self) -> f64 {
+                let lanes = self.to_array().map(f64::abs);
+                // NaN, if there is one, else the largest.
+                lanes[1..].iter().fold(lanes[0], |largest, &lane| {
+                    if largest >= lane || largest.is_nan() {
+                        largest
+                    } else {
+                        lane
+                    }
+                })
+            }
+
+            #[inline(always)]
+            fn fused(self, factor: Self, term: Self) -> Self {
+                if !cfg!(feature = "fma") {
+                    self * factor + term
+                } else if cfg!(target_feature = "fma") {
+                    Self(self.0.mul_add(factor.0, term.0))
+                } else {
+                    // Without the instruction, that of `wide` rounds twice.
+                    let (x, y, z) = (self.to_array(), factor.to_array(), term.to_array());
+                    Self::from_fn(|lane| x[lane].fused(y[lane], z[lane]))
+                }
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Self(self.0.sqrt())
+            }
+
+            #[inline(always)]
+            fn recip(self) -> Self {
+                Self::one() / self
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                Self(self.0.abs())
+            }
+
+            elementary! { exp -> Self, ln -> Self, sin -> Self, cos -> Self, sin_cos -> (Self, Self) }
+
+            lane_by_lane! { tan asin acos atan sinh cosh tanh }
+        }
+
+        impl $name {
+            /// [`larger_or_nan`](Lanes::larger_or_nan): numbers that are not negative are in the order of their bits, and NaN is above
+            /// them. In eight lanes whatever the width, for which it is one instruction that the compiler makes narrower.
+            #[inline(always)]
+            fn larger_by_bits(self, other: Self) -> Self {
+                let bits = |numbers: Self| {
+                    let lanes = numbers.to_array();
+                    let bits = |lane: usize| lanes.get(lane).map_or(0, |x| x.to_bits().cast_signed());
+                    wide::i64x8::new(array(0, bits))
+                };
+                let larger = bits(self).max(bits(other)).to_array();
+                Self::from_fn(|lane| f64::from_bits(larger[lane].cast_unsigned()))
+            }
+
+            /// The same by sums.
+            #[inline(always)]
+            fn larger_by_sums(self, other: Self) -> Self {
+                Self(self.0.fast_max(other.0) | (self.0 + other.0).is_nan())
+            }
+        }
+
+        impl Lanes for $name {
+            type Array = [f64; $width];
+
+            const WIDTH: usize = $width;
+
+            #[inline(always)]
+            fn from_fn(lane: impl FnMut(usize) -> f64) -> Self {
+                Self(<$inner>::new(array(0.0, lane)))
+            }
+
+            #[inline(always)]
+            fn from_array(doubles: [f64; $width]) -> Self {
+                Self(<$inner>::new(doubles))
+            }
+
+            #[inline(always)]
+            fn to_array(self) -> [f64; $width] {
+                self.0.to_array()
+            }
+
+            #[inline(always)]
+            fn larger(self, other: Self) -> Self {
+                Self(self.0.fast_max(other.0))
+            }
+
+            #[inline(always)]
+            fn larger_or_nan(self, other: Self) -> Self {
+                // Where whole numbers are compared in one instruction.
+                if cfg!(any(target_feature = "sse4.2", target_arch = "aarch64")) {
+                    self.larger_by_bits(other)
+                } else {
+                    self.larger_by_sums(other)
+                }
+            }
+
+            #[inline(always)]
+            fn largest(self) -> f64 {
+                Largest::largest(self.to_array())
+            }
+
+            #[inline(always)]
+            fn any_above(self, bound: f64) -> bool {
+                self.0.simd_gt(<$inner>::splat(bound)).any()
+            }
+
+            #[inline(always)]
+            fn all_below(self, bound: f64) -> bool {
+                self.0.simd_lt(<$inner>::splat(bound)).all()
+            }
+
+            #[inline(always)]
+            fn any_nan(self) -> bool {
+                self.0.is_nan().any()
+            }
+
+            #[inline(always)]
+            fn velocity<V, S>(
+                system: &S,
+                time: Self,
+                q: &V::With<Self>,
+                p: &V::With<Self>,
+                velocity: &mut V::With<Self>,
+            ) where
+                V: Vector,
+                S: HamiltonianInLanes<V>,
+            {
+                Hamiltonian::<V::With<Self>>::velocity(system, time, q, p, velocity);
+            }
+
+            #[inline(always)]
+            fn force<V, S>(
+                system: &S,
+                time: Self,
+                q: &V::With<Self>,
+                p: &V::With<Self>,
+                force: &mut V::With<Self>,
+            ) where
+                V: Vector,
+                S: HamiltonianInLanes<V>,
+            {
+                Hamiltonian::<V::With<Self>>::force(system, time, q, p, force);
+            }
+
+            #[inline(always)]
+            fn has_local_force<V, S>() -> bool
+            where
+                V: Vector,
+                S: HamiltonianInLanes<V>,
+            {
+                <S as Hamiltonian<V::With<Self>>>::LOCAL_FORCE
+            }
+
+            #[inline(always)]
+            fn local_force<V, S>(system: &S, time: Self, components: &mut impl Components<Self>)
+            where
+                V: Vector,
+                S: HamiltonianInLanes<V>,
+            {
+                Hamiltonian::<V::With<Self>>::local_force(system, time, components);
+            }
+
+            #[inline(always)]
+            fn slopes<V, S>(
+                system: &S,
+                time: Self,
+                q: &V::With<Self>,
+                p: &V::With<Self>,
+                slopes: (&mut V::With<Self>, &mut V::With<Self>),
+            ) where
+                V: Vector,
+                S: HamiltonianInLanes<V>,
+            {
+                Hamiltonian::<V::With<Self>>::slopes(system, time, q, p, slopes);
+            }
+        }
+    };
+}
+
+lanes!(
+    F64x2,
+    wide::f64x2,
+    2,
+    "Two doubles side by side: [`Lanes`]."
+);
+lanes!(
+    F64x4,
+    wide::f64x4,
+    4,
+    "Four doubles side by side: [`Lanes`]."
+);
+lanes!(
+    F64x8,
+    wide::f64x8,
+    8,
+    "Eight doubles side by side: [`Lanes`]."
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As many pairs as lanes, from one of all pairs on.
+    fn check<L: Lanes>(by_bits: fn(L, L) -> L, by_sums: fn(L, L) -> L) {
+        // As processors make them, with a sign.
+        let nan = core::hint::black_box(0.0) / core::hint::black_box(0.0);
+        let numbers = [
+            -0.0,
+            f64::from_bits(1),
+            1.0,
+            1.5,
+            f64::MAX,
+            f64::INFINITY,
+            nan,
+        ];
+        let count = numbers.len();
+        for first in 0..count * count {
+            let number = |lane: usize| {
+                let pair = (first + lane) % (count * count);
+                [numbers[pair / count], numbers[pair % count]]
+            };
+            let [a, b] = [0, 1].map(|side| L::from_fn(|lane| number(lane)[side]).abs());
+            for found in [by_bits(a, b), by_sums(a, b), a.larger_or_nan(b)] {
+                for (lane, &found) in found.to_array().as_ref().iter().enumerate() {
+                    let [a, b] = number(lane).map(f64::abs);
+                    let same = match a.is_nan() || b.is_nan() {
+                        true => found.is_nan(),
+                        false => found == a.max(b),
+                    };
+                    assert!(same, "{a} {b}: {found}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_larger_is_not_a_number_where_one_is_not() {
+        check(F64x2::larger_by_bits, F64x2::larger_by_sums);
+        check(F64x4::larger_by_bits, F64x4::larger_by_sums);
+        check(F64x8::larger_by_bits, F64x8::larger_by_sums);
+    }
+}

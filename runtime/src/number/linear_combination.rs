@@ -1,0 +1,408 @@
+//! The linear combinations that generated code is made of.
+//!
+//! Nothing is allocated. Vectors of different dimension, which only a system that resized a result can bring
+//! here, are combined up to the shortest one; the integrator then reports
+//! [`Error::EvaluationDimension`](crate::Error::EvaluationDimension).
+
+use core::mem;
+
+use num_traits::Zero;
+
+use crate::number::array::array;
+use crate::number::rows::{Four, Row};
+use crate::number::summation::{add, add_sum};
+use crate::number::{Coefficient, Scalar, Summation, Vector};
+use crate::system::Hamiltonian;
+
+/// Coefficients times the step size: the factors of evaluations.
+#[inline(always)]
+pub fn weights<T: Scalar, const N: usize>(h: f64, coefficients: [Coefficient; N]) -> [T; N] {
+    array(T::zero(), |j| T::weight(h, coefficients[j]))
+}
+
+/// Coefficients as they are: the factors of increments.
+#[inline(always)]
+pub fn factors<T: Scalar, const N: usize>(coefficients: [Coefficient; N]) -> [T; N] {
+    array(T::zero(), |j| T::from_coefficient(coefficients[j]))
+}
+
+/// The factors of evaluations in sweeps: coefficients of increments as they are where sums are [compensated](Summation::COMPENSATED),
+/// for evaluations become [increments](increment) there; else times the weights that would make them such.
+#[inline(always)]
+pub fn relative<R: Summation, T: Scalar, const N: usize>(
+    coefficients: [Coefficient; N],
+    weights: [T; N],
+) -> [T; N] {
+    let factors = factors(coefficients);
+    match R::COMPENSATED {
+        true => factors,
+        false => array(T::zero(), |j| factors[j] * weights[j]),
+    }
+}
+
+/// `out = base + Σ_j factors_j terms_j`, for a base that is the sum of `base` and `low`.
+///
+/// The terms are summed before they meet the base, which is usually larger.
+///
+/// ```
+/// use symplectic::nalgebra::Vector2;
+/// use symplectic::{Coefficient, Plain, combine, weights};
+///
+/// let (q, force) = (Vector2::new(1.0, 2.0), Vector2::new(4.0, 8.0));
+/// let (low, mut out) = (Vector2::zeros(), Vector2::zeros());
+/// let factors = weights(0.5, [1.0, -0.5].map(Coefficient::exact));
+/// combine::<Plain, _, 2>(&mut out, &q, &low, factors, [&force, &q]);
+/// assert_eq!(out, Vector2::new(2.75, 5.5));
+/// ```
+#[inline(always)]
+pub fn combine<R: Summation, V: Vector, const N: usize>(
+    out: &mut V,
+    base: &V,
+    low: &V,
+    factors: [V::Scalar; N],
+    terms: [&V; N],
+) {
+    let n = shortest([&*out, base, low]).min(shortest(terms));
+    let (out, base) = (&mut out.as_mut_slice()[..n], &base.as_slice()[..n]);
+    let (low, terms) = (&low.as_slice()[..n], starts(terms, n));
+    for i in 0..n {
+        out[i] = value::<R, _, N>(base[i], low[i], &factors, |j| terms[j][i]);
+    }
+}
+
+/// `vector = (h coefficient) vector`: an evaluation becomes an increment.
+#[inline(always)]
+pub fn scale<V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
+    let factor = V::Scalar::weight(h, coefficient);
+    for component in vector.as_mut_slice() {
+        *component *= factor;
+    }
+}
+
+/// [`scale`] of an evaluation in a sweep, where sums are [compensated](Summation::COMPENSATED): see [`relative`].
+#[inline(always)]
+pub fn increment<R: Summation, V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
+    if R::COMPENSATED {
+        scale(vector, h, coefficient);
+    }
+}
+
+/// The result of a step from its increments: `base + low + Σ_j increments_j`, rounded to `out`, with what that leaves
+/// out in `out_low`.
+///
+/// ```
+/// use symplectic::nalgebra::Vector1;
+/// use symplectic::{Compensated, total};
+///
+/// let (one, tiny, zero) = (Vector1::new(1.0), Vector1::new(f64::EPSILON / 8.0), Vector1::new(0.0));
+/// let (mut out, mut low) = (zero, zero);
+/// total::<Compensated, _, 2>(&mut out, &mut low, &one, &tiny, [&tiny, &tiny]);
+/// assert_eq!((out[0], low[0]), (1.0, 3.0 * tiny[0]));
+/// ```
+#[inline(always)]
+pub fn total<R: Summation, V: Vector, const N: usize>(
+    out: &mut V,
+    out_low: &mut V,
+    base: &V,
+    low: &V,
+    increments: [&V; N],
+) {
+    let n = shortest([&*out, &*out_low, base, low]).min(shortest(increments));
+    let terms = starts(increments, n);
+    totals::<R, V, N>((out, out_low), (base, low), n, |i, j| terms[j][i]);
+}
+
+/// [`total`] of evaluations that are no increments yet: `base + low + Σ_j factors_j terms_j`.
+#[inline(always)]
+pub fn weighted_total<R: Summation, V: Vector, const N: usize>(
+    out: &mut V,
+    out_low: &mut V,
+    base: &V,
+    low: &V,
+    factors: [V::Scalar; N],
+    terms: [&V; N],
+) {
+    let n = shortest([&*out, &*out_low, base, low]).min(shortest(terms));
+    let terms = starts(terms, n);
+    totals::<R, V, N>((out, out_low), (base, low), n, |i, j| {
+        factors[j] * terms[j][i]
+    });
+}
+
+/// A drift or a kick, in place: `out + low + (h coefficient) evaluation`, rounded to `out`, with what that leaves out in
+/// `out_low`.
+#[inline(always)]
+pub fn advance<R: Summation, V: Vector>(
+    out: &mut V,
+    out_low: &mut V,
+    h: f64,
+    coefficient: Coefficient,
+    evaluation: &V,
+) {
+    let factor = V::Scalar::weight(h, coefficient);
+    add_products::<R, V>(
+        out.as_mut_slice(),
+        out_low.as_mut_slice(),
+        factor,
+        evaluation.as_slice(),
+    );
+}
+
+/// `out + low + factor terms`, component by component.
+// The compiler knows of slices that are arguments that they are apart; of what vectors point to it does not, and looks at it
+// before every loop. Without optimisation every copy of it would have its own place in the stack, and long splittings have hundreds.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn add_products<R: Summation, V: Vector>(
+    out: &mut [V::Scalar],
+    low: &mut [V::Scalar],
+    factor: V::Scalar,
+    terms: &[V::Scalar],
+) {
+    let n = out.len().min(low.len()).min(terms.len());
+    let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
+    if !R::COMPENSATED {
+        for i in 0..n {
+            out[i] = factor.fused(terms[i], out[i]);
+        }
+    } else if !mem::needs_drop::<V>()
+        && let (Some(out), Some(low), Some(&[factor]), Some(terms)) = (
+            V::Scalar::doubles_mut(&mut *out),
+            V::Scalar::doubles_mut(&mut *low),
+            V::Scalar::doubles(&[factor]),
+            V::Scalar::doubles(terms),
+        )
+    {
+        // Loops over few components, as many as are known while compiling, are written out; which of them the compiler would put
+        // side by side by itself goes with what is around them.
+        let (out, low, terms) = add_rows(out, low, factor, terms);
+        add_one_by_one(out, low, factor, terms);
+    } else {
+        add_one_by_one(out, low, factor, terms);
+    }
+}
+
+/// `out + low + factor terms` with compensated sums, four components side by side; returns those that are left.
+#[inline(always)]
+fn add_rows<'a>(
+    out: &'a mut [f64],
+    low: &'a mut [f64],
+    factor: f64,
+    terms: &'a [f64],
+) -> (&'a mut [f64], &'a mut [f64], &'a [f64]) {
+    let (out, last_out) = Four::rows_mut(out);
+    let (low, last_low) = Four::rows_mut(low);
+    let (terms, last_terms) = Four::rows(terms);
+    let n = out.len().min(low.len()).min(terms.len());
+    let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
+    let factor = Four::splat(factor);
+    for i in 0..n {
+        let (high, rest) = (Four::load(&out[i]), Four::load(&low[i]));
+        let (high, rest) = add_sum(high, rest, (factor * Four::load(&terms[i]), None));
+        (out[i], low[i]) = (Four::store(high), Four::store(rest));
+    }
+    (last_out, last_low, last_terms)
+}
+
+/// [`add_rows`], component by component.
+#[inline(always)]
+fn add_one_by_one<T: Scalar>(out: &mut [T], low: &mut [T], factor: T, terms: &[T]) {
+    let n = out.len().min(low.len()).min(terms.len());
+    let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
+    for i in 0..n {
+        (out[i], low[i]) = add_sum(out[i], low[i], (factor * terms[i], None));
+    }
+}
+
+/// Kicks one after the other, and a drift of unit masses, component by component: the same bits as by one [`advance`] each.
+#[inline(always)]
+pub(crate) fn kick_and_drift<V: Vector>(
+    q: &mut V,
+    p: &mut V,
+    force: &V,
+    kicks: &[V::Scalar],
+    drift: V::Scalar,
+) {
+    let (q, p, force) = (q.as_mut_slice(), p.as_mut_slice(), force.as_slice());
+    match *kicks {
+        [] => add_kicked(q, p, force, [], drift),
+        [kick] => add_kicked(q, p, force, [kick], drift),
+        [first, second] => add_kicked(q, p, force, [first, second], drift),
+        _ => {
+            for (p, &force) in p.iter_mut().zip(force) {
+                *p = (kicks.iter()).fold(*p, |p, kick| kick.fused(force, p));
+            }
+            add_kicked(q, p, force, [], drift);
+        }
+    }
+}
+
+/// [`kick_and_drift`] of slices, which are known to be apart.
+#[inline(always)]
+fn add_kicked<T: Scalar, const N: usize>(
+    q: &mut [T],
+    p: &mut [T],
+    force: &[T],
+    kicks: [T; N],
+    drift: T,
+) {
+    let n = q.len().min(p.len()).min(force.len());
+    let (q, p, force) = (&mut q[..n], &mut p[..n], &force[..n]);
+    for i in 0..n {
+        let mut momentum = p[i];
+        for kick in kicks {
+            momentum = kick.fused(force[i], momentum);
+        }
+        p[i] = momentum;
+        q[i] = drift.fused(momentum, q[i]);
+    }
+}
+
+/// The velocity of a drift: the momentum itself where [masses are one](Hamiltonian::UNIT_MASSES), else what is in `place`,
+/// which is evaluated unless it is `known`.
+#[inline(always)]
+pub(crate) fn velocity<'a, V: Vector, S: Hamiltonian<V>>(
+    system: &S,
+    time: V::Scalar,
+    q: &V,
+    p: &'a V,
+    place: &'a mut V,
+    known: bool,
+) -> &'a V {
+    if S::UNIT_MASSES {
+        return p;
+    }
+    if !known {
+        system.velocity(time, q, p, place);
+    }
+    place
+}
+
+/// `vectors_i = Σ_j matrix_ij vectors_j`, for those vectors the `indices` of which are given: starting values from the
+/// step before.
+#[inline(always)]
+pub fn transform<V: Vector, const N: usize>(
+    vectors: &mut [V],
+    indices: [usize; N],
+    matrix: [[f64; N]; N],
+) {
+    let Ok(vectors) = vectors.get_disjoint_mut(indices) else {
+        return;
+    };
+    let mut slices = vectors.map(V::as_mut_slice);
+    // Where a time of this step is one of the step before, all entries but one are zero.
+    let sparse = matrix.map(|row| row.contains(&0.0));
+    let n = slices.iter().map(|slice| slice.len()).min().unwrap_or(0);
+    for i in 0..n {
+        let old: [V::Scalar; N] = array(V::Scalar::zero(), |j| slices[j][i]);
+        for ((row, sparse), slice) in matrix.iter().zip(sparse).zip(&mut slices) {
+            let factor = |j: usize| V::Scalar::from_f64(row[j]);
+            slice[i] = if sparse {
+                let mut terms = (0..N).filter(|&j| row[j] != 0.0);
+                let first = terms.next().map(|j| factor(j) * old[j]);
+                terms.fold(first.unwrap_or_else(V::Scalar::zero), |sum, j| {
+                    factor(j).fused(old[j], sum)
+                })
+            } else {
+                sum_of_products(None, N, |j| (factor(j), old[j]))
+            };
+        }
+    }
+}
+
+/// Copies one vector to another, component by component: `clone_from` of a dynamic vector may allocate.
+#[inline(always)]
+pub fn copy<V: Vector>(out: &mut V, from: &V) {
+    let (out, from) = (out.as_mut_slice(), from.as_slice());
+    let n = out.len().min(from.len());
+    out[..n].copy_from_slice(&from[..n]);
+}
+
+/// Copies one vector of an array to others.
+#[inline(always)]
+pub fn copy_to<V: Vector, const N: usize>(vectors: &mut [V], from: usize, to: [usize; N]) {
+    for index in to {
+        if let Ok([source, target]) = vectors.get_disjoint_mut([from, index]) {
+            copy(target, source);
+        }
+    }
+}
+
+/// The shortest length, so that one comparison bounds every index of a loop.
+#[inline(always)]
+pub(crate) fn shortest<V: Vector, const N: usize>(vectors: [&V; N]) -> usize {
+    let mut shortest = usize::MAX;
+    for vector in vectors {
+        shortest = shortest.min(vector.as_slice().len());
+    }
+    shortest
+}
+
+/// The first `n` components of each.
+#[inline(always)]
+pub(crate) fn starts<V: Vector, const N: usize>(vectors: [&V; N], n: usize) -> [&[V::Scalar]; N] {
+    array(&[][..], |j| &vectors[j].as_slice()[..n])
+}
+
+/// One component of a stage.
+#[inline(always)]
+pub(crate) fn value<R: Summation, T: Scalar, const N: usize>(
+    base: T,
+    low: T,
+    factors: &[T; N],
+    term: impl Fn(usize) -> T,
+) -> T {
+    if N == 0 {
+        return base;
+    }
+    base + sum_of_products(R::COMPENSATED.then_some(low), N, |j| (factors[j], term(j)))
+}
+
+/// The sum of so many products, at least one, and of what it may start with: those with even and those with odd numbers apart, for
+/// additions that need not wait for one another.
+#[inline(always)]
+pub(crate) fn sum_of_products<T: Scalar>(
+    start: Option<T>,
+    count: usize,
+    factors: impl Fn(usize) -> (T, T),
+) -> T {
+    let add = |sum: Option<T>, j: usize| {
+        let (x, y) = factors(j);
+        match sum {
+            Some(sum) => x.fused(y, sum),
+            // Not from zero: 0 + x is an addition that the compiler has to keep.
+            None => x * y,
+        }
+    };
+    let mut even = add(start, 0);
+    if count == 1 {
+        return even;
+    }
+    let mut odd = add(None, 1);
+    for j in 2..count {
+        let sum = if j % 2 == 0 { &mut even } else { &mut odd };
+        *sum = add(Some(*sum), j);
+    }
+    even + odd
+}
+
+/// The components of a result.
+#[inline(always)]
+fn totals<R: Summation, V: Vector, const N: usize>(
+    (out, out_low): (&mut V, &mut V),
+    (base, low): (&V, &V),
+    n: usize,
+    term: impl Fn(usize, usize) -> V::Scalar,
+) {
+    let (out, out_low) = (
+        &mut out.as_mut_slice()[..n],
+        &mut out_low.as_mut_slice()[..n],
+    );
+    let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
+    for i in 0..n {
+        let (high, rest) = add::<R, _>(base[i], low[i], N, |j| term(i, j));
+        out[i] = high;
+        if R::COMPENSATED {
+            out_low[i] = rest;
+        }
+    }
+}

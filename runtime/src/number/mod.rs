@@ -1,0 +1,21 @@
+//! What is computed with: scalars, vectors, SIMD lanes, sums and linear combinations.
+
+pub(crate) mod array;
+pub(crate) mod coefficient;
+pub(crate) mod elementary;
+pub(crate) mod lanes;
+pub(crate) mod linear_combination;
+pub(crate) mod rows;
+pub(crate) mod scalar;
+pub(crate) mod summation;
+pub(crate) mod vector;
+
+pub use coefficient::{Coefficient, Coefficients};
+pub use lanes::{F64x2, F64x4, F64x8, HamiltonianInLanes, Lanes};
+pub use linear_combination::{
+    advance, combine, copy, copy_to, factors, increment, relative, scale, total, transform,
+    weighted_total, weights,
+};
+pub use scalar::Scalar;
+pub use summation::{Compensated, Plain, Summation};
+pub use vector::Vector;

@@ -1,0 +1,176 @@
+//! Long vectors, row by row: the lanes run along the components.
+
+use num_traits::Zero;
+
+use crate::number::array::array;
+use crate::number::{F64x4, F64x8, Lanes, Scalar};
+
+/// Components side by side.
+pub(crate) trait Row<T: Scalar> {
+    /// Them as they are in memory.
+    type Array;
+    /// Them as one number.
+    type Numbers: Scalar;
+
+    /// How many.
+    const WIDTH: usize;
+
+    /// How many components of a vector there are before those from which on rows lie well in memory.
+    fn misaligned(vector: &[T]) -> usize;
+
+    /// The rows of a vector, and what does not fill one.
+    fn rows(vector: &[T]) -> (&[Self::Array], &[T]);
+    /// [`rows`](Self::rows), to be written.
+    fn rows_mut(vector: &mut [T]) -> (&mut [Self::Array], &mut [T]);
+
+    /// A row out of memory.
+    fn load(row: &Self::Array) -> Self::Numbers;
+    /// A row for memory.
+    fn store(numbers: Self::Numbers) -> Self::Array;
+    /// The same number everywhere.
+    fn splat(number: T) -> Self::Numbers;
+
+    /// The last one.
+    fn last(numbers: Self::Numbers) -> T;
+    /// The right neighbour of each in two rows that follow each other.
+    fn right(numbers: Self::Numbers, next: Self::Numbers) -> Self::Numbers;
+    /// The left neighbour of each in two rows that follow each other.
+    fn left(previous: Self::Numbers, numbers: Self::Numbers) -> Self::Numbers;
+}
+
+/// One by one.
+pub(crate) struct Single;
+
+impl<T: Scalar> Row<T> for Single {
+    type Array = [T; 1];
+    type Numbers = T;
+
+    const WIDTH: usize = 1;
+
+    #[inline(always)]
+    fn misaligned(_vector: &[T]) -> usize {
+        0
+    }
+
+    #[inline(always)]
+    fn rows(vector: &[T]) -> (&[[T; 1]], &[T]) {
+        vector.as_chunks()
+    }
+
+    #[inline(always)]
+    fn rows_mut(vector: &mut [T]) -> (&mut [[T; 1]], &mut [T]) {
+        vector.as_chunks_mut()
+    }
+
+    #[inline(always)]
+    fn load(&[number]: &[T; 1]) -> T {
+        number
+    }
+
+    #[inline(always)]
+    fn store(number: T) -> [T; 1] {
+        [number]
+    }
+
+    #[inline(always)]
+    fn splat(number: T) -> T {
+        number
+    }
+
+    #[inline(always)]
+    fn last(number: T) -> T {
+        number
+    }
+
+    #[inline(always)]
+    fn right(_number: T, next: T) -> T {
+        next
+    }
+
+    #[inline(always)]
+    fn left(previous: T, _number: T) -> T {
+        previous
+    }
+}
+
+macro_rules! row {
+    ($(#[$text:meta])* $name:ident, $lanes:ident, $width:literal) => {
+        $(#[$text])*
+        pub(crate) struct $name;
+
+        impl Row<f64> for $name {
+            type Array = [f64; $width];
+            type Numbers = $lanes;
+
+            const WIDTH: usize = $width;
+
+            #[inline(always)]
+            fn misaligned(vector: &[f64]) -> usize {
+                vector.as_ptr().align_offset(align_of::<$lanes>())
+            }
+
+            #[inline(always)]
+            fn rows(vector: &[f64]) -> (&[[f64; $width]], &[f64]) {
+                vector.as_chunks()
+            }
+
+            #[inline(always)]
+            fn rows_mut(vector: &mut [f64]) -> (&mut [[f64; $width]], &mut [f64]) {
+                vector.as_chunks_mut()
+            }
+
+            #[inline(always)]
+            fn load(row: &[f64; $width]) -> $lanes {
+                $lanes::from_array(*row)
+            }
+
+            #[inline(always)]
+            fn store(numbers: $lanes) -> [f64; $width] {
+                numbers.to_array()
+            }
+
+            #[inline(always)]
+            fn splat(number: f64) -> $lanes {
+                $lanes::from_f64(number)
+            }
+
+            #[inline(always)]
+            fn last(numbers: $lanes) -> f64 {
+                numbers.to_array()[$width - 1]
+            }
+
+            #[inline(always)]
+            fn right(numbers: $lanes, next: $lanes) -> $lanes {
+                let (numbers, [after, ..]) = (numbers.to_array(), next.to_array());
+                $lanes::from_fn(|lane| {
+                    if lane + 1 < $width {
+                        numbers[lane + 1]
+                    } else {
+                        after
+                    }
+                })
+            }
+
+            #[inline(always)]
+            fn left(previous: $lanes, numbers: $lanes) -> $lanes {
+                let ([.., before], numbers) = (previous.to_array(), numbers.to_array());
+                $lanes::from_fn(|lane| if lane > 0 { numbers[lane - 1] } else { before })
+            }
+        }
+    };
+}
+
+row! {
+    /// Four doubles side by side.
+    Four, F64x4, 4
+}
+row! {
+    /// Eight doubles side by side.
+    Eight, F64x8, 8
+}
+
+/// Factors as rows.
+#[inline(always)]
+pub(crate) fn splats<T: Scalar, R: Row<T>, const N: usize>(factors: [T; N]) -> [R::Numbers; N] {
+    array(R::Numbers::zero(), |i| R::splat(factors[i]))
+}

@@ -1,0 +1,282 @@
+//! The numbers that a system computes with.
+
+use core::ops::Neg;
+
+use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
+use num_traits::{Float, One, Zero};
+
+use crate::number::Coefficient;
+use crate::number::array::array;
+
+/// A real number, or something that behaves like one: f32, f64, a dual number, a few numbers side by side.
+///
+/// A system written for every `T: Scalar` runs on all of them without a change. The operators come from the
+/// supertraits, which are also what nalgebra asks for `q + p`, `q * s`, `-q` and `q.dot(&p)`. There is no order
+/// among scalars, for side by side numbers have none: code that is generic over them cannot branch on a value.
+///
+/// Sine, cosine, exponential function and logarithm of doubles are made of the same operations on every platform and in
+/// [lanes](crate::Lanes), with an error below one unit in the last place; they are not to the last bit those of `f64`, which are
+/// the platform's. `Scalar::sin(x)` names them where `x` is known to be an f64.
+///
+/// ```
+/// use symplectic::Scalar;
+/// use symplectic::nalgebra::SVector;
+///
+/// /// The force of a Kepler potential −1/|q|.
+/// fn kepler<T: Scalar>(q: &SVector<T, 2>) -> SVector<T, 2> {
+///     let square = q.dot(q);
+///     -q * (square * square.sqrt()).recip()
+/// }
+///
+/// assert_eq!(kepler(&SVector::<f64, 2>::new(0.0, 2.0))[1], -0.25);
+/// assert_eq!(kepler(&SVector::<f32, 2>::new(0.0, 2.0))[1], -0.25);
+/// ```
+pub trait Scalar:
+    nalgebra::Scalar
+    + Copy
+    + Zero
+    + One
+    + ClosedAddAssign
+    + ClosedSubAssign
+    + ClosedMulAssign
+    + ClosedDivAssign
+    + Neg<Output = Self>
+{
+    /// Distance from 1 to the next larger number: 2⁻⁵² for f64, 2⁻²³ for f32.
+    const EPSILON: f64;
+
+    /// The scalar nearest to `value`; a constant, that is with all derivatives zero and all lanes equal.
+    fn from_f64(value: f64) -> Self;
+
+    /// The scalar nearest to a coefficient of a method, a constant as above: its double, and the single of an f32.
+    ///
+    /// A scalar with more digits than a double takes [`Coefficient::low`] too, here and in [`weight`](Self::weight).
+    ///
+    /// ```
+    /// use symplectic::{Coefficient, Scalar};
+    ///
+    /// // 1 + 2⁻²⁴ + 2⁻⁶⁰: its double is the middle of two singles, of which the lower one is even.
+    /// let c = Coefficient::new(1.0 + 2_f64.powi(-24), 2_f64.powi(-60), 1.0 + f32::EPSILON);
+    /// assert_eq!(f32::from_coefficient(c), 1.0 + f32::EPSILON);
+    /// assert_eq!(c.double() as f32, 1.0);
+    /// ```
+    #[inline]
+    fn from_coefficient(coefficient: Coefficient) -> Self {
+        Self::from_f64(coefficient.double())
+    }
+
+    /// `step_size` times a coefficient of a method, a constant as above: the factor of an evaluation in a stage.
+    ///
+    /// The product is made in double precision, as the step size is, and rounded to the scalar last. For an f32 it is
+    /// then within 2⁻²⁴ of the exact one, as close as can be; from the coefficient as an f32 it would be within twice
+    /// that, always the same way: a Kepler orbit of 20 000 steps of Gauss with five stages has twice the energy error.
+    #[inline]
+    fn weight(step_size: f64, coefficient: Coefficient) -> Self {
+        Self::from_f64(step_size * coefficient.double())
+    }
+
+    /// The largest absolute value among the parts: |x| for a float, the largest over value and derivatives for a
+    /// dual number, the largest over the lanes for side by side numbers.
+    ///
+    /// NaN if any part is NaN, even where another is larger: the solver and the checks for finiteness rest on it.
+    fn magnitude(self) -> f64;
+
+    /// Whether all parts are finite. The result of a step is looked at by its [magnitude](Self::magnitude) alone.
+    #[inline]
+    fn is_finite(self) -> bool {
+        self.magnitude().is_finite()
+    }
+
+    /// `self·factor + term`, what sums of products are made of: rounded twice, or once with the feature `fma`.
+    ///
+    /// ```
+    /// use symplectic::Scalar;
+    ///
+    /// assert_eq!(2.0_f64.fused(3.0, 4.0), 10.0);
+    /// let (x, square) = (1.0 + f64::EPSILON, 1.0 + 2.0 * f64::EPSILON);
+    /// let rest = if cfg!(feature = "fma") { f64::EPSILON.powi(2) } else { 0.0 };
+    /// assert_eq!(x.fused(x, -square), rest);
+    /// ```
+    #[inline(always)]
+    fn fused(self, factor: Self, term: Self) -> Self {
+        self * factor + term
+    }
+
+    /// The numbers, where they are doubles: those have rows, see [`Chain`](crate::Chain).
+    #[doc(hidden)]
+    #[inline(always)]
+    fn doubles(_numbers: &[Self]) -> Option<&[f64]> {
+        None
+    }
+
+    /// [`doubles`](Self::doubles), to be written.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn doubles_mut(_numbers: &mut [Self]) -> Option<&mut [f64]> {
+        None
+    }
+
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// 1/x.
+    fn recip(self) -> Self;
+    /// xⁿ, by squaring: the same products in the same order whatever the scalar.
+    #[inline]
+    fn powi(self, exponent: i32) -> Self {
+        let (mut rest, mut square) = (exponent.unsigned_abs(), self);
+        let mut power = Self::one();
+        while rest > 0 {
+            if rest % 2 == 1 {
+                power *= square;
+            }
+            rest /= 2;
+            if rest > 0 {
+                square *= square;
+            }
+        }
+        if exponent < 0 { power.recip() } else { power }
+    }
+    /// |x|, whose derivative is the sign of x.
+    fn abs(self) -> Self;
+    /// Exponential function.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// Sine of an angle in radians.
+    fn sin(self) -> Self;
+    /// Cosine of an angle in radians.
+    fn cos(self) -> Self;
+    /// Tangent of an angle in radians.
+    fn tan(self) -> Self;
+    /// Inverse sine, in radians.
+    fn asin(self) -> Self;
+    /// Inverse cosine, in radians.
+    fn acos(self) -> Self;
+    /// Inverse tangent, in radians.
+    fn atan(self) -> Self;
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+
+    /// Sine and cosine together.
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        (self.sin(), self.cos())
+    }
+
+    /// Sines and cosines of several angles, each with the bits of [`sin_cos`](Self::sin_cos): for doubles and lanes faster than one after
+    /// the other, if they do not need one another. What is not used is not computed.
+    ///
+    /// ```
+    /// use symplectic::Scalar;
+    ///
+    /// let [(sine, cosine), (other, _)] = Scalar::sin_cos_all([0.5, 2.0_f64]);
+    /// assert_eq!((sine, cosine, other), (Scalar::sin(0.5), Scalar::cos(0.5), Scalar::sin(2.0)));
+    /// ```
+    #[inline]
+    fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
+        array((Self::zero(), Self::zero()), |k| angles[k].sin_cos())
+    }
+}
+
+macro_rules! forward {
+    ($($function:ident)*) => {
+        $(
+            #[inline]
+            fn $function(self) -> Self {
+                Float::$function(self)
+            }
+        )*
+    };
+}
+
+/// Functions of [`elementary`](crate::number::elementary).
+macro_rules! elementary {
+    ($($function:ident -> $result:ty),*) => {
+        $(
+            #[inline(always)]
+            fn $function(self) -> $result {
+                $crate::number::elementary::$function(self)
+            }
+        )*
+
+        #[inline(always)]
+        fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
+            $crate::number::elementary::sin_cos_all(angles)
+        }
+    };
+}
+pub(crate) use elementary;
+
+macro_rules! float {
+    ($float:ident, $from:expr, $into:expr, $coefficient:ident, { $($own:tt)* }) => {
+        impl Scalar for $float {
+            const EPSILON: f64 = $into($float::EPSILON);
+
+            #[inline]
+            fn from_f64(value: f64) -> Self {
+                $from(value)
+            }
+
+            #[inline]
+            fn from_coefficient(coefficient: Coefficient) -> Self {
+                coefficient.$coefficient()
+            }
+
+            #[inline]
+            fn magnitude(self) -> f64 {
+                $into(self.abs())
+            }
+
+            #[inline(always)]
+            fn fused(self, factor: Self, term: Self) -> Self {
+                if cfg!(feature = "fma") {
+                    Float::mul_add(self, factor, term)
+                } else {
+                    self * factor + term
+                }
+            }
+
+            forward! { sqrt recip abs tan asin acos atan sinh cosh tanh }
+
+            $($own)*
+        }
+    };
+}
+
+const fn same(value: f64) -> f64 {
+    value
+}
+
+const fn narrow(value: f64) -> f32 {
+    value as f32
+}
+
+const fn widen(value: f32) -> f64 {
+    value as f64
+}
+
+float!(f64, same, same, double, {
+    #[inline(always)]
+    fn doubles(numbers: &[f64]) -> Option<&[f64]> {
+        Some(numbers)
+    }
+
+    #[inline(always)]
+    fn doubles_mut(numbers: &mut [f64]) -> Option<&mut [f64]> {
+        Some(numbers)
+    }
+
+    elementary! { exp -> Self, ln -> Self, sin -> Self, cos -> Self, sin_cos -> (Self, Self) }
+});
+float!(f32, narrow, widen, single, {
+    forward! { exp ln sin cos }
+
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        Float::sin_cos(self)
+    }
+});

@@ -1,0 +1,148 @@
+//! The vectors that positions and momenta are.
+
+use core::fmt::Debug;
+use core::mem;
+
+use nalgebra::SVector;
+
+use crate::error::Error;
+use crate::number::Scalar;
+
+/// Bytes of a vector that is moved out of the memory of the integrator: it may be in registers then.
+pub(crate) const SHORT: usize = 1 << 8;
+
+/// Bytes of a memory that may be moved for some steps, or for one that is taken with more care.
+pub(crate) const LIGHT: usize = 1 << 14;
+
+/// Whether all components of a vector, and nothing else, are in the vector itself: what is left where it is moved out is then as
+/// long as it was.
+#[inline(always)]
+pub(crate) fn is_in_place<V: Vector>(vector: &V) -> bool {
+    !mem::needs_drop::<V>() && vector.dimension() * size_of::<V::Scalar>() == size_of::<V>()
+}
+
+/// A position, a momentum or one of their derivatives: components of one [`Scalar`] type, contiguous in memory.
+///
+/// Implemented by [`nalgebra::SVector`] (static dimension, nothing on the heap) and, with the feature `alloc`, by
+/// [`nalgebra::DVector`] (dimension known at run time).
+///
+/// ```
+/// use symplectic::Vector;
+/// use symplectic::nalgebra::{DVector, Vector3};
+///
+/// assert_eq!(Vector3::new(1.0, 2.0, 3.0).dimension(), 3);
+/// assert_eq!(DVector::from_vec(vec![1.0_f32, 2.0]).zeros_like(), DVector::zeros(2));
+/// ```
+pub trait Vector: Clone + Debug + PartialEq + 'static {
+    /// The type of a component.
+    type Scalar: Scalar;
+    /// The same kind of vector over another scalar, for example over dual numbers.
+    type With<T: Scalar>: Vector<Scalar = T>;
+
+    /// Number of components.
+    fn dimension(&self) -> usize;
+    /// The components.
+    fn as_slice(&self) -> &[Self::Scalar];
+    /// The components, to be written.
+    fn as_mut_slice(&mut self) -> &mut [Self::Scalar];
+    /// The vector with these components.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] where a vector of this type has another dimension.
+    fn from_slice(components: &[Self::Scalar]) -> Result<Self, Error>;
+    /// A vector without components, or the zero vector where their number is fixed: what is left where a vector is moved
+    /// out. No memory is allocated.
+    fn blank() -> Self;
+    /// The zero vector of the same dimension.
+    fn zeros_like(&self) -> Self;
+    /// The zero vector of the same dimension over another scalar.
+    fn zeros_with<T: Scalar>(&self) -> Self::With<T>;
+}
+
+impl<T: Scalar, const N: usize> Vector for SVector<T, N> {
+    type Scalar = T;
+    type With<U: Scalar> = SVector<U, N>;
+
+    #[inline(always)]
+    fn dimension(&self) -> usize {
+        N
+    }
+
+    #[inline(always)]
+    fn as_slice(&self) -> &[T] {
+        &self.data.0[0]
+    }
+
+    #[inline(always)]
+    fn as_mut_slice(&mut self) -> &mut [T] {
+        &mut self.data.0[0]
+    }
+
+    #[inline]
+    fn from_slice(components: &[T]) -> Result<Self, Error> {
+        match <[T; N]>::try_from(components) {
+            Ok(components) => Ok(Self::from(components)),
+            Err(_) => Err(Error::Length {
+                expected: N,
+                found: components.len(),
+            }),
+        }
+    }
+
+    #[inline]
+    fn blank() -> Self {
+        SVector::from([T::zero(); N])
+    }
+
+    #[inline]
+    fn zeros_like(&self) -> Self {
+        self.zeros_with()
+    }
+
+    #[inline]
+    fn zeros_with<U: Scalar>(&self) -> SVector<U, N> {
+        SVector::from([U::zero(); N])
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Scalar> Vector for nalgebra::DVector<T> {
+    type Scalar = T;
+    type With<U: Scalar> = nalgebra::DVector<U>;
+
+    #[inline(always)]
+    fn dimension(&self) -> usize {
+        self.len()
+    }
+
+    #[inline(always)]
+    fn as_slice(&self) -> &[T] {
+        self.data.as_slice()
+    }
+
+    #[inline(always)]
+    fn as_mut_slice(&mut self) -> &mut [T] {
+        self.data.as_mut_slice()
+    }
+
+    #[inline]
+    fn from_slice(components: &[T]) -> Result<Self, Error> {
+        Ok(nalgebra::DVector::from_column_slice(components))
+    }
+
+    #[inline]
+    fn blank() -> Self {
+        nalgebra::DVector::from_element(0, T::zero())
+    }
+
+    #[inline]
+    fn zeros_like(&self) -> Self {
+        self.zeros_with()
+    }
+
+    #[inline]
+    fn zeros_with<U: Scalar>(&self) -> nalgebra::DVector<U> {
+        nalgebra::DVector::from_element(self.len(), U::zero())
+    }
+}

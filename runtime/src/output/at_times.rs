@@ -1,0 +1,130 @@
+//! States at given times, between the steps.
+
+use crate::error::Error;
+use crate::integrator::Integrator;
+use crate::integrator::clock::check_count;
+use crate::method::{Method, Solver};
+use crate::number::{Summation, Vector};
+use crate::output::dense::Ends;
+use crate::state::State;
+use crate::system::Hamiltonian;
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+    Integrator<M, S, V, R, N>
+{
+    /// Takes steps until all `times` are behind, and shows `observe` the state at each of them, in their order.
+    ///
+    /// The steps are those that [`step`](Self::step) takes, of the step size whatever the times; states inside them are
+    /// [interpolated](Self::dense). The first time may be the present one or lie in the last step; with a
+    /// negative step size the times go down.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutputTime`] for the first time that is not finite, is before the one before it or before the last
+    /// step, and [`Error::StepCount`]: no step is taken then. Those of [`step`](Self::step) and of
+    /// [`dense`](Self::dense); the state is then that of the last good step.
+    ///
+    /// ```
+    /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, acceleration};
+    /// # fn main() -> Result<(), Error> {
+    /// let oscillator = acceleration::<Vector1<f64>, _>(|_, q, acceleration| *acceleration = -q);
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+    /// let mut integrator = Integrator::new(Gauss4, oscillator, start, 0.25)?;
+    /// let mut found = Vec::new();
+    /// integrator.integrate_at(&[0.0, 0.1, 0.2, 1.1], |state| found.push((state.time, state.q[0])))?;
+    /// for (time, q) in found {
+    ///     assert!((q - time.cos()).abs() < 1e-6);
+    /// }
+    /// assert_eq!((integrator.state().time, integrator.steps()), (1.25, 5));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn integrate_at<F: FnMut(&State<V>)>(
+        &mut self,
+        times: &[f64],
+        mut observe: F,
+    ) -> Result<&State<V>, Error> {
+        self.check_times(times)?;
+        let mut rest = times;
+        let mut output = Output {
+            ends: Ends::new(),
+            state: self.state().clone(),
+        };
+        output.show(self, &mut rest, &mut observe)?;
+        while !rest.is_empty() {
+            self.step_in_sight(|integrator| output.show(integrator, &mut rest, &mut observe))?;
+        }
+        Ok(self.state())
+    }
+
+    /// Whether `time` comes after `other` in the direction of the steps.
+    fn is_after(&self, time: f64, other: f64) -> bool {
+        if self.step_size() > 0.0 {
+            time > other
+        } else {
+            time < other
+        }
+    }
+
+    fn check_times(&self, times: &[f64]) -> Result<(), Error> {
+        let present = self.state().time;
+        // The last step may have gone the other way.
+        let mut before = match self.last_step() {
+            Some(last) if self.is_after(present, last.start) => last.start,
+            _ => present,
+        };
+        for &time in times {
+            if !time.is_finite() || self.is_after(before, time) {
+                return Err(Error::OutputTime { time, before });
+            }
+            before = time;
+        }
+        check_count(present, before, self.step_size())
+    }
+}
+
+/// A state that is shown.
+struct Output<V> {
+    ends: Ends<V>,
+    state: State<V>,
+}
+
+impl<V: Vector> Output<V> {
+    /// Shows the states at the times up to the present one, and takes them off the list.
+    fn show<M, S, R, N>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        times: &mut &[f64],
+        observe: &mut impl FnMut(&State<V>),
+    ) -> Result<(), Error>
+    where
+        M: Method,
+        S: Hamiltonian<V>,
+        R: Summation,
+        N: Solver<V, S>,
+    {
+        let mut evaluated = false;
+        while let Some((&time, rest)) = times.split_first() {
+            let present = integrator.state();
+            if integrator.is_after(time, present.time) {
+                break;
+            }
+            if time == present.time {
+                observe(present);
+            } else {
+                if !evaluated {
+                    self.ends.evaluate(integrator)?;
+                    evaluated = true;
+                }
+                let State { q, p, .. } = &mut self.state;
+                self.ends.write(integrator, time, q, p)?;
+                self.state.time = time;
+                observe(&self.state);
+            }
+            *times = rest;
+        }
+        Ok(())
+    }
+}

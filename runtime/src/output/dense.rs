@@ -1,0 +1,233 @@
+//! The states inside the last step.
+
+use core::fmt;
+
+use crate::error::{Error, Quantity};
+use crate::integrator::Integrator;
+use crate::method::interpolation::Line;
+use crate::method::storage::is_finite;
+use crate::method::{Inside, Interpolation, Method, Solver};
+use crate::number::{Compensated, Scalar, Summation, Vector};
+use crate::solver::FixedPoint;
+use crate::state::State;
+use crate::system::Hamiltonian;
+
+/// The states at all times of the last step: what [`Integrator::dense`] returns.
+///
+/// They are polynomials in time that go through the states at both ends, to the last bit, with the order that
+/// [`Integrator::INTERPOLATION`] says. Nothing is computed before it is asked for.
+///
+/// ```
+/// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
+/// use symplectic::nalgebra::Vector1;
+/// use symplectic::{Error, Integrator, State, acceleration};
+///
+/// # fn main() -> Result<(), Error> {
+/// let oscillator = acceleration::<Vector1<f64>, _>(|_, q, acceleration| *acceleration = -q);
+/// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+/// let mut integrator = Integrator::new(Gauss4, oscillator, start, 0.125)?;
+/// integrator.step()?;
+/// let dense = integrator.dense()?;
+/// let state = dense.state(0.1)?;
+/// assert!((state.q[0] - 0.1_f64.cos()).abs() < 1e-7);
+/// // The same without an allocation for dynamic vectors.
+/// let (mut q, mut p) = (Vector1::zeros(), Vector1::zeros());
+/// dense.write(0.1, &mut q, &mut p)?;
+/// assert_eq!((q, p), (state.q, state.p));
+/// assert_eq!(dense.state(0.125)?, *integrator.state());
+/// # Ok(())
+/// # }
+/// ```
+pub struct DenseOutput<
+    'a,
+    M: Method,
+    S: Hamiltonian<V>,
+    V: Vector,
+    R: Summation = Compensated,
+    N: Solver<V, S> = FixedPoint,
+> {
+    integrator: &'a Integrator<M, S, V, R, N>,
+    ends: Ends<V>,
+}
+
+/// The last step of an integrator.
+pub(crate) struct LastStep<'a, V> {
+    pub(crate) start: f64,
+    pub(crate) end: f64,
+    pub(crate) size: f64,
+    pub(crate) positions: Line<'a, V>,
+    pub(crate) momenta: Line<'a, V>,
+}
+
+/// The derivatives at the ends of a step, where values inside it depend on them; room for those of another step after
+/// that.
+pub(crate) struct Ends<V>(Option<[Derivatives<V>; 2]>);
+
+struct Derivatives<V> {
+    velocity: V,
+    force: V,
+}
+
+impl<V: Vector> Ends<V> {
+    pub(crate) const fn new() -> Self {
+        Self(None)
+    }
+
+    /// Evaluates them for the last step of an integrator.
+    pub(crate) fn evaluate<M, S, R, N>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+    ) -> Result<(), Error>
+    where
+        M: Method,
+        S: Hamiltonian<V>,
+        R: Summation,
+        N: Solver<V, S>,
+    {
+        let last = integrator.last_step().ok_or(Error::NoStep)?;
+        if Integrator::<M, S, V, R, N>::INTERPOLATION != Interpolation::Hermite {
+            return Ok(());
+        }
+        let ends = self.0.get_or_insert_with(|| {
+            core::array::from_fn(|_| Derivatives {
+                velocity: integrator.state().q.zeros_like(),
+                force: integrator.state().p.zeros_like(),
+            })
+        });
+        let states = [
+            (last.start, last.positions.start.0, last.momenta.start.0),
+            (last.end, last.positions.end.0, last.momenta.end.0),
+        ];
+        for ((time, q, p), Derivatives { velocity, force }) in states.into_iter().zip(ends) {
+            let at = V::Scalar::from_f64(time);
+            integrator.system().velocity(at, q, p, velocity);
+            integrator.system().force(at, q, p, force);
+            for (what, value) in [(Quantity::Velocity, velocity), (Quantity::Force, force)] {
+                if !is_finite(value) {
+                    return Err(Error::NonFinite {
+                        time,
+                        step_size: last.size,
+                        step: integrator.steps(),
+                        what,
+                        stage: None,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the state at a time of the last step, the ends of which these are.
+    pub(crate) fn write<M, S, R, N>(
+        &self,
+        integrator: &Integrator<M, S, V, R, N>,
+        time: f64,
+        q: &mut V,
+        p: &mut V,
+    ) -> Result<(), Error>
+    where
+        M: Method,
+        S: Hamiltonian<V>,
+        R: Summation,
+        N: Solver<V, S>,
+    {
+        let last = integrator.last_step().ok_or(Error::NoStep)?;
+        let (start, end) = (last.start, last.end);
+        if !(start.min(end) <= time && time <= start.max(end)) {
+            return Err(Error::OutsideStep { time, start, end });
+        }
+        let (dimension, found) = (
+            integrator.state().q.dimension(),
+            (q.dimension(), p.dimension()),
+        );
+        if found != (dimension, dimension) {
+            return Err(Error::Dimension {
+                position: found.0,
+                momentum: found.1,
+            });
+        }
+        let at = Inside {
+            fraction: (time - start) / (end - start),
+            size: last.size,
+            momentum: last.momenta.start.0,
+        };
+        q.as_mut_slice().fill(num_traits::Zero::zero());
+        p.as_mut_slice().fill(num_traits::Zero::zero());
+        match &self.0 {
+            Some([start, end]) => {
+                at.add_cubic([&start.velocity, &end.velocity], &last.positions, q);
+                at.add_cubic([&start.force, &end.force], &last.momenta, p);
+            }
+            None => integrator.extend(at, q, p),
+        }
+        last.positions.add(at.fraction, q);
+        last.momenta.add(at.fraction, p);
+        Ok(())
+    }
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+    Integrator<M, S, V, R, N>
+{
+    /// The states inside the last step, between its start and the present state.
+    ///
+    /// Where they are [`Interpolation::Hermite`], the system is evaluated at both ends. The step is the last one that was
+    /// taken: with [`Retry`](crate::Retry) perhaps a part of the one that was asked for.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoStep`] before the first step and after everything that forgets it, such as a new state, another solver
+    /// or a step that failed; [`Error::NonFinite`] where a derivative at an end is not finite.
+    pub fn dense(&self) -> Result<DenseOutput<'_, M, S, V, R, N>, Error> {
+        let mut ends = Ends::new();
+        ends.evaluate(self)?;
+        Ok(DenseOutput {
+            integrator: self,
+            ends,
+        })
+    }
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+    DenseOutput<'_, M, S, V, R, N>
+{
+    /// The times of the start and of the end of the step; the second is the smaller one where it went backward.
+    pub fn span(&self) -> (f64, f64) {
+        let span = self.integrator.last_step();
+        // Made only of a step, which nothing has changed since.
+        span.map_or((f64::NAN, f64::NAN), |last| (last.start, last.end))
+    }
+
+    /// Writes position and momentum at `time` into vectors of their dimension.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutsideStep`], [`Error::Dimension`]; `q` and `p` are then untouched.
+    pub fn write(&self, time: f64, q: &mut V, p: &mut V) -> Result<(), Error> {
+        self.ends.write(self.integrator, time, q, p)
+    }
+
+    /// The state at `time`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutsideStep`]
+    pub fn state(&self, time: f64) -> Result<State<V>, Error> {
+        let State { q, p, .. } = self.integrator.state();
+        let mut state = State::new(time, q.zeros_like(), p.zeros_like());
+        self.write(time, &mut state.q, &mut state.p)?;
+        Ok(state)
+    }
+}
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Debug
+    for DenseOutput<'_, M, S, V, R, N>
+{
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("DenseOutput")
+            .field("method", &M::NAME)
+            .field("span", &self.span())
+            .finish_non_exhaustive()
+    }
+}

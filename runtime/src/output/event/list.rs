@@ -1,0 +1,126 @@
+//! Several events in one search.
+
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
+
+use super::track::Track;
+use super::{Event, Kind};
+use crate::state::State;
+
+/// Events that are searched for together: one [`Event`], an array, a slice or a vector of them (the latter two with the
+/// feature `alloc`), a tuple of up to eight with different functions, or `()` for none.
+pub trait Events<V>: EventList<V> {}
+
+impl<V, E: EventList<V> + ?Sized> Events<V> for E {}
+
+/// What a search asks a list of events for.
+pub trait EventList<V> {
+    /// What is known about each.
+    type Tracks: AsRef<[Track]> + AsMut<[Track]>;
+
+    /// Nothing known yet about any.
+    fn tracks(&self) -> Self::Tracks;
+    /// The kind of the event `index`.
+    fn kind(&self, index: usize) -> Kind;
+    /// Its function at a state.
+    fn value(&self, index: usize, state: &State<V>) -> f64;
+}
+
+impl<V> EventList<V> for () {
+    type Tracks = [Track; 0];
+
+    fn tracks(&self) -> Self::Tracks {
+        []
+    }
+
+    fn kind(&self, _index: usize) -> Kind {
+        Kind::new([false; 2])
+    }
+
+    fn value(&self, _index: usize, _state: &State<V>) -> f64 {
+        f64::NAN
+    }
+}
+
+impl<V, G: Fn(&State<V>) -> f64> EventList<V> for Event<G> {
+    type Tracks = [Track; 1];
+
+    fn tracks(&self) -> Self::Tracks {
+        [Track::default()]
+    }
+
+    fn kind(&self, _index: usize) -> Kind {
+        self.kind
+    }
+
+    fn value(&self, _index: usize, state: &State<V>) -> f64 {
+        (self.function)(state)
+    }
+}
+
+/// Lists of events with functions of one type.
+macro_rules! lists {
+    ($([$($parameter:tt)*] $list:ty, $tracks:ty, $make:expr;)*) => {$(
+        impl<V, G: Fn(&State<V>) -> f64, $($parameter)*> EventList<V> for $list {
+            type Tracks = $tracks;
+
+            fn tracks(&self) -> Self::Tracks {
+                $make(self.len())
+            }
+
+            fn kind(&self, index: usize) -> Kind {
+                self[index].kind
+            }
+
+            fn value(&self, index: usize, state: &State<V>) -> f64 {
+                (self[index].function)(state)
+            }
+        }
+    )*};
+}
+
+lists! { [const N: usize] [Event<G>; N], [Track; N], |_| [Track::default(); N]; }
+
+#[cfg(feature = "alloc")]
+lists! {
+    [] [Event<G>], Vec<Track>, |count| alloc::vec![Track::default(); count];
+    [] Vec<Event<G>>, Vec<Track>, |count| alloc::vec![Track::default(); count];
+}
+
+/// Tuples of events.
+macro_rules! tuples {
+    ($($count:literal: $($G:ident $index:tt)*;)*) => {$(
+        impl<V, $($G: Fn(&State<V>) -> f64),*> EventList<V> for ($(Event<$G>,)*) {
+            type Tracks = [Track; $count];
+
+            fn tracks(&self) -> Self::Tracks {
+                [Track::default(); $count]
+            }
+
+            fn kind(&self, index: usize) -> Kind {
+                match index {
+                    $($index => self.$index.kind,)*
+                    _ => Kind::new([false; 2]),
+                }
+            }
+
+            fn value(&self, index: usize, state: &State<V>) -> f64 {
+                match index {
+                    $($index => (self.$index.function)(state),)*
+                    _ => f64::NAN,
+                }
+            }
+        }
+    )*};
+}
+
+tuples! {
+    1: A 0;
+    2: A 0 B 1;
+    3: A 0 B 1 C 2;
+    4: A 0 B 1 C 2 D 3;
+    5: A 0 B 1 C 2 D 3 E 4;
+    6: A 0 B 1 C 2 D 3 E 4 F 5;
+    7: A 0 B 1 C 2 D 3 E 4 F 5 G 6;
+    8: A 0 B 1 C 2 D 3 E 4 F 5 G 6 H 7;
+}

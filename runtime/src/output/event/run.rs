@@ -1,0 +1,172 @@
+//! Integrations with events.
+
+use core::ops::ControlFlow;
+
+use super::list::Events;
+use super::search::{Search, Stop};
+use super::{Event, Moment};
+use crate::error::Error;
+use crate::integrator::Integrator;
+use crate::method::{Method, Solver};
+use crate::number::{Summation, Vector};
+use crate::state::State;
+use crate::system::Hamiltonian;
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+    Integrator<M, S, V, R, N>
+{
+    /// [`integrate_to`](Self::integrate_to) that shows `observe` the state at every event, in their order, and ends after
+    /// the step in which `observe` breaks it, at a [`wall`](Event::wall) at the event: with the value that it breaks with,
+    /// otherwise with `None`.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`integrate_to`](Self::integrate_to) and of [`dense`](Self::dense); [`Error::EventValue`] where the
+    /// function is NaN, [`Error::EventsAccumulate`].
+    pub fn integrate_with_events<G, B, F>(
+        &mut self,
+        end: f64,
+        event: &Event<G>,
+        mut observe: F,
+    ) -> Result<Option<B>, Error>
+    where
+        G: Fn(&State<V>) -> f64,
+        F: FnMut(&State<V>) -> ControlFlow<B>,
+    {
+        self.integrate_through(end, &[], event, |moment| match moment {
+            Moment::Event { state, .. } => observe(state),
+            Moment::Output(_) => ControlFlow::Continue(()),
+        })
+    }
+
+    /// The state at the first event before `end`; `None`, and the present state at `end`, if there is none.
+    ///
+    /// The present state is that after the step in which the event is; at a [`wall`](Event::wall) it is the state at the
+    /// event. To go on from the event, [set](Self::set_state) the state, changed or not: see [`Event`].
+    ///
+    /// # Errors
+    ///
+    /// As for [`integrate_with_events`](Self::integrate_with_events).
+    pub fn find_event<G: Fn(&State<V>) -> f64>(
+        &mut self,
+        end: f64,
+        event: &Event<G>,
+    ) -> Result<Option<State<V>>, Error> {
+        self.integrate_with_events(end, event, |state| ControlFlow::Break(state.clone()))
+    }
+
+    /// [`integrate_to`](Self::integrate_to) that shows `handle` the states at output times and at the events of a list, in
+    /// the order of time.
+    ///
+    /// At the same time output comes first, then the events in the order of the list. The handler may change the state at
+    /// an event: the integration goes on from the changed state, and events at the same time after it see it. It
+    /// ends where the handler breaks it, with the value that it breaks with, otherwise with `None`. The present
+    /// state is then that after the step, or, at a wall and where the state was changed, that at the event.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`integrate_with_events`](Self::integrate_with_events), [`Error::OutputTime`] and
+    /// [`Error::OutputAfterEnd`] before the first step, [`Error::NonFiniteState`] and [`Error::Dimension`] for a
+    /// changed state.
+    ///
+    /// ```
+    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+    /// use core::ops::ControlFlow;
+    /// use symplectic::nalgebra::Vector1;
+    /// use symplectic::{Error, Event, Integrator, Moment, State, acceleration};
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// type Ball = State<Vector1<f64>>;
+    ///
+    /// // A ball between floor and ceiling, and its highest points.
+    /// let ball = acceleration::<Vector1<f64>, _>(|_, _, acceleration| acceleration[0] = -10.0);
+    /// let start = State::new(0.0, Vector1::new(0.0), Vector1::new(6.0));
+    /// let mut integrator = Integrator::new(StoermerVerlet, ball, start, 0.125)?;
+    /// let events = (
+    ///     Event::wall(|ball: &Ball| ball.q[0]),
+    ///     Event::wall(|ball: &Ball| 1.0 - ball.q[0]),
+    ///     Event::falling(|ball: &Ball| ball.p[0]),
+    /// );
+    /// let (mut heights, mut found) = (Vec::new(), Vec::new());
+    /// integrator.integrate_through(2.0, &[0.0, 0.5, 1.0, 1.5, 2.0], &events, |moment| {
+    ///     match moment {
+    ///         Moment::Output(ball) => heights.push(ball.q[0]),
+    ///         Moment::Event { index, state } => {
+    ///             found.push(index);
+    ///             if index < 2 {
+    ///                 state.p *= -0.8;
+    ///             }
+    ///         }
+    ///     }
+    ///     ControlFlow::<()>::Continue(())
+    /// })?;
+    /// assert_eq!(heights.len(), 5);
+    /// assert!(heights.iter().all(|height| (0.0..=1.0).contains(height)));
+    /// // Up to the ceiling, down to the floor, then up and down in lower and lower arcs.
+    /// assert_eq!(found, [1, 0, 2, 0, 2]);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn integrate_through<E, B, F>(
+        &mut self,
+        end: f64,
+        times: &[f64],
+        events: &E,
+        mut handle: F,
+    ) -> Result<Option<B>, Error>
+    where
+        E: Events<V> + ?Sized,
+        F: FnMut(Moment<'_, V>) -> ControlFlow<B>,
+    {
+        let present = self.state().time;
+        check_times(times, present, end)?;
+        let forward = present <= end;
+        let step = self.step_size().abs().copysign(end - present);
+        let mut search = Search::new(events, times, self.state(), self.last_event(), forward);
+        search.start(self, step)?;
+        let mut ended = search.show_output(self, present, &mut handle)?;
+        loop {
+            if ended.is_continue() {
+                ended = self.steps_to(end, |integrator, next| {
+                    integrator.advance_in_sight(next.size, next.time, &mut |integrator: &Self| {
+                        search.step(integrator, &mut handle)
+                    })
+                })?;
+            }
+            self.set_last_event(search.last);
+            let ControlFlow::Break(stop) = ended else {
+                return Ok(None);
+            };
+            if !matches!(stop, Stop::Broken(_, false)) {
+                let changed = self.copy_state(&search.shown);
+                if changed.is_err() {
+                    self.copy_state(&search.state)?;
+                }
+                changed?;
+            }
+            match stop {
+                Stop::Broken(value, _) => return Ok(Some(value)),
+                Stop::Failed(error) => return Err(error),
+                Stop::Reset => search.start(self, step)?,
+            }
+            ended = ControlFlow::Continue(());
+        }
+    }
+}
+
+/// Checks that output times come one after the other from the start to the end.
+fn check_times(times: &[f64], start: f64, end: f64) -> Result<(), Error> {
+    let mut before = start;
+    for &time in times {
+        // 0 for the same time twice.
+        let way = (time - before) * (end - start).signum();
+        if !time.is_finite() || way < 0.0 {
+            return Err(Error::OutputTime { time, before });
+        }
+        if (time - end) * (end - start).signum() > 0.0 || (start == end && time != end) {
+            return Err(Error::OutputAfterEnd { time, end });
+        }
+        before = time;
+    }
+    Ok(())
+}

@@ -1,0 +1,338 @@
+//! A search for events, step by step.
+
+use core::ops::ControlFlow;
+
+use super::list::EventList;
+use super::track::{Crossing, Track, sign};
+use super::{LastEvent, Moment};
+use crate::error::Error;
+use crate::integrator::Integrator;
+use crate::integrator::partial_step::PartialSteps;
+use crate::method::{Method, Solver};
+use crate::number::{Summation, Vector, copy};
+use crate::output::dense::Ends;
+use crate::state::State;
+use crate::system::Hamiltonian;
+
+/// The most events at one time.
+const MOST_AT_ONE_TIME: u32 = 1000;
+
+/// A search for the events of a list.
+pub(super) struct Search<'e, E, M, S, V, N>
+where
+    E: EventList<V> + ?Sized,
+    M: Method,
+    S: Hamiltonian<V>,
+    V: Vector,
+    N: Solver<V, S>,
+{
+    pub(super) events: &'e E,
+    pub(super) tracks: E::Tracks,
+    /// Output times that are not behind.
+    pub(super) times: &'e [f64],
+    /// Whether time goes on to larger ones.
+    forward: bool,
+    /// Places that are looked at in a step.
+    samples: u32,
+    pub(super) ends: Ends<V>,
+    /// Whether these are those of the last step.
+    pub(super) evaluated: bool,
+    pub(super) partial: Option<PartialSteps<M, S, V, N>>,
+    pub(super) slopes: Option<(V, V)>,
+    /// The state that is looked at.
+    pub(super) state: State<V>,
+    /// The state that is shown at an event, and what is made of it.
+    pub(super) shown: State<V>,
+    pub(super) last: Option<LastEvent>,
+}
+
+/// Why a search does not go on with the next step.
+pub(super) enum Stop<B> {
+    /// It is to go on from the state that was shown.
+    Reset,
+    /// The handler broke it; whether the present state is to be the one that was shown.
+    Broken(B, bool),
+    Failed(Error),
+}
+
+type Seen<B> = ControlFlow<Stop<B>>;
+
+impl<'e, E, M, S, V, N> Search<'e, E, M, S, V, N>
+where
+    E: EventList<V> + ?Sized,
+    M: Method,
+    S: Hamiltonian<V>,
+    V: Vector,
+    N: Solver<V, S>,
+{
+    pub(super) fn new(
+        events: &'e E,
+        times: &'e [f64],
+        start: &State<V>,
+        last: Option<LastEvent>,
+        forward: bool,
+    ) -> Self {
+        let mut tracks = events.tracks();
+        let count = tracks.as_ref().len();
+        let last = last.filter(|last| last.time == start.time);
+        if let Some(last) = last
+            && let Some(track) = tracks.as_mut().get_mut(last.index)
+        {
+            track.fired = last.side;
+        }
+        Self {
+            events,
+            tracks,
+            times,
+            forward,
+            samples: (0..count)
+                .map(|k| events.kind(k).samples)
+                .max()
+                .unwrap_or(1),
+            ends: Ends::new(),
+            evaluated: false,
+            partial: None,
+            slopes: None,
+            state: start.clone(),
+            shown: start.clone(),
+            last,
+        }
+    }
+
+    /// Starts from the present state of the integrator; the next step has about the size `step`.
+    pub(super) fn start<R: Summation>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        step: f64,
+    ) -> Result<(), Error> {
+        copy_state(&mut self.shown, integrator.state());
+        for index in 0..self.tracks.as_ref().len() {
+            copy_state(&mut self.state, integrator.state());
+            let value = self.value(index)?;
+            let track = self.start_of(integrator, index, value, step);
+            self.tracks.as_mut()[index] = track;
+        }
+        Ok(())
+    }
+
+    /// What is known about a function at the start, where it has a value.
+    fn start_of<R: Summation>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        index: usize,
+        value: f64,
+        step: f64,
+    ) -> Track {
+        let fired = self.tracks.as_ref()[index].fired;
+        let mut track = Track {
+            side: sign(value),
+            value,
+            ..Track::default()
+        };
+        let wall = self.events.kind(index).wall;
+        if wall {
+            track.side = 1.0;
+        }
+        if fired != 0.0 {
+            track.rounding = self.rounding(integrator, index, value);
+        } else if value * track.side > 0.0 {
+            return track;
+        }
+        let slope = self.slope(integrator, index, step);
+        let near = value.abs() <= track.rounding.max(slope.abs());
+        if !wall && near {
+            track.side = if slope == 0.0 { fired } else { sign(slope) };
+        }
+        track.on_zero = track.side != 0.0 && track.side * value <= track.rounding;
+        track.stays = near && track.side != 0.0 && track.side * slope >= 0.0;
+        track
+    }
+
+    /// Shows what is in the last step.
+    pub(super) fn step<R: Summation, B>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        handle: &mut impl FnMut(Moment<'_, V>) -> ControlFlow<B>,
+    ) -> Result<Seen<B>, Error> {
+        let last = integrator.last_step().ok_or(Error::NoStep)?;
+        let (start, end) = (last.start, last.end);
+        self.evaluated = false;
+        let halves = if self.samples == 1 { 1 } else { 2 };
+        let panels = self.samples.div_ceil(halves);
+        let place = |number: u32| {
+            if number == panels * halves {
+                end
+            } else {
+                start + (end - start) * (f64::from(number) / f64::from(panels * halves))
+            }
+        };
+        for panel in 0..panels {
+            let from = place(panel * halves);
+            let middle = (halves == 2).then(|| place(panel * halves + 1));
+            let to = place((panel + 1) * halves);
+            if let Some(middle) = middle {
+                self.look_at(integrator, middle, false)?;
+                self.look_ahead(0)?;
+            }
+            if to == end {
+                copy_state(&mut self.state, integrator.state());
+            } else {
+                self.look_at(integrator, to, false)?;
+            }
+            self.look_ahead(1)?;
+            for index in 0..self.tracks.as_ref().len() {
+                self.detect(integrator, index, from, [middle, Some(to)])?;
+            }
+            let seen = self.show(integrator, to, handle)?;
+            if seen.is_break() {
+                return Ok(seen);
+            }
+        }
+        // It is not the start of another search any more.
+        self.last = self.last.filter(|last| last.time == end);
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// Shows output and events up to a time.
+    fn show<R: Summation, B>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        end: f64,
+        handle: &mut impl FnMut(Moment<'_, V>) -> ControlFlow<B>,
+    ) -> Result<Seen<B>, Error> {
+        loop {
+            let next = self.next();
+            let until = next.map_or(end, |(_, next)| next.time);
+            let shown = self.show_output(integrator, until, handle)?;
+            let Some((index, Crossing { time, .. })) = next else {
+                return Ok(shown);
+            };
+            if shown.is_break() {
+                return Ok(shown);
+            }
+            let by_steps = self.events.kind(index).by_steps;
+            self.look_at(integrator, time, by_steps)?;
+            copy_state(&mut self.shown, &self.state);
+            let shown = self.show_events(time, handle);
+            if shown.is_break() {
+                return Ok(shown);
+            }
+        }
+    }
+
+    /// The next event in the panel; of several at the same time the first one in the list.
+    fn next(&self) -> Option<(usize, Crossing)> {
+        let tracks = self.tracks.as_ref().iter().enumerate();
+        let firsts = tracks.filter_map(|(index, track)| Some((index, track.pending[0]?)));
+        firsts.reduce(|first, other| {
+            if self.is_after(first.1.time, other.1.time) {
+                other
+            } else {
+                first
+            }
+        })
+    }
+
+    fn is_after(&self, time: f64, other: f64) -> bool {
+        if self.forward {
+            time > other
+        } else {
+            time < other
+        }
+    }
+
+    /// Shows all events at a time, the state of which is there to be shown.
+    fn show_events<B>(
+        &mut self,
+        time: f64,
+        handle: &mut impl FnMut(Moment<'_, V>) -> ControlFlow<B>,
+    ) -> Seen<B> {
+        let mut reset = false;
+        while let Some((index, next)) = self.next()
+            && next.time == time
+        {
+            let before = self.last.filter(|last| last.time == time);
+            let count = before.map_or(0, |last| last.count);
+            if next.unseen || count == MOST_AT_ONE_TIME {
+                return ControlFlow::Break(Stop::Failed(Error::EventsAccumulate {
+                    time,
+                    index,
+                    count,
+                }));
+            }
+            let track = &mut self.tracks.as_mut()[index];
+            track.pop();
+            track.fired = next.side;
+            self.last = Some(LastEvent {
+                time,
+                index,
+                side: next.side,
+                count: count + 1,
+            });
+            let state = &mut self.shown;
+            let handled = handle(Moment::Event { index, state });
+            self.shown.time = time;
+            reset |= self.events.kind(index).wall || self.shown != self.state;
+            if let ControlFlow::Break(value) = handled {
+                return ControlFlow::Break(Stop::Broken(value, reset));
+            }
+        }
+        if reset {
+            return ControlFlow::Break(Stop::Reset);
+        }
+        // The search goes on through them.
+        for track in self.tracks.as_mut() {
+            track.fired = 0.0;
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Shows the states at the output times up to `until`, which is not after the present time.
+    pub(super) fn show_output<R: Summation, B>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        until: f64,
+        handle: &mut impl FnMut(Moment<'_, V>) -> ControlFlow<B>,
+    ) -> Result<Seen<B>, Error> {
+        while let Some((&time, rest)) = self.times.split_first()
+            && !self.is_after(time, until)
+        {
+            let present = integrator.state();
+            let handled = if time == present.time {
+                handle(Moment::Output(present))
+            } else {
+                self.look_at(integrator, time, false)?;
+                handle(Moment::Output(&self.state))
+            };
+            self.times = rest;
+            if let ControlFlow::Break(value) = handled {
+                return Ok(ControlFlow::Break(Stop::Broken(value, false)));
+            }
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// Keeps the values at the state that is looked at, the middle or the end of the panel.
+    fn look_ahead(&mut self, place: usize) -> Result<(), Error> {
+        for index in 0..self.tracks.as_ref().len() {
+            self.tracks.as_mut()[index].ahead[place] = self.value(index)?;
+        }
+        Ok(())
+    }
+
+    /// The value of a function at the state that is looked at.
+    pub(super) fn value(&self, index: usize) -> Result<f64, Error> {
+        let value = self.events.value(index, &self.state);
+        if value.is_nan() {
+            let time = self.state.time;
+            return Err(Error::EventValue { time });
+        }
+        Ok(value)
+    }
+}
+
+pub(super) fn copy_state<V: Vector>(out: &mut State<V>, from: &State<V>) {
+    out.time = from.time;
+    copy(&mut out.q, &from.q);
+    copy(&mut out.p, &from.p);
+}

@@ -1,0 +1,117 @@
+//! How well something is conserved.
+
+use crate::number::Vector;
+use crate::state::State;
+use crate::system::Hamiltonian;
+
+/// An observer of a function of the state: the energy, a momentum map, anything that the exact flow conserves.
+///
+/// It keeps the value at the first state and the largest deviation from it, and nothing else.
+///
+/// ```
+/// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
+/// use symplectic::nalgebra::Vector2;
+/// use symplectic::{Error, Integrator, Invariant, State, separable};
+///
+/// # fn main() -> Result<(), Error> {
+/// let kepler = || {
+///     separable(
+///         |_time, p: &Vector2<f64>, velocity| *velocity = *p,
+///         |_time, q, force| *force = -q / q.norm().powi(3),
+///     )
+///     .with_energy(|_time, q, p| p.norm_squared() / 2.0 - q.norm().recip())
+/// };
+/// let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
+/// let mut energy = Invariant::energy(kepler(), &start);
+/// let mut angular_momentum = Invariant::new(|state: &State<Vector2<f64>>| state.q.perp(&state.p), &start);
+/// let mut integrator = Integrator::new(Gauss2, kepler(), start, 0.0625)?;
+/// integrator.integrate_with(100.0, |state| {
+///     energy.observe(state);
+///     angular_momentum.observe(state);
+/// })?;
+/// assert_eq!(angular_momentum.initial(), 0.8);
+/// // Quadratic invariants are conserved by Gauss methods, the energy nearly.
+/// assert!(angular_momentum.relative_deviation() < 1e-13);
+/// assert!((1e-5..1e-2).contains(&energy.relative_deviation()));
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Invariant<F> {
+    function: F,
+    initial: f64,
+    last: f64,
+    largest: f64,
+}
+
+impl<F> Invariant<F> {
+    /// An observer of `function`, beginning with a state.
+    pub fn new<V>(function: F, start: &State<V>) -> Self
+    where
+        F: Fn(&State<V>) -> f64,
+    {
+        let initial = function(start);
+        Self {
+            function,
+            initial,
+            last: initial,
+            largest: 0.0,
+        }
+    }
+
+    /// Looks at a state.
+    pub fn observe<V>(&mut self, state: &State<V>)
+    where
+        F: Fn(&State<V>) -> f64,
+    {
+        self.last = (self.function)(state);
+        let deviation = (self.last - self.initial).abs();
+        // NaN once and for all.
+        if !(deviation <= self.largest || self.largest.is_nan()) {
+            self.largest = deviation;
+        }
+    }
+
+    /// The value at the first state.
+    pub const fn initial(&self) -> f64 {
+        self.initial
+    }
+
+    /// The value at the latest state.
+    pub const fn last(&self) -> f64 {
+        self.last
+    }
+
+    /// The largest distance from the first value so far; NaN if one of the values was.
+    pub const fn deviation(&self) -> f64 {
+        self.largest
+    }
+
+    /// [`deviation`](Self::deviation), relative to the first value.
+    pub fn relative_deviation(&self) -> f64 {
+        self.largest / self.initial.abs()
+    }
+
+    /// The distance of the latest value from the first one, with its sign, relative to the latter.
+    pub fn relative_error(&self) -> f64 {
+        (self.last - self.initial) / self.initial.abs()
+    }
+}
+
+impl Invariant<()> {
+    /// An observer of the energy of `system`, in double precision; NaN where the system does not know it.
+    pub fn energy<V, S>(
+        system: S,
+        start: &State<V>,
+    ) -> Invariant<impl Fn(&State<V>) -> f64 + use<V, S>>
+    where
+        V: Vector<Scalar = f64>,
+        S: Hamiltonian<V>,
+    {
+        let energy = move |state: &State<V>| {
+            let energy = system.energy(state.time, &state.q, &state.p);
+            energy.unwrap_or(f64::NAN)
+        };
+        Invariant::new(energy, start)
+    }
+}

@@ -1,0 +1,15 @@
+//! What is seen of a run: states, dense output, events, invariants, progress.
+
+pub(crate) mod at_times;
+pub(crate) mod brent;
+pub(crate) mod dense;
+pub(crate) mod event;
+pub(crate) mod invariant;
+pub(crate) mod progress;
+pub(crate) mod states;
+
+pub use dense::DenseOutput;
+pub use event::{Event, Events, Moment};
+pub use invariant::Invariant;
+pub use progress::Progress;
+pub use states::States;

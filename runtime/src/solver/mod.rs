@@ -1,0 +1,25 @@
+//! How coupled stages are found.
+
+pub(crate) mod convergence;
+pub(crate) mod fixed_point;
+#[cfg(feature = "alloc")]
+pub(crate) mod newton;
+pub(crate) mod nystrom;
+pub(crate) mod predictor;
+pub(crate) mod relax;
+pub(crate) mod simd;
+
+pub use fixed_point::FixedPoint;
+#[cfg(feature = "alloc")]
+pub use newton::{
+    Analytic, BandMatrix, Banded, Coupling, Dense, Derivatives, Differences, EveryStage,
+    FixedPointThenNewton, FixedPointThenNewtonMemory, Jacobian, LinearSolver, Linearized, Matrices,
+    Newton, NewtonMemory, Parts,
+};
+#[cfg(feature = "num-dual")]
+pub use newton::{DualNumbers, HamiltonianInDuals};
+pub use nystrom::{SecondOrderInLanes, SecondOrderStages};
+pub use relax::relax;
+pub use simd::gauss_seidel::InLanes;
+pub use simd::jacobi::AtOnceInLanes;
+pub use simd::stages::LaneStages;

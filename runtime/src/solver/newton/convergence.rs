@@ -1,0 +1,238 @@
+//! When a Newton iteration has settled, and what is done where it does not.
+
+use super::linear_solver::LinearSolver;
+use super::sweep::ByIncrements;
+use crate::method::{Change, Failure, Kept, StageTableau, Stopping, Work};
+use crate::number::{Scalar, Summation, Vector};
+use crate::solver::convergence::{
+    CONTRACTION, NOISIEST, PATIENCE, ROUNDING, STAGNATION, coin, is_last, non_finite,
+};
+use crate::system::{Class, Hamiltonian, Separable};
+
+/// Sweeps in which the change has not halved, after which it stagnates.
+///
+/// In the rounded equations a change can shrink for thousands of sweeps by less than a part in a thousand: the force at a rounded
+/// stage stays the same while the increments approach it.
+const SLOW: u32 = 3;
+
+/// Changes up to this many times a [measured](ByIncrements::noise) noise are noise: a sweep rounds in more places than there are
+/// arguments.
+const NOISY: f64 = 16.0;
+
+/// Changes of so many units of EPSILON cannot be told from smaller ones: a component that ought to be zero may shrink to 10⁻³⁰⁰.
+const FLOOR: f64 = 0.25;
+
+/// The noise is measured at most this often in one attempt.
+const MOST_MEASUREMENTS: u32 = 4;
+
+/// Sweeps that an attempt with the derivatives at one point may take where the derivatives at every stage can be had.
+pub(super) const MOST_SWEEPS: u32 = 16;
+
+/// Steps that are left to the derivatives at every stage after one that needed them.
+const STEPS_IN_FULL: u32 = 16;
+
+/// Where the iteration starts, and which derivatives it takes.
+#[derive(Clone, Copy)]
+pub(super) struct Attempt {
+    /// From the stages of the step before.
+    pub(super) kept: bool,
+    /// The derivatives at every stage, anew in every sweep.
+    pub(super) in_full: bool,
+    /// Whether another attempt follows.
+    gives_up: bool,
+}
+
+/// The attempts of a step, one after another: from the stages of the step before, if they are kept, then from the start of the step;
+/// with the derivatives at one point, then with those at every stage, where these can be had. `in_full`: with those at once.
+fn attempts(kept: bool, in_full: bool, available: bool) -> impl Iterator<Item = Attempt> {
+    let all = [(true, false), (true, true), (false, false), (false, true)];
+    let attempts = all.into_iter().filter(move |&(from_kept, full)| {
+        (kept || !from_kept) && (full == in_full || full && !from_kept && available)
+    });
+    attempts.map(move |(kept, in_full)| Attempt {
+        kept,
+        in_full,
+        gives_up: available && !in_full,
+    })
+}
+
+/// Iterates until the stages have settled; returns what that took.
+pub(super) fn settle<P, R, V, S, L>(
+    sweeps: &mut ByIncrements<'_, P, R, V, S, L>,
+    kept: Kept,
+    stopping: Stopping,
+) -> Result<Work, Failure>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector,
+    S: Hamiltonian<V, Class = P::Class>,
+    L: LinearSolver<V, S>,
+{
+    let mut work = Work::default();
+    let steps_in_full = sweeps.steps_in_full();
+    let was_in_full = *steps_in_full > 0;
+    *steps_in_full = steps_in_full.saturating_sub(1);
+    let mut failure = None;
+    for attempt in attempts(kept.stages, was_in_full, L::EVERY_STAGE) {
+        match take(sweeps, attempt, stopping, &mut work) {
+            Ok(()) => {
+                if attempt.in_full && !was_in_full {
+                    *sweeps.steps_in_full() = STEPS_IN_FULL;
+                }
+                return Ok(work);
+            }
+            // Every other attempt from the start of the step begins with the same evaluations.
+            Err(failure @ Failure::NonFinite { stage: Some(_), .. }) if !attempt.kept => {
+                return Err(failure);
+            }
+            Err(latest) => failure = Some(latest),
+        }
+    }
+    Err(failure.unwrap_or(Failure::NoConvergence {
+        residual: f64::INFINITY,
+        iterations: 0,
+    }))
+}
+
+/// One attempt.
+fn take<P, R, V, S, L>(
+    sweeps: &mut ByIncrements<'_, P, R, V, S, L>,
+    attempt: Attempt,
+    stopping: Stopping,
+    work: &mut Work,
+) -> Result<(), Failure>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector,
+    S: Hamiltonian<V, Class = P::Class>,
+    L: LinearSolver<V, S>,
+{
+    let max_iterations = stopping.max_iterations;
+    let mut course = Course::default();
+    let mut once_more = false;
+    let mut measurements = 0;
+    sweeps.begin(attempt)?;
+    for iteration in 1..=max_iterations {
+        let change = sweeps.sweep()?;
+        work.iterations += 1;
+        work.evaluations += sweeps.evaluations();
+        if change.is_undefined() {
+            return Err(match iteration {
+                1 => non_finite(sweeps.non_finite_force(), || sweeps.non_finite(), &change),
+                _ => course.failure(iteration),
+            });
+        }
+        let before = course.last;
+        course.note::<P::Class>(&change, FLOOR * V::Scalar::EPSILON);
+        work.scales = change.scales();
+        work.residual = change.residual();
+        let within = |tolerance: f64| {
+            tolerance > 0.0
+                && change.q.difference() <= tolerance
+                && change.p.difference() <= tolerance
+        };
+        let is_hastily_settled = !R::COMPENSATED
+            && (within(stopping.tolerance) || is_last::<V::Scalar>(before, &change, true));
+        if once_more || is_hastily_settled || change.residual() == 0.0 {
+            return Ok(());
+        }
+        if course.stagnates(iteration, max_iterations) {
+            let is_within = |size: f64| size <= ROUNDING * V::Scalar::EPSILON;
+            // The noise of derivatives at one point may be larger than it has to be.
+            let may_be_noise = !attempt.gives_up || is_within(Separable::settling(&change));
+            let is_noise = is_within(P::Class::settling(&change))
+                || may_be_noise && course.may_be_noise() && measurements < MOST_MEASUREMENTS && {
+                    measurements += 1;
+                    work.evaluations += 2 * sweeps.evaluations();
+                    let [q, p] = sweeps.noise()?;
+                    change.q.difference() <= NOISY * q && change.p.difference() <= NOISY * p
+                };
+            if is_noise {
+                if !R::COMPENSATED || iteration == max_iterations || !coin(sweeps.time()) {
+                    return Ok(());
+                }
+                once_more = true;
+            }
+        }
+        let is_late = iteration >= MOST_SWEEPS || course.slow >= SLOW;
+        let is_far = P::Class::settling(&change) > ROUNDING * V::Scalar::EPSILON;
+        if attempt.gives_up && (is_late && is_far || sweeps.is_slow()) {
+            return Err(course.failure(iteration));
+        }
+    }
+    Err(course.failure(max_iterations))
+}
+
+/// How the changes have gone so far.
+///
+/// Their size is the smaller relative change of both halves for a separable system: where the positions rest, so do the forces, but for
+/// their rounding errors, and the momenta only follow. For a general one it is the larger.
+#[derive(Default)]
+struct Course {
+    last: Option<Change>,
+    /// The smallest one, and sweeps since.
+    smallest: Option<f64>,
+    idle: u32,
+    /// The last one that was at most half of this before, and sweeps since.
+    mark: Option<f64>,
+    slow: u32,
+    largest: f64,
+    /// Sweeps in a row in which one half rested.
+    resting: u32,
+}
+
+impl Course {
+    /// Takes note of a change; one below `floor` is not told from a smaller one.
+    fn note<C: Class>(&mut self, change: &Change, floor: f64) {
+        let size = C::settling(change).max(floor);
+        self.last = Some(*change);
+        self.largest = self.largest.max(size);
+        (self.smallest, self.idle) = match self.smallest {
+            Some(smallest) if size >= smallest => (Some(smallest), self.idle + 1),
+            _ => (Some(size), 0),
+        };
+        (self.mark, self.slow) = match self.mark {
+            Some(mark) if size > 0.5 * mark => (Some(mark), self.slow + 1),
+            _ => (Some(size), 0),
+        };
+        self.resting = match Separable::settling(change) <= floor {
+            true => self.resting + 1,
+            false => 0,
+        };
+    }
+
+    /// Whether the changes have stopped shrinking; at the bound one sweep without progress will do.
+    const fn stagnates(&self, iteration: u32, max_iterations: u32) -> bool {
+        let waited = iteration == max_iterations || self.idle > iteration / STAGNATION;
+        self.idle > 0 && waited || self.slow >= SLOW || self.resting > 1
+    }
+
+    /// Whether it is worthwhile to measure the noise: not while the iteration may be finding its way.
+    fn may_be_noise(&self) -> bool {
+        self.slow >= SLOW || self.resting > 1 || self.has_come_down()
+    }
+
+    fn has_come_down(&self) -> bool {
+        self.smallest
+            .is_some_and(|smallest| smallest <= CONTRACTION * self.largest)
+    }
+
+    /// Why it has not settled.
+    fn failure(&self, iterations: u32) -> Failure {
+        let residual = self.last.map_or(f64::INFINITY, |change| change.residual());
+        let is_low = |smallest: f64| residual <= NOISIEST.min(ROUNDING * smallest);
+        if self.slow >= PATIENCE && self.has_come_down() && self.smallest.is_some_and(is_low) {
+            Failure::Stagnation {
+                residual,
+                iterations,
+            }
+        } else {
+            Failure::NoConvergence {
+                residual,
+                iterations,
+            }
+        }
+    }
+}

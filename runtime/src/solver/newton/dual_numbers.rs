@@ -1,0 +1,152 @@
+//! Derivatives by dual numbers.
+
+use num_dual::{Dual64, DualNum};
+
+use super::jacobian::{Derivatives, Jacobian, groups, scatter};
+use crate::number::{Scalar, Vector};
+use crate::system::Hamiltonian;
+
+macro_rules! forward {
+    ($($function:ident)*) => {
+        $(
+            #[inline]
+            fn $function(self) -> Self {
+                DualNum::$function(&self)
+            }
+        )*
+    };
+}
+
+/// A number and its derivative.
+impl Scalar for Dual64 {
+    const EPSILON: f64 = f64::EPSILON;
+
+    #[inline]
+    fn from_f64(value: f64) -> Self {
+        Self::new(value, 0.0)
+    }
+
+    #[inline]
+    fn magnitude(self) -> f64 {
+        let (value, derivative) = (self.re.abs(), self.eps.abs());
+        if value >= derivative || value.is_nan() {
+            value
+        } else {
+            derivative
+        }
+    }
+
+    #[inline]
+    fn abs(self) -> Self {
+        if self.re.is_sign_negative() {
+            -self
+        } else {
+            self
+        }
+    }
+
+    forward! { sqrt recip exp ln sin cos tan asin acos atan sinh cosh tanh }
+}
+
+/// A system over vectors of doubles and over vectors of dual numbers: every one that is generic over its scalar.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a Hamiltonian system over the vectors `{V}` with dual numbers in place of doubles",
+    label = "this needs a system that is generic over its `Scalar`: `impl<T: Scalar> SeparableHamiltonian<SVector<T, N>> for …`"
+)]
+pub trait HamiltonianInDuals<V: Vector>: Hamiltonian<V> + Hamiltonian<V::With<Dual64>> {}
+
+impl<V: Vector, S> HamiltonianInDuals<V> for S where S: Hamiltonian<V> + Hamiltonian<V::With<Dual64>>
+{}
+
+/// Dual numbers through the code of the system, which has to be generic over its scalar: exact derivatives, one evaluation
+/// for each component or, of a band, for each of its columns.
+///
+/// ```
+/// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
+/// use symplectic::nalgebra::SVector;
+/// use symplectic::{Dense, DualNumbers, Error, Integrator, Newton, Scalar, SeparableHamiltonian, State};
+///
+/// /// H = p²/2 + 10⁸ (1 − cos q)
+/// struct Stiff;
+///
+/// impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for Stiff {
+///     fn velocity(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+///         *velocity = *p;
+///     }
+///
+///     fn force(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+///         force[0] = -q[0].sin() * T::from_f64(1e8);
+///     }
+/// }
+///
+/// # fn main() -> Result<(), Error> {
+/// let start = State::new(0.0, SVector::from([1e-3]), SVector::from([0.0]));
+/// let newton = Newton::<Dense<DualNumbers>>::new();
+/// let mut integrator = Integrator::new(Gauss3, Stiff, start, 0.01)?.with_solver(newton);
+/// integrator.integrate_to(1.0)?;
+/// assert!(integrator.statistics().mean_iterations() < 10.0);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DualNumbers;
+
+impl<V, S> Derivatives<V, S> for DualNumbers
+where
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInDuals<V>,
+{
+    /// Position, momentum and an evaluation.
+    type Memory = [V::With<Dual64>; 3];
+
+    fn memory(prototype: &V) -> Self::Memory {
+        core::array::from_fn(|_| prototype.zeros_with())
+    }
+
+    fn evaluate(
+        [q, p, out]: &mut Self::Memory,
+        system: &S,
+        time: f64,
+        position: &V,
+        momentum: &V,
+        jacobian: &mut Jacobian<f64>,
+    ) {
+        let time = Dual64::from_f64(time);
+        let groups = groups(jacobian);
+        seed(p, momentum, groups, groups);
+        for group in 0..groups {
+            seed(q, position, group, groups);
+            Hamiltonian::<V::With<Dual64>>::velocity(system, time, q, p, out);
+            let derivative = |i: usize| out.as_slice().get(i).map(|dual| dual.eps);
+            scatter(
+                &mut jacobian.velocity_by_position,
+                group,
+                groups,
+                derivative,
+            );
+            Hamiltonian::<V::With<Dual64>>::force(system, time, q, p, out);
+            let derivative = |i: usize| out.as_slice().get(i).map(|dual| dual.eps);
+            scatter(&mut jacobian.force_by_position, group, groups, derivative);
+        }
+        seed(q, position, groups, groups);
+        for group in 0..groups {
+            seed(p, momentum, group, groups);
+            Hamiltonian::<V::With<Dual64>>::velocity(system, time, q, p, out);
+            let derivative = |i: usize| out.as_slice().get(i).map(|dual| dual.eps);
+            scatter(
+                &mut jacobian.velocity_by_momentum,
+                group,
+                groups,
+                derivative,
+            );
+        }
+    }
+}
+
+/// A vector with the derivative 1 in every component whose number is that of the group, 0 in the others.
+fn seed<V: Vector<Scalar = f64>>(out: &mut V::With<Dual64>, from: &V, group: usize, groups: usize) {
+    let pairs = out.as_mut_slice().iter_mut().zip(from.as_slice());
+    for (i, (out, &from)) in pairs.enumerate() {
+        *out = Dual64::new(from, if i % groups == group { 1.0 } else { 0.0 });
+    }
+}

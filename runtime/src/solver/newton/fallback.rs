@@ -1,0 +1,178 @@
+//! The fixed-point iteration first, and Newton's where it fails.
+
+use core::fmt;
+
+use super::linear_solver::LinearSolver;
+use super::{Newton, memory::NewtonMemory};
+use crate::error::Quantity;
+use crate::method::{
+    Failure, Inside, Kept, Outcome, Solver, StageStorage, StageTableau, Step, Stopping, Work,
+};
+use crate::number::{Summation, Vector};
+use crate::solver::FixedPoint;
+use crate::solver::fixed_point::by_stages;
+use crate::system::Hamiltonian;
+
+/// Steps that are left to Newton's iteration after one that the fixed-point iteration has failed at.
+const PATIENCE: u32 = 16;
+
+/// [`FixedPoint`](crate::FixedPoint), and [`Newton`] where that fails: for systems that are stiff for a while.
+///
+/// A step that the fixed-point iteration fails at is counted as [rejected](crate::Statistics::rejected); the next 16 go to
+/// Newton's at once. Where it fails too, the error is that of Newton's iteration.
+///
+/// ```
+/// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
+/// use symplectic::nalgebra::Vector1;
+/// use symplectic::{Dense, Differences, Error, FixedPointThenNewton, Integrator, State, separable};
+///
+/// # fn main() -> Result<(), Error> {
+/// // An oscillator that is stiff for a while: ω² = 1 + 10⁸ exp(−(t − 5)²).
+/// let oscillator = separable::<Vector1<f64>, _, _>(
+///     |_time, p, velocity| *velocity = *p,
+///     |time, q, force| *force = -q * (1.0 + 1e8 * (-(time - 5.0) * (time - 5.0)).exp()),
+/// );
+/// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+/// let solver = FixedPointThenNewton::<Dense<Differences>>::new();
+/// let mut integrator = Integrator::new(Midpoint, oscillator, start, 0.01)?.with_solver(solver);
+/// integrator.integrate_to(10.0)?;
+/// assert!(integrator.statistics().rejected > 0);
+/// # Ok(())
+/// # }
+/// ```
+pub struct FixedPointThenNewton<L>(Newton<L>);
+
+impl<L> FixedPointThenNewton<L> {
+    /// The solver.
+    pub const fn new() -> Self {
+        Self(Newton::new())
+    }
+}
+
+impl<L> Clone for FixedPointThenNewton<L> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L> Copy for FixedPointThenNewton<L> {}
+
+impl<L> Default for FixedPointThenNewton<L> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<L> fmt::Debug for FixedPointThenNewton<L> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("FixedPointThenNewton")
+    }
+}
+
+/// The memory of [`FixedPointThenNewton`] for the plan `P`.
+pub struct FixedPointThenNewtonMemory<
+    V: Vector,
+    P: StageTableau,
+    S: Hamiltonian<V>,
+    L: LinearSolver<V, S>,
+> {
+    fixed_point: P::Stages<V>,
+    newton: NewtonMemory<V, P, S, L>,
+    /// Whether the step before was Newton's.
+    was_newton: bool,
+    /// Steps that are left to Newton's iteration.
+    waiting: u32,
+}
+
+impl<V: Vector, P: StageTableau, S: Hamiltonian<V>, L: LinearSolver<V, S>> StageStorage<V>
+    for FixedPointThenNewtonMemory<V, P, S, L>
+{
+    fn like(prototype: &V) -> Self {
+        Self {
+            fixed_point: StageStorage::like(prototype),
+            newton: StageStorage::like(prototype),
+            was_newton: false,
+            waiting: 0,
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        let newton = self.newton.non_finite();
+        newton.or_else(|| self.fixed_point.non_finite())
+    }
+
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        let newton = self.newton.mismatch(dimension);
+        newton.or_else(|| self.fixed_point.mismatch(dimension))
+    }
+}
+
+impl<V: Vector, P: StageTableau, S: Hamiltonian<V>, L: LinearSolver<V, S>> fmt::Debug
+    for FixedPointThenNewtonMemory<V, P, S, L>
+{
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("FixedPointThenNewtonMemory")
+            .field("newton", &self.newton)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<V, S, L> Solver<V, S> for FixedPointThenNewton<L>
+where
+    V: Vector,
+    S: Hamiltonian<V>,
+    L: LinearSolver<V, S>,
+{
+    type Memory<P: StageTableau> = FixedPointThenNewtonMemory<V, P, S, L>;
+
+    fn take<P, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<P>,
+        kept: Kept,
+        stopping: Stopping,
+        mut outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        P: StageTableau,
+        R: Summation,
+        S: Hamiltonian<V, Class = P::Class>,
+    {
+        // What is kept is kept by the solver of the step before.
+        let if_kept = |is: bool| if is { kept } else { Kept::default() };
+        let mut rejected = 0;
+        if memory.waiting == 0 {
+            let taken = by_stages::<P, R, V, S>(
+                step,
+                system,
+                &mut memory.fixed_point,
+                if_kept(!memory.was_newton),
+                stopping,
+                outcome.reborrow(),
+            );
+            if taken.is_ok() {
+                memory.was_newton = false;
+                return taken;
+            }
+            // It is full of numbers that have run away.
+            memory.fixed_point = StageStorage::like(step.q);
+            (rejected, memory.waiting) = (1, PATIENCE + 1);
+        }
+        memory.waiting -= 1;
+        let kept = if_kept(memory.was_newton);
+        let newton = &mut memory.newton;
+        let mut work = Newton::<L>::take::<P, R>(step, system, newton, kept, stopping, outcome)?;
+        memory.was_newton = true;
+        work.rejected = rejected;
+        Ok(work)
+    }
+
+    fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
+        if memory.was_newton {
+            <Newton<L> as Solver<V, S>>::extend::<P>(&memory.newton, at, q, p);
+        } else {
+            <FixedPoint as Solver<V, S>>::extend::<P>(&memory.fixed_point, at, q, p);
+        }
+    }
+}

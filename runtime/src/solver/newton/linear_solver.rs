@@ -1,0 +1,377 @@
+//! The linear systems of a Newton iteration.
+
+use alloc::vec::Vec;
+use core::fmt::Debug;
+use core::marker::PhantomData;
+
+use super::every_stage::{AllStages, EveryStage, NOT_FINITE};
+use super::jacobian::{BandMatrix, Derivatives, Jacobian};
+use super::lu::{Complex, Elimination};
+use crate::method::Failure;
+use crate::number::{Scalar, Vector};
+use crate::system::{Class, Hamiltonian};
+
+/// How the parts of the unknown of a linear system depend on each other: the factor `γ` in `(1 − γ J) x = r`.
+///
+/// `J` is `∂velocity/∂p · ∂force/∂q`, n×n, for a separable system, with `γ ~ h²`. For a general one it is
+/// `∂(velocity, force)/∂(q, p)`, 2n×2n, with `γ ~ h`; there the components of a vector are `q_1, p_1, q_2, p_2, …`
+#[derive(Clone, Copy, Debug)]
+pub enum Coupling<'a> {
+    /// A number.
+    Real(f64),
+    /// A complex number, its real and its imaginary part: of an unknown of two parts, `x_1 + i x_2`.
+    Complex(f64, f64),
+    /// A matrix over the stages: the columns of `J` are multiplied by the first one of the two if they belong to
+    /// positions, by the second one if they belong to momenta; `J` of a separable system is by the first.
+    Stages {
+        /// The number of stages, and of parts of the unknown.
+        count: usize,
+        /// By rows.
+        positions: &'a [f64],
+        /// By rows.
+        momenta: &'a [f64],
+    },
+}
+
+/// How many parts the unknown of a linear system has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parts {
+    /// One: [`Coupling::Real`].
+    One,
+    /// Two: [`Coupling::Complex`].
+    Two,
+    /// One a stage: [`Coupling::Stages`].
+    Stages(usize),
+}
+
+impl Parts {
+    /// The number.
+    pub const fn count(self) -> usize {
+        match self {
+            Self::One => 1,
+            Self::Two => 2,
+            Self::Stages(count) => count,
+        }
+    }
+}
+
+/// Solves the linear systems of a [`Newton`](crate::Newton) iteration for a system `S` over the vectors `V`.
+///
+/// [`Dense`] and [`Banded`] hold matrices. One that holds none, such as a Krylov method, notes the point in
+/// [`linearize`](Self::linearize), has nothing or a preconditioner to do in [`factor`](Self::factor), and applies the
+/// derivatives of the system where it solves: it needs to solve no more exactly than the iteration has to contract.
+pub trait LinearSolver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
+    /// What it needs, made once and used for every step.
+    type Memory: Clone + Debug;
+
+    /// That, for vectors of the dimension of `prototype`, and linear systems with these parts.
+    fn memory(prototype: &V, systems: &[Parts]) -> Self::Memory;
+
+    /// Takes the derivatives at `(time, q, p)` from here on; returns whether they are finite.
+    fn linearize(memory: &mut Self::Memory, system: &S, time: V::Scalar, q: &V, p: &V) -> bool;
+
+    /// Prepares the linear system with this number, from 0; returns whether it is regular.
+    fn factor(memory: &mut Self::Memory, system: &S, number: usize, coupling: Coupling<'_>)
+    -> bool;
+
+    /// Solves the linear system with this number: `unknown` holds the right-hand side, component by component with all
+    /// its parts.
+    fn solve(memory: &mut Self::Memory, system: &S, number: usize, unknown: &mut [V::Scalar]);
+
+    /// Writes `∂velocity/∂p · vector`; asked for separable systems only.
+    fn velocity_by_momentum(
+        memory: &Self::Memory,
+        system: &S,
+        vector: &[V::Scalar],
+        product: &mut [V::Scalar],
+    );
+
+    /// Writes `∂force/∂q · vector`; asked for separable systems only.
+    fn force_by_position(
+        memory: &Self::Memory,
+        system: &S,
+        vector: &[V::Scalar],
+        product: &mut [V::Scalar],
+    );
+
+    /// Whether [`correct`](Self::correct) is implemented.
+    const EVERY_STAGE: bool = false;
+
+    /// Full Newton: takes the derivatives at every stage, and makes corrections of the residuals `x` of `h velocity` and `y` of
+    /// `h force`, stage by stage; of a general system both are in `x`, component by component by turns.
+    ///
+    /// [`Newton`](crate::Newton) asks for it where derivatives at one point do not contract well.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::NonFinite`], where a derivative is not finite; [`Failure::SingularMatrix`].
+    fn correct(
+        _memory: &mut Self::Memory,
+        _system: &S,
+        _stages: EveryStage<'_, V>,
+        _x: &mut [V::Scalar],
+        _y: &mut [V::Scalar],
+    ) -> Result<(), Failure> {
+        Err(Failure::SingularMatrix)
+    }
+}
+
+/// Full matrices, with derivatives from `D`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Dense<D>(PhantomData<D>);
+
+/// Bands, with derivatives from `D`: those of a component are zero but by the `HALF` components before and after it.
+///
+/// Entries outside are left out. Those that are small make the iteration slower, and never its result wrong.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Banded<const HALF: usize, D>(PhantomData<D>);
+
+/// The memory of [`Dense`] and [`Banded`].
+#[derive(Clone, Debug)]
+pub struct Matrices<T, D> {
+    derivatives: D,
+    jacobian: Jacobian<T>,
+    /// The matrix `J` of [`Coupling`].
+    matrix: BandMatrix<T>,
+    factors: Vec<Factors<T>>,
+    /// Made when first needed.
+    all_stages: Option<AllStages<T>>,
+}
+
+/// The factors of one linear system.
+#[derive(Clone, Debug)]
+enum Factors<T> {
+    Real(Elimination<T>),
+    Complex(Elimination<Complex<T>>),
+}
+
+impl<T: Scalar, D> Matrices<T, D> {
+    fn new(
+        dimension: usize,
+        separable: bool,
+        half_bandwidth: usize,
+        systems: &[Parts],
+        derivatives: D,
+    ) -> Self {
+        let jacobian = Jacobian::new(dimension, half_bandwidth);
+        let half = jacobian.force_by_position.half_bandwidth();
+        let matrix: BandMatrix<T> = if separable {
+            BandMatrix::new(dimension, 2 * half)
+        } else {
+            BandMatrix::new(2 * dimension, 2 * half + 1)
+        };
+        let (size, half) = (matrix.size(), matrix.half_bandwidth());
+        let factors = systems.iter().map(|parts| match parts {
+            Parts::One => Factors::Real(Elimination::new(size, half)),
+            Parts::Two => Factors::Complex(Elimination::new(size, half)),
+            Parts::Stages(count) => {
+                let half = (half + 1) * count;
+                Factors::Real(Elimination::new(size * count, half.saturating_sub(1)))
+            }
+        });
+        Self {
+            derivatives,
+            factors: factors.collect(),
+            matrix,
+            jacobian,
+            all_stages: None,
+        }
+    }
+
+    /// Makes the matrix of the derivatives.
+    fn assemble(&mut self, separable: bool) {
+        let Jacobian {
+            velocity_by_position,
+            velocity_by_momentum,
+            force_by_position,
+        } = &self.jacobian;
+        for i in 0..self.matrix.size() {
+            for j in self.matrix.columns(i) {
+                let entry = if separable {
+                    let inner = velocity_by_momentum.columns(i);
+                    let products =
+                        inner.map(|k| velocity_by_momentum.get(i, k) * force_by_position.get(k, j));
+                    products.fold(T::zero(), |sum, product| sum + product)
+                } else {
+                    let (k, l) = (i / 2, j / 2);
+                    match (i % 2, j % 2) {
+                        (0, 0) => velocity_by_position.get(k, l),
+                        (0, _) => velocity_by_momentum.get(k, l),
+                        (_, 0) => force_by_position.get(k, l),
+                        _ => -velocity_by_position.get(l, k),
+                    }
+                };
+                self.matrix.set(i, j, entry);
+            }
+        }
+    }
+
+    fn factor(&mut self, number: usize, coupling: Coupling<'_>, separable: bool) -> bool {
+        let matrix = &self.matrix;
+        let unit = |same: bool| if same { T::one() } else { T::zero() };
+        match (self.factors.get_mut(number), coupling) {
+            (Some(Factors::Real(factors)), Coupling::Real(factor)) => {
+                let factor = T::from_f64(factor);
+                factors.factor(|i, j| unit(i == j) - factor * matrix.get(i, j))
+            }
+            (Some(Factors::Complex(factors)), Coupling::Complex(re, im)) => {
+                let (re, im) = (T::from_f64(re), T::from_f64(im));
+                factors.factor(|i, j| {
+                    let entry = matrix.get(i, j);
+                    Complex {
+                        re: unit(i == j) - re * entry,
+                        im: -(im * entry),
+                    }
+                })
+            }
+            (
+                Some(Factors::Real(factors)),
+                Coupling::Stages {
+                    count,
+                    positions,
+                    momenta,
+                },
+            ) => factors.factor(|row, column| {
+                let ((k, i), (l, j)) =
+                    ((row / count, row % count), (column / count, column % count));
+                let of_position = separable || l % 2 == 0;
+                let coupling = if of_position { positions } else { momenta };
+                let factor = T::from_f64(coupling[i * count + j]);
+                unit(row == column) - factor * matrix.get(k, l)
+            }),
+            _ => false,
+        }
+    }
+
+    fn solve(&mut self, number: usize, unknown: &mut [T]) {
+        match self.factors.get_mut(number) {
+            Some(Factors::Real(factors)) => {
+                let (right, unknown) = (factors.right.len(), unknown);
+                let unknown = &mut unknown[..right];
+                factors.right.copy_from_slice(unknown);
+                factors.solve();
+                unknown.copy_from_slice(&factors.right);
+            }
+            Some(Factors::Complex(factors)) => {
+                for (right, parts) in factors.right.iter_mut().zip(unknown.chunks_exact(2)) {
+                    *right = Complex {
+                        re: parts[0],
+                        im: parts[1],
+                    };
+                }
+                factors.solve();
+                for (right, parts) in factors.right.iter().zip(unknown.chunks_exact_mut(2)) {
+                    parts[0] = right.re;
+                    parts[1] = right.im;
+                }
+            }
+            None => {}
+        }
+    }
+}
+
+macro_rules! matrices {
+    ([$($parameter:tt)*] $name:ty, $half_bandwidth:expr) => {
+        impl<V, S, D, $($parameter)*> LinearSolver<V, S> for $name
+        where
+            V: Vector,
+            S: Hamiltonian<V>,
+            D: Derivatives<V, S>,
+        {
+            type Memory = Matrices<V::Scalar, D::Memory>;
+
+            fn memory(prototype: &V, systems: &[Parts]) -> Self::Memory {
+                let dimension = prototype.dimension();
+                Matrices::new(
+                    dimension,
+                    S::Class::SEPARABLE,
+                    $half_bandwidth(dimension),
+                    systems,
+                    D::memory(prototype),
+                )
+            }
+
+            fn linearize(
+                memory: &mut Self::Memory,
+                system: &S,
+                time: V::Scalar,
+                q: &V,
+                p: &V,
+            ) -> bool {
+                memory.jacobian.clear();
+                let Matrices { derivatives, jacobian, .. } = memory;
+                D::evaluate(derivatives, system, time, q, p, jacobian);
+                memory.assemble(S::Class::SEPARABLE);
+                memory.jacobian.is_finite()
+            }
+
+            fn factor(
+                memory: &mut Self::Memory,
+                _system: &S,
+                number: usize,
+                coupling: Coupling<'_>,
+            ) -> bool {
+                memory.factor(number, coupling, S::Class::SEPARABLE)
+            }
+
+            fn solve(
+                memory: &mut Self::Memory,
+                _system: &S,
+                number: usize,
+                unknown: &mut [V::Scalar],
+            ) {
+                memory.solve(number, unknown);
+            }
+
+            fn velocity_by_momentum(
+                memory: &Self::Memory,
+                _system: &S,
+                vector: &[V::Scalar],
+                product: &mut [V::Scalar],
+            ) {
+                memory.jacobian.velocity_by_momentum.multiply(vector, product);
+            }
+
+            fn force_by_position(
+                memory: &Self::Memory,
+                _system: &S,
+                vector: &[V::Scalar],
+                product: &mut [V::Scalar],
+            ) {
+                memory.jacobian.force_by_position.multiply(vector, product);
+            }
+
+            const EVERY_STAGE: bool = true;
+
+            fn correct(
+                memory: &mut Self::Memory,
+                system: &S,
+                stages: EveryStage<'_, V>,
+                x: &mut [V::Scalar],
+                y: &mut [V::Scalar],
+            ) -> Result<(), Failure> {
+                let Matrices { derivatives, jacobian, all_stages, .. } = memory;
+                let (points, momenta) = (stages.count(), stages.p.len());
+                let all = all_stages.get_or_insert_with(|| {
+                    AllStages::new(jacobian, points, momenta, S::Class::SEPARABLE)
+                });
+                for (number, jacobian) in all.jacobians.iter_mut().enumerate() {
+                    let (time, q, p) = stages.point(number);
+                    jacobian.clear();
+                    D::evaluate(derivatives, system, V::Scalar::from_f64(time), q, p, jacobian);
+                    if !jacobian.is_finite() {
+                        return Err(NOT_FINITE);
+                    }
+                }
+                if S::Class::SEPARABLE {
+                    all.correct_separable(&stages, x, y)
+                } else {
+                    all.correct_general(&stages, x)
+                }
+            }
+        }
+    };
+}
+
+matrices!([] Dense<D>, |dimension: usize| dimension);
+matrices!([const HALF: usize] Banded<HALF, D>, |_| HALF);

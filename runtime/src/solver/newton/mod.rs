@@ -1,0 +1,184 @@
+//! Coupled stages by a simplified Newton iteration.
+
+mod convergence;
+#[cfg(feature = "num-dual")]
+mod dual_numbers;
+mod every_stage;
+mod fallback;
+mod jacobian;
+mod linear_solver;
+mod lu;
+mod memory;
+mod sweep;
+
+use core::fmt;
+use core::marker::PhantomData;
+
+#[cfg(feature = "num-dual")]
+pub use dual_numbers::{DualNumbers, HamiltonianInDuals};
+pub use every_stage::EveryStage;
+pub use fallback::{FixedPointThenNewton, FixedPointThenNewtonMemory};
+pub use jacobian::{Analytic, BandMatrix, Derivatives, Differences, Jacobian, Linearized};
+pub use linear_solver::{Banded, Coupling, Dense, LinearSolver, Matrices, Parts};
+pub use memory::NewtonMemory;
+
+use crate::integrator::Integrator;
+use crate::method::{
+    Failure, Inside, Kept, Method, Outcome, Solver, StageTableau, Step, Stopping,
+    StoredEvaluations, Work,
+};
+use crate::number::{Summation, Vector};
+use crate::system::Hamiltonian;
+use convergence::settle;
+use sweep::ByIncrements;
+
+/// The simplified Newton iteration, for stiff and strongly coupled systems; `L`, a [`LinearSolver`], solves its linear
+/// systems: [`Dense`] or [`Banded`], with derivatives that are [`Analytic`], of dual numbers, or [`Differences`].
+///
+/// The unknowns are the increments `h velocity_j` and `h force_j`, not the stages: in a stiff system the evaluation at a
+/// rounded stage is off by the rounding error times the stiffness, and a solution of the linear system is not. With the
+/// derivatives at one point in the middle of the stages, and the residuals `ρ`, the correction of a separable system is
+///
+/// ```text
+/// (1 − h² ÃA ⊗ ∂v/∂p ∂f/∂q) x = ρ_v + h Ã ⊗ ∂v/∂p ρ_f      y = ρ_f + h A ⊗ ∂f/∂q x
+/// ```
+///
+/// and that of a general one `(1 − h A ⊗ J) (x, y) = (ρ_v, ρ_f)`, where the columns of `y` have `Ã`. The stages are
+/// decoupled by the [`Decoupling`](crate::Decoupling) of the method, so that in place of one matrix with sn rows there are
+/// s/2 complex ones with n, as in Hairer & Wanner, *Solving ODEs II*, IV.8.
+///
+/// # Derivatives
+///
+/// The factors are kept from step to step. They are computed anew if the step size changes, if nothing is [kept](Kept::stages) of the
+/// step before, after a step in which the change shrank by less than a factor of 32 a sweep, and at once if the contraction forecasts more
+/// than 16 sweeps. Derivatives at one point cannot do for all stages where a stiff direction turns within the step, as on a pendulum with a
+/// spring of frequency ω if `h²ω` is above 1. If renewed ones still contract too slowly, the step starts again by full Newton, with the
+/// derivatives of every stage in every sweep ([`LinearSolver::correct`]), and so do the next 16 steps.
+///
+/// # Convergence
+///
+/// The iteration stops if the change of the stages no longer shrinks and is at the level of rounding, so that the energy does not drift
+/// by what is left:
+///
+/// * The change stagnates if it has not become smaller for one sweep and a sixteenth of all, or has not halved in three.
+/// * It is at the level of rounding at 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) of the largest position or momentum: of
+///   either for a separable system, as [`Class::settling`](crate::Class::settling) says. Otherwise the noise is measured: the arguments of
+///   all evaluations move by one unit, and a change up to 16 times the response is noise. A stiff spring `k (r − 1)` is evaluated with an
+///   error of `k` units; momenta then are uncertain by `1/h` units of the positions.
+///
+/// With [`Plain`](crate::Plain) sums it stops earlier, as [`FixedPoint`](crate::FixedPoint) does. The change that was left is
+/// [`Statistics::largest_residual`](crate::Statistics::largest_residual).
+///
+/// A step fails with [`Error::NoConvergence`](crate::Error::NoConvergence) if full Newton does not converge either, and with
+/// [`Error::Stagnation`](crate::Error::Stagnation) if it comes down but stands still far above rounding: the evaluations are noisier.
+///
+/// ```
+/// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
+/// use symplectic::nalgebra::Vector2;
+/// use symplectic::{Dense, Differences, Error, Integrator, Newton, State, separable};
+///
+/// # fn main() -> Result<(), Error> {
+/// // A pendulum on a stiff spring: H = |p|²/2 + 10⁸ (|q| − 1)²/2 + q₂.
+/// let pendulum = || separable::<Vector2<f64>, _, _>(
+///     |_time, p, velocity| *velocity = *p,
+///     |_time, q, force| *force = q * (1e8 * (q.norm().recip() - 1.0)) - Vector2::new(0.0, 1.0),
+/// );
+/// let start = || State::new(0.0, Vector2::new(1.0, 0.0), Vector2::new(0.0, 0.0));
+///
+/// let mut fixed_point = Integrator::new(Gauss4, pendulum(), start(), 0.01)?;
+/// assert!(matches!(fixed_point.step(), Err(Error::NoConvergence { .. })));
+///
+/// let newton = Newton::<Dense<Differences>>::new();
+/// let mut integrator = Integrator::new(Gauss4, pendulum(), start(), 0.01)?.with_solver(newton);
+/// let end = integrator.integrate_to(10.0)?;
+/// assert!((end.q.norm() - 1.0).abs() < 1e-6);
+/// assert!(integrator.statistics().mean_iterations() < 10.0);
+/// # Ok(())
+/// # }
+/// ```
+pub struct Newton<L>(PhantomData<L>);
+
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+    Integrator<M, S, V, R, N>
+{
+    /// The same integrator with [`Newton`]'s iteration, on full matrices of [`Differences`]: for stiff systems with few
+    /// components. An explicit method stays what it is.
+    ///
+    /// ```
+    /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, separable};
+    /// # fn main() -> Result<(), Error> {
+    /// let stiff = separable::<Vector1<f64>, _, _>(|_, p, velocity| *velocity = *p, |_, q, force| *force = -q * 1e12);
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+    /// let mut integrator = Integrator::new(Midpoint, stiff, start, 0.1)?.by_newton();
+    /// integrator.integrate_to(10.0)?;
+    /// assert_eq!(integrator.statistics().factorisations, 1);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn by_newton(self) -> Integrator<M, S, V, R, Newton<Dense<Differences>>> {
+        self.with_solver(Newton::new())
+    }
+}
+
+impl<L> Newton<L> {
+    /// The solver.
+    pub const fn new() -> Self {
+        Self(PhantomData)
+    }
+}
+
+impl<L> Clone for Newton<L> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L> Copy for Newton<L> {}
+
+impl<L> Default for Newton<L> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<L> fmt::Debug for Newton<L> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("Newton")
+    }
+}
+
+impl<V: Vector, S: Hamiltonian<V>, L: LinearSolver<V, S>> Solver<V, S> for Newton<L> {
+    type Memory<P: StageTableau> = NewtonMemory<V, P, S, L>;
+
+    fn take<P, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<P>,
+        kept: Kept,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        P: StageTableau,
+        R: Summation,
+        S: Hamiltonian<V, Class = P::Class>,
+    {
+        let mut sweeps = ByIncrements::<P, R, V, S, L>::new(step, system, memory);
+        let mut work = settle(&mut sweeps, kept, stopping)?;
+        work.factorisations = sweeps.finish(outcome);
+        Ok(work)
+    }
+
+    fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
+        let halves = [(&P::MOMENTA, &memory.u, q), (&P::POSITIONS, &memory.w, p)];
+        for (half, values, out) in halves {
+            let increments = StoredEvaluations {
+                values,
+                carried: &[],
+            };
+            at.add(half, P::INCREMENTS, increments, out);
+        }
+    }
+}

@@ -1,0 +1,767 @@
+//! The sweeps of a Newton iteration.
+
+use core::marker::PhantomData;
+
+use num_traits::Zero;
+
+use super::convergence::{Attempt, MOST_SWEEPS};
+use super::every_stage::{EveryStage, NOT_FINITE};
+use super::linear_solver::{Coupling, LinearSolver};
+use super::memory::{NewtonMemory, rows};
+use crate::error::Quantity;
+use crate::method::storage::first_non_finite_of;
+use crate::method::{
+    Change, Failure, HalfTableau, Outcome, PartChange, StageStorage, StageTableau, Step,
+};
+use crate::number::summation::add;
+use crate::number::{Scalar, Summation, Vector};
+use crate::system::{Class, Hamiltonian, Separable};
+
+/// A change that goes on by more than this factor makes the derivatives stale for the next step.
+const GOOD: f64 = 1.0 / 32.0;
+
+/// Changes of so many units of EPSILON are rounding errors, in the forecast of how many sweeps an iteration takes.
+const ROUNDING: f64 = 16.0;
+
+/// Changes below this many units of EPSILON may be noise, and say nothing about the contraction.
+const NOISE: f64 = 16384.0;
+
+/// Steps without extrapolated starting values after one in which they were worse than the start of the step.
+const PATIENCE: u32 = 16;
+
+/// The increments of a plan, all corrected at once in a sweep.
+pub(super) struct ByIncrements<'a, P, R, V: Vector, S: Hamiltonian<V>, L: LinearSolver<V, S>> {
+    step: &'a Step<'a, V>,
+    system: &'a S,
+    memory: &'a mut NewtonMemory<V, P, S, L>,
+    /// The change in the sweep before.
+    last: f64,
+    /// Sweeps made.
+    sweeps: u32,
+    /// Sweeps since the matrices were factored, or since the beginning.
+    since: u32,
+    /// Whether the derivatives are taken at every stage, anew in every sweep.
+    in_full: bool,
+    /// Whether the derivatives were taken anew within the step.
+    renewed: bool,
+    /// Whether it contracts too slowly with derivatives that were taken anew.
+    slow: bool,
+    sums: PhantomData<R>,
+}
+
+impl<'a, P, R, V, S, L> ByIncrements<'a, P, R, V, S, L>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector,
+    S: Hamiltonian<V, Class = P::Class>,
+    L: LinearSolver<V, S>,
+{
+    pub(super) fn new(
+        step: &'a Step<'a, V>,
+        system: &'a S,
+        memory: &'a mut NewtonMemory<V, P, S, L>,
+    ) -> Self {
+        memory.factorisations = 0;
+        Self {
+            step,
+            system,
+            memory,
+            last: f64::NAN,
+            sweeps: 0,
+            since: 0,
+            in_full: false,
+            renewed: false,
+            slow: false,
+            sums: PhantomData,
+        }
+    }
+
+    /// Evaluations in one sweep.
+    pub(super) const fn evaluations(&self) -> u32 {
+        (P::POSITIONS.count + P::MOMENTA.count) as u32
+    }
+
+    /// When the step starts.
+    pub(super) const fn time(&self) -> f64 {
+        self.step.time
+    }
+
+    /// How many steps are left to the derivatives at every stage.
+    pub(super) const fn steps_in_full(&mut self) -> &mut u32 {
+        &mut self.memory.steps_in_full
+    }
+
+    /// Whether it contracts too slowly with derivatives at one point that were taken anew.
+    pub(super) const fn is_slow(&self) -> bool {
+        self.slow
+    }
+
+    /// Starting values, and derivatives there if there are none.
+    pub(super) fn begin(&mut self, attempt: Attempt) -> Result<(), Failure> {
+        let memory = &mut *self.memory;
+        (self.last, self.sweeps, self.since) = (f64::NAN, 0, 0);
+        (self.in_full, self.renewed, self.slow) = (attempt.in_full, false, false);
+        memory.contraction = 0.0;
+        if !attempt.kept {
+            memory.stale = true;
+            let evaluations = memory.velocity.iter_mut().chain(&mut memory.force);
+            evaluations.for_each(clear);
+        }
+        let extrapolates = attempt.kept
+            && memory.waiting == 0
+            && !P::MOMENTA.extrapolation.is_empty()
+            && !P::POSITIONS.extrapolation.is_empty();
+        memory.first_change = extrapolates.then_some(f64::NAN);
+        if extrapolates {
+            extrapolate(&P::MOMENTA, &mut memory.u, &mut memory.unknown);
+            extrapolate(&P::POSITIONS, &mut memory.w, &mut memory.unknown);
+        } else {
+            memory.u.iter_mut().chain(&mut memory.w).for_each(clear);
+        }
+        self.values();
+        if self.in_full {
+            // Those at one point have nothing to do with the steps after this one.
+            self.memory.stale = true;
+            self.scale();
+            Ok(())
+        } else if self.memory.stale || self.memory.factored != Some(self.step.size) {
+            self.factor()
+        } else {
+            Ok(())
+        }
+    }
+
+    /// The first evaluation that is not finite although its argument is.
+    pub(super) fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.memory.non_finite()
+    }
+
+    /// The first stage, from 1, whose force is not finite.
+    pub(super) fn non_finite_force(&self) -> Option<usize> {
+        first_non_finite_of(&self.memory.force)
+    }
+
+    /// Corrects all increments; returns how much that moved the stages.
+    pub(super) fn sweep(&mut self) -> Result<Change, Failure> {
+        self.evaluate();
+        self.residuals();
+        self.correct()?;
+        self.update();
+        let change = self.values();
+        self.judge(&change)?;
+        Ok(change)
+    }
+
+    /// By how much rounding alone moves the positions and the momenta of the stages in a sweep: what comes out of it where their
+    /// components are off by a unit of EPSILON, up or down.
+    pub(super) fn noise(&mut self) -> Result<[f64; 2], Failure> {
+        self.evaluate();
+        self.residuals();
+        let NewtonMemory {
+            q,
+            p,
+            x,
+            y,
+            residuals,
+            ..
+        } = &mut *self.memory;
+        residuals[0].copy_from_slice(x);
+        residuals[1].copy_from_slice(y);
+        q.iter_mut().enumerate().for_each(|(i, q)| jog(q, i));
+        p.iter_mut().enumerate().for_each(|(j, p)| jog(p, j));
+        self.evaluate();
+        self.residuals();
+        let NewtonMemory {
+            x, y, residuals, ..
+        } = &mut *self.memory;
+        for (new, old) in [(x, &residuals[0]), (y, &residuals[1])] {
+            new.iter_mut().zip(old).for_each(|(new, &old)| *new -= old);
+        }
+        self.correct()?;
+        let noise = self.extent();
+        self.values();
+        Ok(noise)
+    }
+
+    /// Writes the result of the step, and decides what is kept for the next one; returns how often the linear systems were
+    /// factored.
+    pub(super) fn finish(self, outcome: Outcome<'_, V>) -> u32 {
+        let Self { step, memory, .. } = self;
+        let Outcome { q, q_low, p, p_low } = outcome;
+        let base = (step.q, step.q_low);
+        total::<R, P, V>(step.size, &P::MOMENTA, &memory.u, base, (q, q_low));
+        let base = (step.p, step.p_low);
+        total::<R, P, V>(step.size, &P::POSITIONS, &memory.w, base, (p, p_low));
+        if memory.contraction > GOOD {
+            memory.stale = true;
+        }
+        memory.waiting = memory.waiting.saturating_sub(1);
+        if let Some(first) = memory.first_change {
+            let change = Change {
+                q: moved(&memory.q, step.q),
+                p: moved(&memory.p, step.p),
+            };
+            if first > P::Class::settling(&change) {
+                memory.waiting = PATIENCE;
+            }
+        }
+        memory.factorisations
+    }
+
+    /// Evaluates velocities and forces at the stages.
+    fn evaluate(&mut self) {
+        let NewtonMemory {
+            q,
+            p,
+            velocity,
+            force,
+            ..
+        } = &mut *self.memory;
+        // Of a separable system there may be more of one half than of the other, and what it does not read is at hand.
+        for (i, (q, force)) in q.iter().zip(force).enumerate() {
+            let p = if P::Class::SEPARABLE {
+                self.step.p
+            } else {
+                &p[i]
+            };
+            let time = self.step.time + P::POSITIONS.times[i] * self.step.size;
+            self.system.force(V::Scalar::from_f64(time), q, p, force);
+        }
+        for (i, (p, velocity)) in p.iter().zip(velocity).enumerate() {
+            let q = if P::Class::SEPARABLE {
+                self.step.q
+            } else {
+                &q[i]
+            };
+            let time = self.step.time + P::MOMENTA.times[i] * self.step.size;
+            self.system
+                .velocity(V::Scalar::from_f64(time), q, p, velocity);
+        }
+    }
+
+    /// How much `h velocity` and `h force` are off the increments.
+    fn residuals(&mut self) {
+        let (h, n) = (self.step.size, self.step.q.dimension());
+        let NewtonMemory {
+            velocity,
+            force,
+            u,
+            w,
+            x,
+            y,
+            ..
+        } = &mut *self.memory;
+        let rows = rows::<P>(n);
+        for (j, (velocity, u)) in velocity.iter().zip(&*u).enumerate() {
+            let (factor, unit) = factors::<P, V>(&P::MOMENTA, j, h);
+            let pairs = velocity.as_slice().iter().zip(u.as_slice());
+            for (k, (&velocity, &u)) in pairs.enumerate() {
+                let place = if P::Class::SEPARABLE { k } else { 2 * k };
+                x[j * rows + place] = (factor * velocity - u) * unit;
+            }
+        }
+        for (i, (force, w)) in force.iter().zip(&*w).enumerate() {
+            let (factor, unit) = factors::<P, V>(&P::POSITIONS, i, h);
+            let pairs = force.as_slice().iter().zip(w.as_slice());
+            for (k, (&force, &w)) in pairs.enumerate() {
+                let residual = (factor * force - w) * unit;
+                if P::Class::SEPARABLE {
+                    y[i * n + k] = residual;
+                } else {
+                    x[i * rows + 2 * k + 1] = residual;
+                }
+            }
+        }
+    }
+
+    /// Residuals become corrections.
+    fn correct(&mut self) -> Result<(), Failure> {
+        if self.in_full {
+            let corrected = self.correct_in_full();
+            return corrected.map_err(|failure| self.failure(failure));
+        }
+        if P::Class::SEPARABLE {
+            self.correct_separable();
+        } else {
+            self.solve();
+        }
+        Ok(())
+    }
+
+    /// That with the derivatives at every stage.
+    fn correct_in_full(&mut self) -> Result<(), Failure> {
+        let NewtonMemory {
+            q,
+            p,
+            x,
+            y,
+            times,
+            scaled,
+            linear,
+            ..
+        } = &mut *self.memory;
+        let stages = EveryStage {
+            q,
+            p,
+            start: (self.step.q, self.step.p),
+            times,
+            positions: &scaled[0],
+            momenta: &scaled[1],
+        };
+        L::correct(linear, self.system, stages, x, y)?;
+        self.memory.factorisations += 1;
+        Ok(())
+    }
+
+    /// The coefficients for that.
+    fn scale(&mut self) {
+        let Step { time, size: h, .. } = *self.step;
+        let NewtonMemory {
+            times,
+            scaled: [positions, momenta],
+            ..
+        } = &mut *self.memory;
+        let (of_q, of_p) = (P::POSITIONS.count, P::MOMENTA.count);
+        for (i, stage) in times.iter_mut().enumerate() {
+            // Of a system that depends on time a force and a velocity may have times of their own: derivatives are taken between.
+            let forces = P::POSITIONS.times.get(i.min(of_q.saturating_sub(1)));
+            let velocities = P::MOMENTA.times.get(i.min(of_p.saturating_sub(1)));
+            let sum = forces.unwrap_or(&0.5) + velocities.unwrap_or(&0.5);
+            *stage = time + 0.5 * sum * h;
+        }
+        for i in 0..of_q {
+            for j in 0..of_p {
+                positions[i * of_p + j] = h * position::<P>(i, j);
+                momenta[j * of_q + i] = h * momentum::<P>(j, i);
+            }
+        }
+    }
+
+    /// How far the corrections reach in the positions and in the momenta of the stages.
+    fn extent(&self) -> [f64; 2] {
+        let n = self.step.q.dimension();
+        let rows = rows::<P>(n);
+        let NewtonMemory { x, y, .. } = &*self.memory;
+        let (stride, turn) = if P::Class::SEPARABLE { (1, 0) } else { (2, 1) };
+        let of_velocities = |j: usize, k: usize| x[j * rows + stride * k];
+        let of_forces = |i: usize, k: usize| match P::Class::SEPARABLE {
+            true => y[i * n + k],
+            false => x[i * rows + stride * k + turn],
+        };
+        let (positions, momenta) = (P::POSITIONS.count, P::MOMENTA.count);
+        let q = largest_sum(n, (positions, momenta), position::<P>, of_velocities);
+        let p = largest_sum(n, (momenta, positions), momentum::<P>, of_forces);
+        [q, p]
+    }
+
+    /// Residuals become corrections, for a separable system.
+    fn correct_separable(&mut self) {
+        let (h, n) = (self.step.size, self.step.q.dimension());
+        for j in 0..P::MOMENTA.count {
+            let NewtonMemory {
+                x,
+                y,
+                vectors,
+                linear,
+                ..
+            } = &mut *self.memory;
+            let [sum, product] = vectors;
+            combine::<V>(sum, y, |i| h * momentum::<P>(j, i));
+            L::velocity_by_momentum(linear, self.system, sum, product);
+            let row = x[j * n..(j + 1) * n].iter_mut().zip(&*product);
+            row.for_each(|(x, &product)| *x += product);
+        }
+        self.solve();
+        for i in 0..P::POSITIONS.count {
+            let NewtonMemory {
+                x,
+                y,
+                vectors,
+                linear,
+                ..
+            } = &mut *self.memory;
+            let [sum, product] = vectors;
+            combine::<V>(sum, x, |j| h * position::<P>(i, j));
+            L::force_by_position(linear, self.system, sum, product);
+            let row = y[i * n..(i + 1) * n].iter_mut().zip(&*product);
+            row.for_each(|(y, &product)| *y += product);
+        }
+    }
+
+    /// Solves the linear systems for `x`.
+    fn solve(&mut self) {
+        let rows = rows::<P>(self.step.q.dimension());
+        let count = P::MOMENTA.count;
+        let NewtonMemory {
+            x,
+            transformed,
+            unknown,
+            linear,
+            ..
+        } = &mut *self.memory;
+        let Some(decoupling) = P::DECOUPLING else {
+            for (place, entry) in unknown.iter_mut().enumerate() {
+                *entry = x[place % count * rows + place / count];
+            }
+            L::solve(linear, self.system, 0, unknown);
+            for (place, &entry) in unknown.iter().enumerate() {
+                x[place % count * rows + place / count] = entry;
+            }
+            return;
+        };
+        let mut first = 0;
+        for (number, &(_, imaginary)) in decoupling.blocks.iter().enumerate() {
+            let parts = if imaginary == 0.0 { 1 } else { 2 };
+            let unknown = &mut unknown[..parts * rows];
+            for (place, entry) in unknown.iter_mut().enumerate() {
+                let row = decoupling.from_stages[first + place % parts];
+                *entry = dot(row, x, rows, place / parts);
+            }
+            L::solve(linear, self.system, number, unknown);
+            for (place, &entry) in unknown.iter().enumerate() {
+                transformed[(first + place % parts) * rows + place / parts] = entry;
+            }
+            first += parts;
+        }
+        for (place, entry) in x.iter_mut().enumerate() {
+            let row = decoupling.to_stages[place / rows];
+            *entry = dot(row, transformed, rows, place % rows);
+        }
+    }
+
+    /// Adds the corrections to the increments.
+    fn update(&mut self) {
+        let (h, n) = (self.step.size, self.step.q.dimension());
+        let rows = rows::<P>(n);
+        let NewtonMemory { u, w, x, y, .. } = &mut *self.memory;
+        for (j, u) in u.iter_mut().enumerate() {
+            let unit = V::Scalar::from_f64(increment::<P>(&P::MOMENTA, j, h));
+            for (k, u) in u.as_mut_slice().iter_mut().enumerate() {
+                let place = if P::Class::SEPARABLE { k } else { 2 * k };
+                *u += x[j * rows + place] * unit;
+            }
+        }
+        for (i, w) in w.iter_mut().enumerate() {
+            let unit = V::Scalar::from_f64(increment::<P>(&P::POSITIONS, i, h));
+            for (k, w) in w.as_mut_slice().iter_mut().enumerate() {
+                *w += unit
+                    * if P::Class::SEPARABLE {
+                        y[i * n + k]
+                    } else {
+                        x[i * rows + 2 * k + 1]
+                    };
+            }
+        }
+    }
+
+    /// Stage values from the increments; returns how much they changed.
+    fn values(&mut self) -> Change {
+        let step = self.step;
+        let NewtonMemory { q, p, u, w, .. } = &mut *self.memory;
+        let factor = if P::INCREMENTS { 1.0 } else { step.size };
+        Change {
+            q: values::<R, V>(&P::POSITIONS, factor, q, (step.q, step.q_low), u),
+            p: values::<R, V>(&P::MOMENTA, factor, p, (step.p, step.p_low), w),
+        }
+    }
+
+    /// Decides from a change whether the derivatives at one point are still good enough.
+    fn judge(&mut self, change: &Change) -> Result<(), Failure> {
+        if self.sweeps == 0 && self.memory.first_change.is_some() {
+            self.memory.first_change = Some(P::Class::settling(change));
+        }
+        self.sweeps += 1;
+        self.since += 1;
+        // Either half shows it: the noise of the other one may be large.
+        let size = Separable::settling(change);
+        let contraction = size / self.last;
+        self.last = size;
+        if self.in_full
+            || size.is_nan()
+            || size <= NOISE * V::Scalar::EPSILON
+            || contraction.is_nan()
+        {
+            return Ok(());
+        }
+        self.memory.contraction = self.memory.contraction.max(contraction);
+        let forecast = num_traits::Float::ln(ROUNDING * V::Scalar::EPSILON / size)
+            / num_traits::Float::ln(contraction);
+        let is_bad =
+            contraction >= 1.0 || f64::from(self.sweeps) + forecast > f64::from(MOST_SWEEPS);
+        if is_bad && self.since > 1 {
+            self.slow = self.renewed;
+            self.renewed = true;
+            self.memory.stale = true;
+            self.factor()?;
+        }
+        Ok(())
+    }
+
+    /// What ends the iteration. Once it has begun the stages may be anywhere, and it is the iteration that has failed.
+    const fn failure(&self, failure: Failure) -> Failure {
+        if self.sweeps == 0 {
+            failure
+        } else {
+            Failure::NoConvergence {
+                residual: self.last,
+                iterations: self.sweeps,
+            }
+        }
+    }
+
+    /// Takes the derivatives anew, if they are stale, and factors the linear systems.
+    fn factor(&mut self) -> Result<(), Failure> {
+        let (step, system) = (self.step, self.system);
+        let h = step.size;
+        let memory = &mut *self.memory;
+        memory.factored = None;
+        self.since = 0;
+        if memory.stale {
+            let (q, p) = &mut memory.middle;
+            mean(q, &memory.q);
+            mean(p, &memory.p);
+            let time = V::Scalar::from_f64(step.time + 0.5 * h);
+            if !L::linearize(&mut memory.linear, system, time, q, p) {
+                return Err(self.failure(NOT_FINITE));
+            }
+            memory.stale = false;
+        }
+        let factor = if P::Class::SEPARABLE { h * h } else { h };
+        let count = P::MOMENTA.count;
+        let regular = match P::DECOUPLING {
+            Some(decoupling) => {
+                let mut blocks = decoupling.blocks.iter().enumerate();
+                blocks.all(|(number, &(real, imaginary))| {
+                    let coupling = if imaginary == 0.0 {
+                        Coupling::Real(factor * real)
+                    } else {
+                        Coupling::Complex(factor * real, factor * imaginary)
+                    };
+                    L::factor(&mut memory.linear, system, number, coupling)
+                })
+            }
+            None => {
+                let [positions, momenta] = &mut memory.couplings;
+                for i in 0..count {
+                    for j in 0..count {
+                        (positions[i * count + j], momenta[i * count + j]) = if P::Class::SEPARABLE
+                        {
+                            let products = (0..P::POSITIONS.count)
+                                .map(|k| momentum::<P>(i, k) * position::<P>(k, j));
+                            let product: f64 = products.sum();
+                            (factor * product, factor * product)
+                        } else {
+                            (factor * position::<P>(i, j), factor * momentum::<P>(i, j))
+                        };
+                    }
+                }
+                let coupling = Coupling::Stages {
+                    count,
+                    positions,
+                    momenta,
+                };
+                L::factor(&mut memory.linear, system, 0, coupling)
+            }
+        };
+        if regular {
+            memory.factored = Some(h);
+            memory.factorisations += 1;
+            Ok(())
+        } else {
+            Err(self.failure(Failure::SingularMatrix))
+        }
+    }
+}
+
+/// What a velocity or a force is multiplied by to be an increment, and what an increment is multiplied by to be
+/// `h velocity` or `h force`.
+fn factors<P: StageTableau, V: Vector>(
+    half: &HalfTableau,
+    stage: usize,
+    h: f64,
+) -> (V::Scalar, V::Scalar) {
+    let (factor, unit) = if P::INCREMENTS {
+        (h * half.weights[stage], half.weights[stage].recip())
+    } else {
+        (1.0, h)
+    };
+    (V::Scalar::from_f64(factor), V::Scalar::from_f64(unit))
+}
+
+/// What `h velocity` or `h force` is multiplied by to be an increment.
+fn increment<P: StageTableau>(half: &HalfTableau, stage: usize, h: f64) -> f64 {
+    if P::INCREMENTS {
+        half.weights[stage]
+    } else {
+        h.recip()
+    }
+}
+
+/// `a_ij`
+fn position<P: StageTableau>(i: usize, j: usize) -> f64 {
+    let weight = if P::INCREMENTS {
+        P::MOMENTA.weights[j]
+    } else {
+        1.0
+    };
+    P::POSITIONS.columns[j][i] * weight
+}
+
+/// `ã_ij`
+fn momentum<P: StageTableau>(i: usize, j: usize) -> f64 {
+    let weight = if P::INCREMENTS {
+        P::POSITIONS.weights[j]
+    } else {
+        1.0
+    };
+    P::MOMENTA.columns[j][i] * weight
+}
+
+/// Moves every component by a unit of EPSILON, up or down as good as at random.
+fn jog<V: Vector>(values: &mut V, stage: usize) {
+    for (k, value) in values.as_mut_slice().iter_mut().enumerate() {
+        let up = ((stage * 7 + k * 5 + stage * k) % 3).is_multiple_of(2);
+        let unit = V::Scalar::from_f64(if up {
+            V::Scalar::EPSILON
+        } else {
+            -V::Scalar::EPSILON
+        });
+        *value += *value * unit;
+    }
+}
+
+/// The largest component of `Σ_j factor(i, j) value(j)` over all `i`, of sums of as many terms as the second count says.
+fn largest_sum<T: Scalar>(
+    dimension: usize,
+    (sums, terms): (usize, usize),
+    factor: impl Fn(usize, usize) -> f64,
+    value: impl Fn(usize, usize) -> T,
+) -> f64 {
+    let mut largest = 0.0_f64;
+    for i in 0..sums {
+        for k in 0..dimension {
+            let mut sum = T::zero();
+            for j in 0..terms {
+                sum += T::from_f64(factor(i, j)) * value(j, k);
+            }
+            largest = largest.max(sum.magnitude());
+        }
+    }
+    largest
+}
+
+/// One component of a sum over the stages.
+#[inline(always)]
+fn dot<T: Scalar>(row: &[f64], stages: &[T], rows: usize, component: usize) -> T {
+    let mut sum = T::zero();
+    for (j, &factor) in row.iter().enumerate() {
+        sum += T::from_f64(factor) * stages[j * rows + component];
+    }
+    sum
+}
+
+/// `sum = Σ_j factor(j) vectors_j`, of vectors one after another.
+fn combine<V: Vector>(sum: &mut [V::Scalar], vectors: &[V::Scalar], factor: impl Fn(usize) -> f64) {
+    sum.fill(V::Scalar::zero());
+    // No chunks of no components.
+    for (j, vector) in vectors.chunks_exact(sum.len().max(1)).enumerate() {
+        let factor = V::Scalar::from_f64(factor(j));
+        let components = sum.iter_mut().zip(vector);
+        components.for_each(|(sum, &component)| *sum += factor * component);
+    }
+}
+
+/// Stage values `base + low + factor Σ_j columns_j increments_j`; returns how much they changed.
+fn values<R: Summation, V: Vector>(
+    half: &HalfTableau,
+    factor: f64,
+    values: &mut [V],
+    (base, low): (&V, &V),
+    increments: &[V],
+) -> PartChange {
+    let mut change = PartChange::default();
+    for (i, value) in values.iter_mut().enumerate() {
+        let components = value.as_mut_slice().iter_mut();
+        let components = components.zip(base.as_slice().iter().zip(low.as_slice()));
+        for (k, (value, (&base, &low))) in components.enumerate() {
+            let mut sum = V::Scalar::zero();
+            for (column, increment) in half.columns.iter().zip(increments) {
+                sum += V::Scalar::from_f64(factor * column[i]) * increment.as_slice()[k];
+            }
+            if R::COMPENSATED {
+                sum += low;
+            }
+            let new = base + sum;
+            change.record(base, *value, new);
+            *value = new;
+        }
+    }
+    change
+}
+
+/// How far the stages are from the start of the step.
+fn moved<V: Vector>(values: &[V], base: &V) -> PartChange {
+    let mut change = PartChange::default();
+    for value in values {
+        let components = value.as_slice().iter().zip(base.as_slice());
+        components.for_each(|(&value, &base)| change.record(base, base, value));
+    }
+    change
+}
+
+/// The mean of some vectors.
+fn mean<V: Vector>(out: &mut V, vectors: &[V]) {
+    clear(out);
+    let factor = V::Scalar::from_f64((vectors.len() as f64).recip());
+    for vector in vectors {
+        let components = out.as_mut_slice().iter_mut().zip(vector.as_slice());
+        components.for_each(|(out, &component)| *out += factor * component);
+    }
+}
+
+fn clear<V: Vector>(vector: &mut V) {
+    vector.as_mut_slice().fill(V::Scalar::zero());
+}
+
+/// Increments from those of the step before; `scratch` has a place for each stage at least.
+fn extrapolate<V: Vector>(half: &HalfTableau, increments: &mut [V], scratch: &mut [V::Scalar]) {
+    let n = increments.first().map_or(0, V::dimension);
+    for k in 0..n {
+        for (i, new) in scratch.iter_mut().enumerate().take(increments.len()) {
+            *new = V::Scalar::zero();
+            for (column, increment) in half.extrapolation.iter().zip(&*increments) {
+                *new += V::Scalar::from_f64(column[i]) * increment.as_slice()[k];
+            }
+        }
+        for (increment, &new) in increments.iter_mut().zip(&*scratch) {
+            increment.as_mut_slice()[k] = new;
+        }
+    }
+}
+
+/// The result of a step from the increments of one half.
+fn total<R: Summation, P: StageTableau, V: Vector>(
+    h: f64,
+    half: &HalfTableau,
+    increments: &[V],
+    (base, low): (&V, &V),
+    (out, out_low): (&mut V, &mut V),
+) {
+    let out = out.as_mut_slice().iter_mut().zip(out_low.as_mut_slice());
+    let base = base.as_slice().iter().zip(low.as_slice());
+    for (k, ((out, out_low), (&base, &low))) in out.zip(base).enumerate() {
+        let (high, rest) = add::<R, _>(base, low, increments.len(), |j| {
+            let increment = increments[j].as_slice()[k];
+            if P::INCREMENTS {
+                increment
+            } else {
+                V::Scalar::from_f64(h * half.weights[j]) * increment
+            }
+        });
+        *out = high;
+        if R::COMPENSATED {
+            *out_low = rest;
+        }
+    }
+}

@@ -1,0 +1,302 @@
+//! Second-order systems whose force is local: positions of stages that need not go to memory.
+
+use core::marker::PhantomData;
+use core::mem;
+
+use num_traits::Zero;
+
+use super::rows::{AlongRows, are_in_rows, enter, leave};
+use super::{Positions, Start, Terms, apart, eliminates, position, tableau};
+use crate::error::Quantity;
+use crate::method::{Change, EvaluationCounts, Failure, Kept, StageTableau, Stopping, Work};
+use crate::number::linear_combination::sum_of_products;
+use crate::number::{HamiltonianInLanes, Lanes, Scalar, Summation, Vector};
+use crate::solver::convergence::{Begun, Sweeps};
+use crate::solver::predictor::starts_at_once;
+use crate::solver::simd::change::{LaneMovement, noted, part_change};
+use crate::solver::simd::gauss_seidel::{
+    combination, increment_factor, is_about, lane_of, lanes, times,
+};
+use crate::system::{Class, Components, Hamiltonian, StageRows};
+
+/// Whether stages are iterated along the components: for vectors on the heap, where all stages of a component are in one group.
+#[inline(always)]
+pub(super) fn is_local<P: StageTableau, V: Vector, S: HamiltonianInLanes<V>>() -> bool {
+    <S as Hamiltonian<V>>::LOCAL_FORCE
+        && P::Lanes::has_local_force::<V, S>()
+        && <S as Hamiltonian<V>>::UNIT_MASSES
+        && mem::needs_drop::<V>()
+        && eliminates::<P>()
+        && P::INCREMENTS
+        && starts_at_once(&P::POSITIONS)
+        && P::POSITIONS.count <= P::Lanes::WIDTH
+}
+
+/// The forces at the positions of the stages, which are made from those of the sweep before where they are needed. What a sweep
+/// has moved is by how much the next positions can differ from those that it was made at.
+///
+/// Where an iteration does not settle in its first sweeps it goes on by [`Positions`], with positions in memory.
+pub(super) struct Locally<'p, 'a, P: StageTableau, R, V: Vector, S> {
+    positions: &'p mut Positions<'a, P, R, V, S>,
+    /// The largest component of the positions at the start of the step, and of those that the stages start from: sweeps make positions,
+    /// and no more of them.
+    largest: P::Lanes,
+    /// How many sweeps the step before took, but for one where that came from a coin.
+    sweeps_before: u32,
+}
+
+impl<'p, 'a, P, R, V, S> Locally<'p, 'a, P, R, V, S>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    /// How many sweeps are looked at where a step takes as many as that before: those in which changes come down to rounding, go on
+    /// shrinking, and stop. With plain sums the last one is foreseen from the two before it. Where fewer sweeps would do, one or two less
+    /// are made.
+    const SEEN: u32 = 3;
+
+    pub(super) fn new(positions: &'p mut Positions<'a, P, R, V, S>, sweeps_before: u32) -> Self {
+        Self {
+            positions,
+            largest: P::Lanes::zero(),
+            sweeps_before,
+        }
+    }
+
+    /// Whether the forces are in rows.
+    #[inline(always)]
+    fn are_in_rows(&self) -> bool {
+        are_in_rows::<P, V, S>(self.positions.lanes.step.q.dimension())
+    }
+
+    /// The forces at the positions with these terms; returns how much they changed.
+    #[inline(always)]
+    fn walk<const MEASURED: bool>(&mut self, terms: &Terms<impl AsRef<[f64]>>) -> P::Lanes {
+        let in_rows = self.are_in_rows();
+        let lanes = &mut self.positions.lanes;
+        let (step, stages) = (lanes.step, &mut *lanes.stages);
+        if in_rows {
+            let mut along = AlongRows::<P, R, _, MEASURED>::new(terms, step, stages);
+            if along.count() == 0 {
+                // Of another dimension, which is seen when the step is looked at.
+                return P::Lanes::zero();
+            }
+            Hamiltonian::<V>::row_forces(lanes.system, &mut along);
+            let (largest, changes) = along.changes();
+            if MEASURED {
+                self.largest = largest;
+            }
+            return changes;
+        }
+        let [force, ..] = stages.force.as_mut() else {
+            return P::Lanes::zero();
+        };
+        let force = force.as_mut_slice();
+        let n = (force.len().min(step.q.dimension()))
+            .min(step.q_low.dimension())
+            .min(step.p.dimension());
+        let mut along = Along::<P, R, _, MEASURED> {
+            terms,
+            size: step.size,
+            q: &step.q.as_slice()[..n],
+            q_low: &step.q_low.as_slice()[..n],
+            p: &step.p.as_slice()[..n],
+            force: &mut force[..n],
+            largest: P::Lanes::from_f64(0.0),
+            changes: None,
+            summation: PhantomData,
+        };
+        let time = times::<P, V>(&P::POSITIONS, step, 0);
+        P::Lanes::local_force::<V, S>(lanes.system, time, &mut along);
+        if MEASURED {
+            self.largest = along.largest;
+        }
+        along.changes.unwrap_or_else(P::Lanes::zero)
+    }
+
+    /// [`walk`](Self::walk), but by how much the next positions can differ from those that the forces are at, but for rounding.
+    #[inline(always)]
+    fn moves(&mut self, terms: &Terms<impl AsRef<[f64]>>) -> P::Lanes {
+        let changes = self.walk::<false>(terms);
+        let factor = P::Lanes::from_f64(terms.factor);
+        sum_of_products(None, terms.columns.len(), |j| {
+            let column: P::Lanes = lanes(terms.columns[j].as_ref(), 0);
+            (
+                (column * factor).abs(),
+                P::Lanes::from_f64(lane_of(changes, j)),
+            )
+        })
+    }
+}
+
+/// The stages of a step along its components, the largest of which is wanted or not.
+struct Along<'a, P: StageTableau, R, C: 'static, const MEASURED: bool> {
+    terms: &'a Terms<C>,
+    size: f64,
+    q: &'a [f64],
+    q_low: &'a [f64],
+    p: &'a [f64],
+    /// Those of the sweep before, and the new ones where they have been set; or the increments made of them.
+    force: &'a mut [P::Lanes],
+    largest: P::Lanes,
+    /// The largest change of a force.
+    changes: Option<P::Lanes>,
+    summation: PhantomData<R>,
+}
+
+impl<P, R, C, const MEASURED: bool> Components<P::Lanes> for Along<'_, P, R, C, MEASURED>
+where
+    P: StageTableau,
+    R: Summation,
+    C: AsRef<[f64]>,
+{
+    #[inline(always)]
+    fn dimension(&self) -> usize {
+        self.force.len()
+    }
+
+    #[inline(always)]
+    fn position(&mut self, k: usize) -> P::Lanes {
+        let (Some(force), Some(&q), Some(&q_low), Some(&p)) = (
+            self.force.get(k),
+            self.q.get(k),
+            self.q_low.get(k),
+            self.p.get(k),
+        ) else {
+            return P::Lanes::from_f64(f64::NAN);
+        };
+        let sum = combination(&self.terms.sums(None), 0, None, |j| lane_of(*force, j));
+        let base = (P::Lanes::from_f64(q), P::Lanes::from_f64(q_low));
+        let node = lanes(tableau::<P>().nodes, 0);
+        let velocity = P::Lanes::from_f64(p);
+        let terms = (self.terms.factor, sum);
+        let position = position::<R, P::Lanes>(base, (self.size, node), velocity, terms);
+        if MEASURED {
+            self.largest = (self.largest.larger(base.0.abs())).larger(position.abs());
+        }
+        position
+    }
+
+    #[inline(always)]
+    fn set_force(&mut self, k: usize, force: P::Lanes) {
+        let Some(place) = self.force.get_mut(k) else {
+            return;
+        };
+        let new = match R::COMPENSATED {
+            true => force * increment_factor::<P>(&P::POSITIONS, self.size, 0),
+            false => force,
+        };
+        let change = (new - *place).abs();
+        *place = new;
+        self.changes = Some(noted(self.changes, change));
+    }
+}
+
+/// Nobody looks at how these change, or for what is not finite: what does not settle at once [goes on](Sweeps::go_on) elsewhere.
+impl<P, R, V, S> Sweeps for Locally<'_, '_, P, R, V, S>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    type Movement = LaneMovement<P::Lanes>;
+
+    const HASTY: bool = !R::COMPENSATED;
+
+    const MEASURED: bool = false;
+
+    #[inline(always)]
+    fn evaluations(&self) -> EvaluationCounts {
+        let counts = self.positions.evaluations();
+        // Those at the starting values come before the first sweep.
+        EvaluationCounts {
+            begin: counts.begin + counts.sweep,
+            ..counts
+        }
+    }
+
+    #[inline(always)]
+    fn time(&self) -> f64 {
+        self.positions.time()
+    }
+
+    #[inline(always)]
+    fn begin(&mut self, _kept: Kept) {
+        // Sweeps follow, each with what it has moved.
+        apart(|| {
+            let h = self.positions.lanes.step.size;
+            self.walk::<true>(&Start::<P>::terms(R::COMPENSATED, h));
+        });
+    }
+
+    #[inline(always)]
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.positions.non_finite()
+    }
+
+    #[inline(always)]
+    fn non_finite_force(&self) -> Option<usize> {
+        self.positions.non_finite_force()
+    }
+
+    /// With positions in memory, where errors look for them.
+    #[inline(always)]
+    fn go_on<C: Class, T: Scalar>(
+        &mut self,
+        kept: Kept,
+        stopping: Stopping,
+        begun: Begun<Self::Movement>,
+    ) -> Result<Work, Failure> {
+        let in_rows = self.are_in_rows();
+        if in_rows {
+            leave::<P, V>(self.positions.lanes.stages);
+        }
+        let begun_here = !begun.is_nothing();
+        if begun_here {
+            self.positions.positions();
+        }
+        let mut work = self.positions.go_on::<C, T>(kept, stopping, begun)?;
+        if begun_here {
+            work.evaluations += self.positions.evaluations().sweep;
+        }
+        if in_rows {
+            enter::<P, V>(self.positions.lanes.stages);
+        }
+        Ok(work)
+    }
+
+    #[inline(always)]
+    fn sweep(&mut self) -> LaneMovement<P::Lanes> {
+        let h = self.positions.lanes.step.size;
+        let q = apart(|| self.moves(&Terms::new::<P>(R::COMPENSATED, h)));
+        // Both halves are this one.
+        LaneMovement { q, p: q }
+    }
+
+    #[inline(always)]
+    fn unseen(&self) -> u32 {
+        self.sweeps_before.saturating_sub(Self::SEEN)
+    }
+
+    #[inline(always)]
+    fn sweep_unseen(&mut self) {
+        let h = self.positions.lanes.step.size;
+        apart(|| {
+            self.walk::<false>(&Terms::new::<P>(R::COMPENSATED, h));
+        });
+    }
+
+    #[inline(always)]
+    fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
+        let q = part_change(movement.q, self.largest);
+        Change { q, p: q }
+    }
+
+    #[inline(always)]
+    fn are_about(&self, _movement: &Self::Movement, [q, _]: [f64; 2], _both: bool) -> bool {
+        is_about(self.largest, q)
+    }
+}

@@ -1,0 +1,522 @@
+//! Second-order systems: coupled stages without the momenta.
+
+mod local;
+mod rows;
+mod stages;
+mod update;
+
+use core::marker::PhantomData;
+use core::mem;
+
+use self::local::{Locally, is_local};
+use self::rows::are_in_rows;
+pub use self::stages::SecondOrderStages;
+use crate::error::{Error, Quantity};
+use crate::integrator::linearity::{NonLinear, non_linear_velocity};
+use crate::method::tableau::Columns;
+use crate::method::{
+    Change, EvaluationCounts, Failure, Inside, Kept, Outcome, SecondOrderTableau, Solver,
+    StageTableau, Step, Stopping, Work,
+};
+use crate::number::vector::is_in_place;
+use crate::number::{HamiltonianInLanes, Lanes, Scalar, Summation, Vector};
+use crate::solver::InLanes;
+use crate::solver::convergence::{Begun, Sweeps, coin, patiently, settle};
+use crate::solver::predictor::{MOST, StartingColumns, starting_columns, starts_at_once, weighted};
+use crate::solver::simd::change::{LaneMovement, part_change};
+use crate::solver::simd::gauss_seidel::{
+    ByLanes, Sums, entry, extend, extrapolate, is_about, lanes, scale_of, values,
+};
+use crate::solver::simd::stages::LaneStages;
+use crate::system::{Class, Hamiltonian};
+
+/// [`InLanes`] for second-order systems `q'' = M⁻¹ f(q)`, whose velocity `M⁻¹ p` is linear in the momentum: only the
+/// positions are iterated, with the coefficients of a [`SecondOrderTableau`]. Made by
+/// [`Integrator::in_second_order_lanes`](crate::Integrator::in_second_order_lanes).
+///
+/// Methods that have no such coefficients, and systems that are not separable, are taken as by [`InLanes`].
+///
+/// For vectors on the heap and up to eight stages at different times a system of unit masses whose force is
+/// [local](crate::SeparableHamiltonian::LOCAL_FORCE), a [`Chain`](crate::Chain), is gone through once in a sweep, as long as a step goes
+/// on from the one before and settles in its first sweeps: the positions of the stages are made, and used, component by component. What
+/// is then compared with a tolerance is by how much the next positions can differ, at most but for rounding, from those of the sweep.
+/// Of the first sweeps of a step it is not asked how far they move the stages: as many as there were in the step before, but for three. So
+/// a step takes at most two sweeps less than the one before.
+/// With fewer than eight stages, and a number of components that is a multiple of eight, a system that
+/// [can](crate::SeparableHamiltonian::ROW_FORCES) goes through them in rows: the lanes run along the components. Both have the same
+/// bits.
+#[derive(Clone, Copy, Debug)]
+pub struct SecondOrderInLanes(());
+
+impl SecondOrderInLanes {
+    /// The solver, if the velocity of `system` is linear in the momentum, `p` and another one, and does not depend on time.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotSecondOrder`]
+    pub(crate) fn new<V, S>(system: &S, time: f64, q: &V, p: &V) -> Result<Self, Error>
+    where
+        V: Vector<Scalar = f64>,
+        S: Hamiltonian<V>,
+    {
+        match non_linear_velocity(system, time, q, p) {
+            None => Ok(Self(())),
+            Some(NonLinear {
+                component,
+                velocity,
+                linear,
+            }) => Err(Error::NotSecondOrder {
+                component,
+                velocity,
+                linear,
+            }),
+        }
+    }
+}
+
+impl<V, S> Solver<V, S> for SecondOrderInLanes
+where
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    type Memory<P: StageTableau> = SecondOrderStages<V, P>;
+
+    #[inline(always)]
+    fn take<P, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut SecondOrderStages<V, P>,
+        kept: Kept,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        P: StageTableau,
+        R: Summation,
+        S: Hamiltonian<V, Class = P::Class>,
+    {
+        let SecondOrderStages {
+            lanes,
+            start,
+            of_increments,
+            in_rows,
+            sweeps: sweeps_before,
+        } = memory;
+        if !eliminates::<P>() {
+            return <InLanes as Solver<V, S>>::take::<P, R>(
+                step, system, lanes, kept, stopping, outcome,
+            );
+        }
+        *of_increments = R::COMPENSATED;
+        // Where an iteration fails they are not.
+        *in_rows = false;
+        if !<S as Hamiltonian<V>>::UNIT_MASSES {
+            velocity::<P, V, S>(system, step, step.p, start, lanes);
+        }
+        let start = start_of::<V, S>(step.p, start);
+        let mut sweeps = Positions::<P, R, V, S> {
+            lanes: ByLanes {
+                step,
+                system,
+                stages: &mut *lanes,
+                sums: PhantomData,
+            },
+            start,
+        };
+        let mut work = match is_local::<P, V, S>() {
+            true => {
+                let mut locally = Locally::new(&mut sweeps, *sweeps_before);
+                let work = settle::<P::Class, f64>(&mut locally, kept, stopping)?;
+                let by_coin = R::COMPENSATED && coin(step.time);
+                *sweeps_before = work.iterations.saturating_sub(u32::from(by_coin));
+                work
+            }
+            false => settle::<P::Class, f64>(&mut sweeps, kept, stopping)?,
+        };
+        // Where masses are one, the velocity of what the momentum leaves out is counted, as all are, but not made.
+        work.evaluations += sweeps.evaluations().finish;
+        *in_rows = are_in_rows::<P, V, S>(step.q.dimension());
+        if *in_rows {
+            update::in_rows::<P, R, V>(step, lanes, outcome);
+        } else if is_local::<P, V, S>() {
+            update::by_eights::<P, R, V>(step, lanes, outcome);
+        } else if R::COMPENSATED {
+            update::compensated::<P, R, V, S>(step, system, start, lanes, outcome);
+        } else {
+            update::plain::<P, V, S>(step, start, lanes, outcome);
+        }
+        Ok(work)
+    }
+
+    fn extend<P: StageTableau>(
+        memory: &SecondOrderStages<V, P>,
+        at: Inside<'_, V>,
+        q: &mut V,
+        p: &mut V,
+    ) {
+        let stages = &memory.lanes;
+        if !eliminates::<P>() {
+            return <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
+        }
+        // What makes an increment of what is stored.
+        let factor = |stage: usize| match memory.of_increments {
+            true => 1.0,
+            false => P::POSITIONS.weights[stage] * at.size,
+        };
+        let force = |stage: usize, k: usize| match memory.in_rows {
+            true => rows::force(stages, stage, k) * factor(stage),
+            false => entry::<P, V>(stages.force.as_ref(), stage, k) * factor(stage),
+        };
+        extend::<P, V>(&P::POSITIONS, at, force, p);
+        let Some(polynomial) = P::MOMENTA.polynomial else {
+            return;
+        };
+        let slope = |stage: usize, k: usize| match <S as Hamiltonian<V>>::UNIT_MASSES {
+            true => force(stage, k),
+            false => entry::<P, V>(stages.velocity.as_ref(), stage, k) * factor(stage),
+        };
+        let start = start_of::<V, S>(at.momentum, &memory.start).as_slice();
+        // The velocities at the stages: M⁻¹(p0 + Σ_j μ̃_ij w_j).
+        for stage in 0..P::MOMENTA.count {
+            let factor = at.size * P::MOMENTA.weights[stage] * at.factor(polynomial, stage);
+            for (k, out) in q.as_mut_slice().iter_mut().enumerate() {
+                let part = |j: usize| P::MOMENTA.columns[j][stage] * slope(j, k);
+                let sum: f64 = (0..P::POSITIONS.count).map(part).sum();
+                *out += factor * (start[k] + sum);
+            }
+        }
+    }
+}
+
+/// The velocity of a momentum. One of another dimension goes to a place where it is seen when the step is looked at.
+#[inline(always)]
+fn velocity<P, V, S>(
+    system: &S,
+    step: &Step<'_, V>,
+    momentum: &V,
+    out: &mut V,
+    stages: &mut LaneStages<V, P>,
+) where
+    P: StageTableau,
+    V: Vector<Scalar = f64>,
+    S: Hamiltonian<V>,
+{
+    system.velocity(step.time, step.q, momentum, out);
+    if out.dimension() != step.q.dimension() {
+        stages.velocity.as_mut()[0] = out.zeros_with::<P::Lanes>();
+        *out = step.q.zeros_like();
+    }
+}
+
+/// The positions of the stages alone. In the place of the velocities are those of the increments of the momentum.
+///
+/// With plain sums the forces are no increments while the stages are iterated, and the matrix has the weights that would make them
+/// such: a sweep is a product shorter.
+struct Positions<'a, P: StageTableau, R, V: Vector, S> {
+    lanes: ByLanes<'a, P, R, V, S>,
+    /// The velocity at the start.
+    start: &'a V,
+}
+
+/// The velocities of the increments of the momentum, which are these themselves where masses are one.
+#[inline(always)]
+const fn slopes<'a, V: Vector, S: Hamiltonian<V>, G>(velocity: &'a G, force: &'a G) -> &'a G {
+    if S::UNIT_MASSES { force } else { velocity }
+}
+
+/// The velocity at the start, which is the momentum where masses are one.
+#[inline(always)]
+const fn start_of<'a, V: Vector, S: Hamiltonian<V>>(momentum: &'a V, velocity: &'a V) -> &'a V {
+    if S::UNIT_MASSES { momentum } else { velocity }
+}
+
+/// What is added to positions: the sum of velocities by the columns of a matrix, and what is before it.
+struct Terms<C: 'static> {
+    columns: &'static [C],
+    factor: f64,
+}
+
+impl<C: AsRef<[f64]>> Terms<C> {
+    /// Of the velocities of increments, in steps of this size.
+    #[inline(always)]
+    const fn of_increments(columns: &'static [C], h: f64) -> Self {
+        Self { columns, factor: h }
+    }
+
+    /// Of those of forces, whose weights are in the columns.
+    #[inline(always)]
+    const fn of_forces(columns: &'static [C], h: f64) -> Self {
+        let factor = h * h;
+        Self { columns, factor }
+    }
+
+    /// The sums, perhaps with a factor in the columns.
+    #[inline(always)]
+    fn sums(
+        &self,
+        factor: Option<f64>,
+    ) -> Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>> {
+        let columns = self.columns;
+        Sums {
+            count: columns.len(),
+            column: |j: usize| columns[j].as_ref(),
+            factor: move |_| factor,
+            with_low: false,
+            beyond: false,
+        }
+    }
+}
+
+impl Terms<&'static [f64]> {
+    /// Of the velocities of increments, or of forces.
+    #[inline(always)]
+    const fn new<P: StageTableau>(of_increments: bool, h: f64) -> Self {
+        match of_increments {
+            true => Self::of_increments(Columns::<P>::SECOND_ORDER, h),
+            false => Self::of_forces(Columns::<P>::OF_FORCES, h),
+        }
+    }
+}
+
+/// The position of stages with this base, and what the base leaves out, and velocity at the start, for steps of such a size and the
+/// part of it that is before each, with this factor before the sum.
+#[inline(always)]
+fn position<R: Summation, L: Lanes>(
+    (base, low): (L, L),
+    (size, node): (f64, L),
+    velocity: L,
+    (factor, sum): (f64, L),
+) -> L {
+    let (h, factor) = (L::from_f64(size), L::from_f64(factor));
+    // All but the sum is the same in every sweep.
+    if R::COMPENSATED {
+        // A product of step size and node would be off by the same part in every step, and the energy would drift.
+        return base + factor.fused(sum, h.fused(node * velocity, low));
+    }
+    factor.fused(sum, (h * node).fused(velocity, base))
+}
+
+/// Does `work` in a function of its own.
+#[inline(never)]
+fn apart<T>(work: impl FnOnce() -> T) -> T {
+    work()
+}
+
+/// Whether the momenta of the stages of a plan are eliminated.
+#[inline(always)]
+const fn eliminates<P: StageTableau>() -> bool {
+    P::SECOND_ORDER.is_some() && P::Class::SEPARABLE
+}
+
+/// The coefficients of a plan that [`eliminates`] them: constants, so that sums over stages are written out.
+#[inline(always)]
+const fn tableau<P: StageTableau>() -> SecondOrderTableau {
+    match P::SECOND_ORDER {
+        Some(tableau) => tableau,
+        None => SecondOrderTableau {
+            nodes: &[],
+            columns: &[],
+            of_forces: &[],
+            rest: &[],
+        },
+    }
+}
+
+/// `ν E`, for starting values from the step before.
+struct Start<P>(PhantomData<P>);
+
+impl<P: StageTableau> Start<P> {
+    const OF_INCREMENTS: &'static StartingColumns =
+        &starting_columns(tableau::<P>().columns, &P::POSITIONS);
+    const OF_FORCES: &'static StartingColumns =
+        &weighted(Self::OF_INCREMENTS, P::POSITIONS.weights);
+
+    /// Of what the step before has left, in steps of this size.
+    #[inline(always)]
+    fn terms(of_increments: bool, h: f64) -> Terms<[f64; MOST]> {
+        let count = P::POSITIONS.extrapolation.len();
+        match of_increments {
+            true => Terms::of_increments(&Self::OF_INCREMENTS[..count], h),
+            false => Terms::of_forces(&Self::OF_FORCES[..count], h),
+        }
+    }
+}
+
+impl<P, R, V, S> Positions<'_, P, R, V, S>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    /// New positions; returns how much they changed.
+    #[inline(always)]
+    fn positions(&mut self) -> P::Lanes {
+        let terms = Terms::new::<P>(R::COMPENSATED, self.lanes.step.size);
+        // In columns the factor is the same in every sweep.
+        self.with(&terms, (!R::COMPENSATED).then_some(terms.factor))
+    }
+
+    /// The positions with these terms, whose factor may be in the columns; returns how much they changed.
+    #[inline(always)]
+    fn with(&mut self, terms: &Terms<impl AsRef<[f64]>>, in_columns: Option<f64>) -> P::Lanes {
+        let before = if in_columns.is_some() {
+            1.0
+        } else {
+            terms.factor
+        };
+        let (step, stages) = (self.lanes.step, &mut *self.lanes.stages);
+        let start = self.start.as_slice();
+        let value = |(group, k): (usize, usize), base: (P::Lanes, P::Lanes), sum| {
+            let velocity = P::Lanes::from_f64(start[k]);
+            let node = lanes(tableau::<P>().nodes, group);
+            position::<R, P::Lanes>(base, (step.size, node), velocity, (before, sum))
+        };
+        let base = (step.q, step.q_low);
+        let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force);
+        values::<P, V>(
+            &terms.sums(in_columns),
+            stages.q.as_mut(),
+            base,
+            slopes.as_ref(),
+            value,
+        )
+    }
+
+    /// The velocities of the increments of the momentum, unless they are these.
+    #[inline(always)]
+    fn velocities(&mut self) {
+        if <S as Hamiltonian<V>>::UNIT_MASSES {
+            return;
+        }
+        let LaneStages {
+            q, velocity, force, ..
+        } = &mut *self.lanes.stages;
+        let (q, force) = (q.as_ref(), force.as_ref());
+        for (group, velocity) in velocity.as_mut().iter_mut().enumerate() {
+            let time = P::Lanes::from_f64(self.lanes.step.time);
+            let (q, force) = (&q[group], &force[group]);
+            // A force of another dimension, which is seen when the step is looked at, is not shown to the system.
+            if force.dimension() == velocity.dimension() {
+                P::Lanes::velocity::<V, S>(self.lanes.system, time, q, force, velocity);
+            }
+        }
+    }
+}
+
+impl<P, R, V, S> Sweeps for Positions<'_, P, R, V, S>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    type Movement = LaneMovement<P::Lanes>;
+
+    const HASTY: bool = !R::COMPENSATED;
+
+    #[inline(always)]
+    fn evaluations(&self) -> EvaluationCounts {
+        let stages = P::POSITIONS.count as u32;
+        // The velocities of the increments that the iteration starts from, unless it starts from positions at once.
+        let (begin, start) = if starts_at_once(&P::POSITIONS) {
+            (0, stages)
+        } else {
+            (stages, 0)
+        };
+        EvaluationCounts {
+            begin: begin + 1,
+            start,
+            sweep: 2 * stages,
+            finish: u32::from(R::COMPENSATED),
+            carried: 0,
+        }
+    }
+
+    #[inline(always)]
+    fn time(&self) -> f64 {
+        self.lanes.time()
+    }
+
+    #[inline(always)]
+    fn begin(&mut self, kept: Kept) {
+        if kept.stages && starts_at_once(&P::POSITIONS) {
+            let h = self.lanes.step.size;
+            self.with(&Start::<P>::terms(R::COMPENSATED, h), None);
+            return;
+        }
+        if kept.stages && !P::POSITIONS.extrapolation.is_empty() {
+            if !R::COMPENSATED {
+                self.lanes.scale_forces();
+            }
+            extrapolate::<P, V>(&P::POSITIONS, self.lanes.stages.force.as_mut());
+        } else {
+            for group in self.lanes.stages.force.as_mut() {
+                for component in group.as_mut_slice() {
+                    *component = P::Lanes::from_f64(0.0);
+                }
+            }
+        }
+        self.velocities();
+        self.with(&Terms::new::<P>(true, self.lanes.step.size), None);
+    }
+
+    #[inline(always)]
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.lanes.non_finite()
+    }
+
+    #[inline(always)]
+    fn non_finite_force(&self) -> Option<usize> {
+        self.lanes.non_finite_force()
+    }
+
+    #[inline(always)]
+    fn go_on<C: Class, T: Scalar>(
+        &mut self,
+        kept: Kept,
+        stopping: Stopping,
+        begun: Begun<Self::Movement>,
+    ) -> Result<Work, Failure> {
+        let start = self.start;
+        self.lanes.elsewhere(begun.is_nothing(), |lanes| {
+            let patiently = |start| {
+                patiently::<C, T, _>(&mut Positions { lanes, start }, kept, stopping, begun)
+            };
+            // Nothing points to what is in registers from step to step.
+            match is_in_place(start) {
+                true => patiently(&start.clone()),
+                false => patiently(start),
+            }
+        })
+    }
+
+    #[inline(always)]
+    fn sweep(&mut self) -> LaneMovement<P::Lanes> {
+        self.lanes.forces();
+        if R::COMPENSATED {
+            self.lanes.scale_forces();
+        }
+        self.velocities();
+        let q = match mem::needs_drop::<V>() {
+            // Long vectors, whose loops are better off with all registers.
+            true => apart(|| self.positions()),
+            false => self.positions(),
+        };
+        // Both halves are this one.
+        LaneMovement { q, p: q }
+    }
+
+    #[inline(always)]
+    fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
+        let stages = self.lanes.stages.q.as_ref();
+        let q = part_change(movement.q, scale_of::<P, V>(self.lanes.step.q, stages));
+        Change { q, p: q }
+    }
+
+    #[inline(always)]
+    fn are_about(&self, _movement: &Self::Movement, [q, _]: [f64; 2], _both: bool) -> bool {
+        let stages = self.lanes.stages.q.as_ref();
+        is_about(scale_of::<P, V>(self.lanes.step.q, stages), q)
+    }
+}

@@ -1,0 +1,56 @@
+//! The memory of second-order systems.
+
+use super::rows;
+use crate::error::Quantity;
+use crate::method::{StageStorage, StageTableau};
+use crate::number::Vector;
+use crate::solver::LaneStages;
+
+/// Stages in lanes, and the velocity that they start from.
+#[derive(Debug)]
+pub struct SecondOrderStages<V: Vector, P: StageTableau> {
+    pub(crate) lanes: LaneStages<V, P>,
+    /// The velocity at the start of the step, of a plan whose momenta are eliminated; not where it is the momentum itself.
+    pub(crate) start: V,
+    /// Whether the forces, and their velocities, are increments between steps: of compensated sums.
+    pub(crate) of_increments: bool,
+    /// Whether the forces are in rows, in the place of the velocities.
+    pub(crate) in_rows: bool,
+    /// How many sweeps the step before took, but for one where that came from a coin: of chains, and other systems of local forces.
+    pub(crate) sweeps: u32,
+}
+
+impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SecondOrderStages<V, P> {
+    const BROADCASTS: bool = <LaneStages<V, P> as StageStorage<V>>::BROADCASTS;
+
+    fn like(prototype: &V) -> Self {
+        Self {
+            lanes: LaneStages::like(prototype),
+            start: prototype.zeros_like(),
+            of_increments: false,
+            in_rows: false,
+            sweeps: 0,
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        match self.in_rows {
+            true => self
+                .non_finite_force()
+                .map(|stage| (Quantity::Force, stage)),
+            false => self.lanes.non_finite(),
+        }
+    }
+
+    fn non_finite_force(&self) -> Option<usize> {
+        match self.in_rows {
+            true => rows::non_finite_force(&self.lanes),
+            false => self.lanes.non_finite_force(),
+        }
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        self.lanes.mismatch(dimension)
+    }
+}

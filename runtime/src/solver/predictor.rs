@@ -1,0 +1,66 @@
+//! Stage values at the start of an iteration, from the increments of the step before at once.
+
+use core::marker::PhantomData;
+
+use crate::method::{HalfTableau, StageTableau};
+
+/// The most stages of which starting values are made at once.
+pub(crate) const MOST: usize = 16;
+
+/// `μ E` by its columns: the matrix `E` takes the increments of one half to those of the next step, and `μ` these to stage values
+/// of the other half. A product of doubles, for it is only where iterations start.
+pub(crate) type StartingColumns = [[f64; MOST]; MOST];
+
+/// Whether there is an extrapolation of the increments of a half, and there are few enough for [`starting_columns`].
+pub(crate) const fn starts_at_once(half: &HalfTableau) -> bool {
+    !half.extrapolation.is_empty() && half.extrapolation.len() <= MOST
+}
+
+/// The product of the matrix with these columns and the extrapolation of the increments of a half; zero where it does not
+/// [start at once](starts_at_once).
+pub(crate) const fn starting_columns(matrix: &[&[f64]], half: &HalfTableau) -> StartingColumns {
+    let mut product = [[0.0; MOST]; MOST];
+    if !starts_at_once(half) {
+        return product;
+    }
+    let extrapolation = half.extrapolation;
+    let mut k = 0;
+    while k < extrapolation.len() {
+        let mut j = 0;
+        while j < matrix.len() {
+            let mut i = 0;
+            while i < matrix[j].len() && i < MOST {
+                product[k][i] += matrix[j][i] * extrapolation[k][j];
+                i += 1;
+            }
+            j += 1;
+        }
+        k += 1;
+    }
+    product
+}
+
+/// Columns times weights.
+pub(crate) const fn weighted(columns: &StartingColumns, weights: &[f64]) -> StartingColumns {
+    let mut product = *columns;
+    let mut k = 0;
+    while k < MOST && k < weights.len() {
+        let mut i = 0;
+        while i < MOST {
+            product[k][i] *= weights[k];
+            i += 1;
+        }
+        k += 1;
+    }
+    product
+}
+
+/// The [`starting_columns`] of positions and of momenta.
+pub(crate) struct Starting<P>(PhantomData<P>);
+
+impl<P: StageTableau> Starting<P> {
+    pub(crate) const POSITIONS: &'static StartingColumns =
+        &starting_columns(P::POSITIONS.columns, &P::MOMENTA);
+    pub(crate) const MOMENTA: &'static StartingColumns =
+        &starting_columns(P::MOMENTA.columns, &P::POSITIONS);
+}

@@ -1,0 +1,175 @@
+//! How sweeps move stages in lanes.
+
+use crate::method::PartChange;
+use crate::number::Lanes;
+use crate::solver::convergence::{Movement, is_next_within};
+
+/// How a sweep moved the positions and the momenta of the stages: the largest change of a component, lane by lane. NaN where one is: a
+/// stage that is a number again after it was none has changed by NaN too.
+#[derive(Clone, Copy)]
+pub(crate) struct LaneMovement<L> {
+    pub(crate) q: L,
+    pub(crate) p: L,
+}
+
+/// The largest change, with one more: not from zero, with which the compiler would compare it.
+#[inline(always)]
+pub(crate) fn noted<L: Lanes>(largest: Option<L>, change: L) -> L {
+    largest.map_or(change, |largest| largest.larger_or_nan(change))
+}
+
+/// The largest change, and the largest component, lane by lane, as those of all lanes together.
+#[inline(always)]
+pub(crate) fn part_change<L: Lanes>(change: L, scale: L) -> PartChange {
+    match change.any_nan() {
+        false => PartChange::new(change.largest(), scale.largest()),
+        true => PartChange::new(f64::NAN, f64::NAN),
+    }
+}
+
+impl<L: Lanes> Movement for LaneMovement<L> {
+    #[inline(always)]
+    fn is_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
+        !self.q.any_above(q) && (!both || !self.p.any_above(p)) && self.is_number()
+    }
+
+    #[inline(always)]
+    fn settles_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
+        let (of_q, of_p) = (!self.q.any_above(q), !self.p.any_above(p));
+        if both { of_q & of_p } else { of_q | of_p }
+    }
+
+    #[inline(always)]
+    fn exceeds(&self, [q, p]: [f64; 2], both: bool) -> bool {
+        self.q.any_above(q) && (!both || self.p.any_above(p))
+    }
+
+    #[inline(always)]
+    fn is_next_within(&self, before: &Self, [q, p]: [f64; 2], both: bool) -> bool {
+        let of = |before: L, this: L, bound: f64| {
+            // What holds in every lane holds for the largest of all, for which the processor would have to wait.
+            let in_lanes = !(this * this - before * L::from_f64(bound)).any_above(0.0);
+            (in_lanes || is_next_within(before.largest(), this.largest(), bound))
+                && !before.any_nan()
+        };
+        of(before.q, self.q, q) && (!both || of(before.p, self.p, p))
+    }
+
+    #[inline(always)]
+    fn size(&self, weights: [f64; 2], both: bool) -> f64 {
+        self.sizes(weights, both).largest()
+    }
+
+    #[inline(always)]
+    fn shrinks(&self, below: f64, weights: [f64; 2], both: bool) -> bool {
+        // The processor need not wait for the largest of all lanes.
+        let sizes = self.sizes(weights, both);
+        sizes.all_below(below) & sizes.any_above(0.0)
+    }
+
+    #[inline(always)]
+    fn is_number(&self) -> bool {
+        !(self.q + self.p).any_nan()
+    }
+}
+
+impl<L: Lanes> LaneMovement<L> {
+    /// [`size`](Movement::size), lane by lane.
+    #[inline(always)]
+    fn sizes(&self, [q, p]: [f64; 2], both: bool) -> L {
+        match both {
+            true => (self.q * L::from_f64(q)).larger(self.p * L::from_f64(p)),
+            false => self.q,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_traits::Zero;
+
+    use super::*;
+    use crate::method::Change;
+    use crate::number::{F64x2, Scalar};
+
+    /// How lanes moved, and the same as one number for each half.
+    fn moved(lanes: [[f64; 2]; 2]) -> (LaneMovement<F64x2>, Change) {
+        let [q, p] = lanes.map(F64x2::from_array);
+        let one = F64x2::from_f64(1.0);
+        let [of_q, of_p] = [q, p].map(|change| part_change(change, one));
+        let change = Change { q: of_q, p: of_p };
+        (LaneMovement { q, p }, change)
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_not_lost() {
+        let changes = [[1.0, 0.5], [2.0, 0.0], [0.25, 3.0]];
+        let all_noted = |changes: &[[f64; 2]]| {
+            let changes = changes.iter().map(|&change| F64x2::from_array(change));
+            let largest = changes.fold(None, |largest, x| Some(noted(largest, x)));
+            largest.unwrap_or_else(F64x2::zero)
+        };
+        let ones = F64x2::from_f64(1.0);
+        let all = all_noted(&changes);
+        assert_eq!(part_change(all, ones), PartChange::new(3.0, 1.0));
+        assert!(LaneMovement { q: all, p: all }.is_number());
+        assert_eq!(part_change(all_noted(&[]), ones), PartChange::new(0.0, 1.0));
+        for component in 0..3 {
+            for lane in 0..2 {
+                let mut changes = changes;
+                changes[component][lane] = f64::NAN;
+                let none = all_noted(&changes);
+                assert!(part_change(none, ones).is_undefined());
+                assert!(!LaneMovement { q: none, p: all }.is_number());
+                for both in [false, true] {
+                    assert!(!LaneMovement { q: none, p: all }.is_within([10.0; 2], both));
+                    assert!(!LaneMovement { q: all, p: none }.is_within([10.0; 2], both));
+                }
+                assert!(!LaneMovement { q: all, p: none }.is_number());
+            }
+        }
+    }
+
+    #[test]
+    fn lanes_are_compared_as_the_largest_of_them_is() {
+        let numbers = [0.0, 0.25, 1.0, 3.0, f64::INFINITY];
+        let all = || numbers.iter().flat_map(|&x| numbers.map(|y| [x, y]));
+        for q in all() {
+            for p in all() {
+                let (lanes, change) = moved([q, p]);
+                for both in [true, false] {
+                    for bounds in [[0.5, 0.5], [2.0, 0.5], [0.1, 2.0], [0.0, 0.0]] {
+                        let found = [
+                            lanes.is_within(bounds, both),
+                            lanes.settles_within(bounds, both),
+                            lanes.exceeds(bounds, both),
+                        ];
+                        let expected = [
+                            change.is_within(bounds, both),
+                            change.settles_within(bounds, both),
+                            change.exceeds(bounds, both),
+                        ];
+                        assert_eq!(found, expected, "{q:?} {p:?} {bounds:?} {both}");
+                    }
+                    let sizes = [lanes.size([2.0, 0.5], both), change.size([2.0, 0.5], both)];
+                    assert_eq!(sizes[0], sizes[1], "{q:?} {p:?} {both}");
+                    for below in [0.0, 0.5, sizes[0], 2.0, f64::INFINITY] {
+                        let [this, other] = [
+                            lanes.shrinks(below, [2.0, 0.5], both),
+                            change.shrinks(below, [2.0, 0.5], both),
+                        ];
+                        assert_eq!(this, other, "{q:?} {p:?} {both} {below}");
+                    }
+                    for before in [[0.0, 0.5], [0.25, 0.25], [f64::NAN, 0.0]] {
+                        let (lanes_before, change_before) = moved([before, before]);
+                        let [this, other] = [
+                            lanes.is_next_within(&lanes_before, [0.5, 0.25], both),
+                            change.is_next_within(&change_before, [0.5, 0.25], both),
+                        ];
+                        assert_eq!(this, other, "{q:?} {p:?} {both} {before:?}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,682 @@
+//! Coupled stages side by side in lanes.
+
+use core::marker::PhantomData;
+use core::mem;
+
+use num_traits::Zero;
+
+use crate::error::Quantity;
+use crate::method::tableau::Columns;
+use crate::method::{
+    Change, EvaluationCounts, Failure, HalfTableau, Inside, Kept, Outcome, Solver, StageStorage,
+    StageTableau, Step, Stopping, Work,
+};
+use crate::number::linear_combination::sum_of_products;
+use crate::number::summation::{Beyond, add, moved};
+use crate::number::vector::{LIGHT, is_in_place};
+use crate::number::{HamiltonianInLanes, Lanes, Scalar, Summation, Vector};
+use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
+use crate::solver::simd::change::{LaneMovement, noted, part_change};
+use crate::solver::simd::stages::{LaneStages, Laned};
+use crate::system::{Class, Hamiltonian};
+
+/// The iteration of [`FixedPoint`](crate::FixedPoint) with the stages side by side in [`Lanes`]: one evaluation of the
+/// system is that of two, four or eight stages.
+///
+/// It needs a system that is generic over its scalar. Vectors may be long: without it the lanes run along their components,
+/// but sums over the stages are slower than with all stages of a component at hand (`--example ratios` of the contest has
+/// both for a chain of 1024 particles).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct InLanes;
+
+impl<V, S> Solver<V, S> for InLanes
+where
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    type Memory<P: StageTableau> = LaneStages<V, P>;
+
+    #[inline(always)]
+    fn take<P, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        stages: &mut LaneStages<V, P>,
+        kept: Kept,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        P: StageTableau,
+        R: Summation,
+        S: Hamiltonian<V, Class = P::Class>,
+    {
+        let mut sweeps = ByLanes::<P, R, V, S> {
+            step,
+            system,
+            stages: &mut *stages,
+            sums: PhantomData,
+        };
+        let work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
+        if !R::COMPENSATED {
+            sweeps.increments();
+        }
+        let Outcome { q, q_low, p, p_low } = outcome;
+        total::<R, P, V>(
+            (q, q_low),
+            (step.q, step.q_low),
+            stages.velocity.as_ref(),
+            &P::MOMENTA,
+            step.size,
+        );
+        total::<R, P, V>(
+            (p, p_low),
+            (step.p, step.p_low),
+            stages.force.as_ref(),
+            &P::POSITIONS,
+            step.size,
+        );
+        Ok(work)
+    }
+
+    fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
+        let velocity = |stage, k| entry::<P, V>(stages.velocity.as_ref(), stage, k);
+        let force = |stage, k| entry::<P, V>(stages.force.as_ref(), stage, k);
+        extend::<P, V>(&P::MOMENTA, at, velocity, q);
+        extend::<P, V>(&P::POSITIONS, at, force, p);
+    }
+}
+
+/// Adds to `out` the part that vanishes at both ends of the step, of the evaluations of one half, by stage and component.
+pub(crate) fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
+    half: &HalfTableau,
+    at: Inside<'_, V>,
+    evaluation: impl Fn(usize, usize) -> f64,
+    out: &mut V,
+) {
+    let Some(polynomial) = half.polynomial else {
+        return;
+    };
+    for stage in 0..half.count {
+        let factor = at.factor(polynomial, stage);
+        let factor = if P::INCREMENTS {
+            factor
+        } else {
+            at.size * factor
+        };
+        for (k, out) in out.as_mut_slice().iter_mut().enumerate() {
+            *out += factor * evaluation(stage, k);
+        }
+    }
+}
+
+/// The stages of a plan in lanes.
+///
+/// With plain sums evaluations are no increments while the stages are iterated, and the matrices have the factors that would make
+/// them such.
+pub(crate) struct ByLanes<'a, P: StageTableau, R, V: Vector, S> {
+    pub(crate) step: &'a Step<'a, V>,
+    pub(crate) system: &'a S,
+    pub(crate) stages: &'a mut LaneStages<V, P>,
+    pub(crate) sums: PhantomData<R>,
+}
+
+impl<P, R, V, S> Sweeps for ByLanes<'_, P, R, V, S>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    type Movement = LaneMovement<P::Lanes>;
+
+    const HASTY: bool = !R::COMPENSATED;
+
+    #[inline(always)]
+    fn evaluations(&self) -> EvaluationCounts {
+        let start = P::MOMENTA.count as u32;
+        let (begin, start) = if extrapolates::<P>() {
+            (0, start)
+        } else {
+            (start, 0)
+        };
+        EvaluationCounts {
+            begin,
+            start,
+            sweep: (P::POSITIONS.count + P::MOMENTA.count) as u32,
+            finish: 0,
+            carried: 0,
+        }
+    }
+
+    #[inline(always)]
+    fn time(&self) -> f64 {
+        self.step.time
+    }
+
+    #[inline(always)]
+    fn begin(&mut self, kept: Kept) {
+        if kept.stages && extrapolates::<P>() {
+            extrapolate::<P, V>(&P::MOMENTA, self.stages.velocity.as_mut());
+            if !P::Class::SEPARABLE {
+                extrapolate::<P, V>(&P::POSITIONS, self.stages.force.as_mut());
+                self.momenta(true);
+            }
+        } else {
+            fill::<P, V>(self.stages.q.as_mut(), self.step.q);
+            fill::<P, V>(self.stages.p.as_mut(), self.step.p);
+            self.velocities();
+            self.scale_velocities();
+        }
+        self.positions(true);
+    }
+
+    #[inline(always)]
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.stages.non_finite()
+    }
+
+    #[inline(always)]
+    fn non_finite_force(&self) -> Option<usize> {
+        self.stages.non_finite_force()
+    }
+
+    #[inline(always)]
+    fn go_on<C: Class, T: Scalar>(
+        &mut self,
+        kept: Kept,
+        stopping: Stopping,
+        begun: Begun<Self::Movement>,
+    ) -> Result<Work, Failure> {
+        self.elsewhere(begun.is_nothing(), |mut lanes| {
+            patiently::<C, T, _>(&mut lanes, kept, stopping, begun)
+        })
+    }
+
+    #[inline(always)]
+    fn sweep(&mut self) -> LaneMovement<P::Lanes> {
+        self.forces();
+        if R::COMPENSATED {
+            self.scale_forces();
+        }
+        let p = self.momenta(R::COMPENSATED);
+        self.velocities();
+        if R::COMPENSATED {
+            self.scale_velocities();
+        }
+        let q = self.positions(R::COMPENSATED);
+        LaneMovement { q, p }
+    }
+
+    #[inline(always)]
+    fn sweep_beyond(&mut self) -> LaneMovement<P::Lanes> {
+        self.beyond().sweep()
+    }
+
+    #[inline(always)]
+    fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
+        let (step, stages) = (self.step, &*self.stages);
+        Change {
+            q: part_change(movement.q, scale_of::<P, V>(step.q, stages.q.as_ref())),
+            p: part_change(movement.p, scale_of::<P, V>(step.p, stages.p.as_ref())),
+        }
+    }
+
+    #[inline(always)]
+    fn are_about(&self, _movement: &Self::Movement, [q, p]: [f64; 2], both: bool) -> bool {
+        let (step, stages) = (self.step, &*self.stages);
+        is_about(scale_of::<P, V>(step.q, stages.q.as_ref()), q)
+            && (!both || is_about(scale_of::<P, V>(step.p, stages.p.as_ref()), p))
+    }
+}
+
+/// Whether there are starting values from the step before: of the velocities, and of the forces where they need them too.
+pub(crate) const fn extrapolates<P: StageTableau>() -> bool {
+    !P::MOMENTA.extrapolation.is_empty()
+        && (P::Class::SEPARABLE || !P::POSITIONS.extrapolation.is_empty())
+}
+
+/// The largest component of stages and of what they start from, that of some in each lane.
+#[inline(always)]
+pub(crate) fn scale_of<P: StageTableau, V: Vector<Scalar = f64>>(
+    base: &V,
+    groups: &[Laned<V, P>],
+) -> P::Lanes {
+    let components = base.as_slice();
+    // Where they are many, they have all lanes.
+    let rows = match mem::needs_drop::<V>() {
+        true => components.len() / P::Lanes::WIDTH,
+        false => 0,
+    };
+    let (in_rows, rest) = components.split_at(rows * P::Lanes::WIDTH);
+    let mut scale = P::Lanes::from_f64(0.0);
+    for row in in_rows.chunks_exact(P::Lanes::WIDTH) {
+        scale = scale.larger(P::Lanes::from_fn(|lane| row[lane]).abs());
+    }
+    for &component in rest {
+        scale = scale.larger(P::Lanes::from_f64(component).abs());
+    }
+    for group in groups {
+        for component in group.as_slice() {
+            scale = scale.larger(component.abs());
+        }
+    }
+    scale
+}
+
+/// Whether the largest lane is another size but for a factor of two.
+#[inline(always)]
+pub(crate) fn is_about<L: Lanes>(scale: L, other: f64) -> bool {
+    scale.any_above(0.5 * other) && !scale.any_above(2.0 * other)
+}
+
+impl<P, R, V, S> ByLanes<'_, P, R, V, S>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    /// The same with sweeps that move the stages twice as far.
+    #[inline(always)]
+    pub(crate) fn beyond(&mut self) -> ByLanes<'_, P, Beyond<R>, V, S> {
+        ByLanes {
+            step: self.step,
+            system: self.system,
+            stages: &mut *self.stages,
+            sums: PhantomData,
+        }
+    }
+
+    /// What `go_on` makes of these stages. It is given them in another place, unless they are many or on the heap: stages that nothing
+    /// points to can be in registers from step to step. Those of the step before, where it begins `anew`, need not be in any.
+    #[inline(always)]
+    pub(crate) fn elsewhere<T>(
+        &mut self,
+        anew: bool,
+        go_on: impl FnOnce(ByLanes<'_, P, R, V, S>) -> T,
+    ) -> T {
+        let (system, sums) = (self.system, PhantomData);
+        if !is_in_place(self.step.q) || size_of::<LaneStages<V, P>>() > LIGHT {
+            let (step, stages) = (self.step, &mut *self.stages);
+            return go_on(ByLanes {
+                step,
+                system,
+                stages,
+                sums,
+            });
+        }
+        let mut stages = self.stages.take(!anew);
+        let made = self.step.copied(|step| {
+            go_on(ByLanes {
+                step,
+                system,
+                stages: &mut stages,
+                sums,
+            })
+        });
+        *self.stages = stages;
+        made
+    }
+
+    /// New positions, of velocities that are increments or not yet; returns how much they changed.
+    #[inline(always)]
+    pub(crate) fn positions(&mut self, of_increments: bool) -> P::Lanes {
+        let (step, stages) = (self.step, &mut *self.stages);
+        let base = (step.q, step.q_low);
+        let (columns, weights) = (Columns::<P>::POSITIONS, P::MOMENTA.weights);
+        let sums = sums::<R, P>(columns, weights, step.size, of_increments);
+        let terms = stages.velocity.as_ref();
+        values::<P, V>(&sums, stages.q.as_mut(), base, terms, sum::<P>)
+    }
+
+    /// New momenta, of forces that are increments or not yet; returns how much they changed.
+    #[inline(always)]
+    pub(crate) fn momenta(&mut self, of_increments: bool) -> P::Lanes {
+        let (step, stages) = (self.step, &mut *self.stages);
+        let base = (step.p, step.p_low);
+        let (columns, weights) = (Columns::<P>::MOMENTA, P::POSITIONS.weights);
+        let sums = sums::<R, P>(columns, weights, step.size, of_increments);
+        let terms = stages.force.as_ref();
+        values::<P, V>(&sums, stages.p.as_mut(), base, terms, sum::<P>)
+    }
+
+    /// Evaluates all forces, which are no increments yet.
+    #[inline(always)]
+    pub(crate) fn forces(&mut self) {
+        let LaneStages { q, p, force, .. } = &mut *self.stages;
+        let (q, p) = (q.as_ref(), p.as_ref());
+        for (group, force) in force.as_mut().iter_mut().enumerate() {
+            let time = times::<P, V>(&P::POSITIONS, self.step, group);
+            P::Lanes::force::<V, S>(self.system, time, &q[group], &p[group], force);
+        }
+    }
+
+    /// Evaluates all velocities, which are no increments yet.
+    #[inline(always)]
+    pub(crate) fn velocities(&mut self) {
+        let LaneStages { q, p, velocity, .. } = &mut *self.stages;
+        let (q, p) = (q.as_ref(), p.as_ref());
+        for (group, velocity) in velocity.as_mut().iter_mut().enumerate() {
+            let time = times::<P, V>(&P::MOMENTA, self.step, group);
+            P::Lanes::velocity::<V, S>(self.system, time, &q[group], &p[group], velocity);
+        }
+    }
+
+    /// Evaluates all velocities and forces, which are no increments yet; they have one time.
+    #[inline(always)]
+    pub(crate) fn slopes(&mut self) {
+        let LaneStages {
+            q,
+            p,
+            velocity,
+            force,
+        } = &mut *self.stages;
+        let (q, p, velocity, force) = (q.as_ref(), p.as_ref(), velocity.as_mut(), force.as_mut());
+        let n = velocity.len().min(force.len());
+        let (velocity, force) = (&mut velocity[..n], &mut force[..n]);
+        for group in 0..n {
+            let time = times::<P, V>(&P::POSITIONS, self.step, group);
+            let slopes = (&mut velocity[group], &mut force[group]);
+            P::Lanes::slopes::<V, S>(self.system, time, &q[group], &p[group], slopes);
+        }
+    }
+
+    /// The forces become increments.
+    #[inline(always)]
+    pub(crate) fn scale_forces(&mut self) {
+        scale::<P, V>(&P::POSITIONS, self.step.size, self.stages.force.as_mut());
+    }
+
+    /// The velocities become increments.
+    #[inline(always)]
+    pub(crate) fn scale_velocities(&mut self) {
+        scale::<P, V>(&P::MOMENTA, self.step.size, self.stages.velocity.as_mut());
+    }
+
+    /// Both evaluations become increments.
+    #[inline(always)]
+    pub(crate) fn increments(&mut self) {
+        self.scale_forces();
+        self.scale_velocities();
+    }
+}
+
+/// The lanes of one group in a list over the stages.
+#[inline(always)]
+pub(crate) fn lanes<L: Lanes>(list: &[f64], group: usize) -> L {
+    let list = &list[group * L::WIDTH..(group + 1) * L::WIDTH];
+    L::from_fn(|lane| list[lane])
+}
+
+/// The times of the evaluations of a group.
+#[inline(always)]
+pub(crate) fn times<P: StageTableau, V>(
+    half: &HalfTableau,
+    step: &Step<'_, V>,
+    group: usize,
+) -> P::Lanes {
+    let fractions: P::Lanes = lanes(half.times, group);
+    P::Lanes::from_f64(step.time) + fractions * P::Lanes::from_f64(step.size)
+}
+
+/// What evaluations of a group are multiplied by to become increments.
+#[inline(always)]
+pub(crate) fn increment_factor<P: StageTableau>(
+    half: &HalfTableau,
+    h: f64,
+    group: usize,
+) -> P::Lanes {
+    lanes::<P::Lanes>(half.weights, group) * P::Lanes::from_f64(h)
+}
+
+/// Evaluations become increments.
+#[inline(always)]
+pub(crate) fn scale<P: StageTableau, V: Vector>(
+    half: &HalfTableau,
+    h: f64,
+    evaluations: &mut [Laned<V, P>],
+) {
+    if P::INCREMENTS {
+        for (group, evaluation) in evaluations.iter_mut().enumerate() {
+            let factor = increment_factor::<P>(half, h, group);
+            for component in evaluation.as_mut_slice() {
+                *component *= factor;
+            }
+        }
+    }
+}
+
+/// Copies a vector to all lanes.
+#[inline(always)]
+pub(crate) fn fill<P: StageTableau, V: Vector<Scalar = f64>>(groups: &mut [Laned<V, P>], from: &V) {
+    let from = from.as_slice();
+    for group in groups {
+        let group = group.as_mut_slice();
+        let n = group.len().min(from.len());
+        let (group, from) = (&mut group[..n], &from[..n]);
+        for k in 0..n {
+            group[k] = P::Lanes::from_f64(from[k]);
+        }
+    }
+}
+
+// Functions that look into groups are given slices, not arrays of them: where LLVM knows the length of what a reference points
+// to, it widens loads of single lanes beyond the group, and the processor has to wait until both groups are in memory.
+
+/// The double of one stage in one component.
+#[inline(always)]
+pub(crate) fn entry<P: StageTableau, V: Vector>(
+    groups: &[Laned<V, P>],
+    stage: usize,
+    component: usize,
+) -> f64 {
+    lane_of(groups[stage / P::Lanes::WIDTH].as_slice()[component], stage)
+}
+
+/// The double of a stage among those of its group.
+#[inline(always)]
+pub(crate) fn lane_of<L: Lanes>(group: L, stage: usize) -> f64 {
+    group.to_array().as_ref()[stage % L::WIDTH]
+}
+
+/// The double of a stage in some groups.
+#[inline(always)]
+pub(crate) fn in_groups<L: Lanes>(groups: &[L], stage: usize) -> f64 {
+    lane_of(groups[stage / L::WIDTH], stage)
+}
+
+/// What the stages are sums of: a matrix by its columns, which have an entry for each lane, and the factor of each, if any.
+pub(crate) struct Sums<C, F> {
+    pub(crate) count: usize,
+    pub(crate) column: C,
+    pub(crate) factor: F,
+    /// Whether they start with what the base leaves out.
+    pub(crate) with_low: bool,
+    /// Whether stages are moved twice as far.
+    pub(crate) beyond: bool,
+}
+
+/// The sums that one half of the stages is, by the columns of its matrix, of evaluations of the other half with these weights, that are
+/// increments or not yet.
+#[inline(always)]
+pub(crate) fn sums<R: Summation, P: StageTableau>(
+    columns: &'static [&'static [f64]],
+    weights: &'static [f64],
+    h: f64,
+    of_increments: bool,
+) -> Sums<impl Fn(usize) -> &'static [f64] + use<R, P>, impl Fn(usize) -> Option<f64> + use<R, P>> {
+    Sums {
+        count: columns.len(),
+        column: move |j: usize| columns[j],
+        factor: move |j: usize| match (P::INCREMENTS, of_increments) {
+            (true, true) => None,
+            (true, false) => Some(h * weights[j]),
+            (false, _) => Some(h),
+        },
+        with_low: R::COMPENSATED,
+        beyond: R::BEYOND,
+    }
+}
+
+/// New stage values from evaluations; returns how much they changed. Each is made of the number of the group and of the
+/// component, of the base with what it leaves out, and of the sum.
+#[inline(always)]
+pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
+    sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
+    out: &mut [Laned<V, P>],
+    (base, low): (&V, &V),
+    terms: &[Laned<V, P>],
+    value: impl Fn((usize, usize), (P::Lanes, P::Lanes), P::Lanes) -> P::Lanes,
+) -> P::Lanes {
+    let n = shortest(out)
+        .min(shortest(terms))
+        .min(base.dimension())
+        .min(low.dimension());
+    let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
+    if mem::needs_drop::<V>() {
+        return long_values::<P, V>(sums, out, (base, low), terms, value);
+    }
+    let mut largest = None;
+    for k in 0..n {
+        let start = P::Lanes::from_f64(base[k]);
+        for (group, out) in out.iter_mut().enumerate() {
+            let low = P::Lanes::from_f64(low[k]);
+            let with = sums.with_low.then_some(low);
+            let sum_of_terms = combination(sums, group, with, |j| entry::<P, V>(terms, j, k));
+            let new = value((group, k), (start, low), sum_of_terms);
+            let component = &mut out.as_mut_slice()[k];
+            let new = moved(sums.beyond, *component, new);
+            let change = (new - *component).abs();
+            *component = new;
+            largest = Some(noted(largest, change));
+        }
+    }
+    largest.unwrap_or_else(P::Lanes::zero)
+}
+
+/// [`values`] of vectors on the heap, which has looked where their components are: else it would be done again after every one that is
+/// written.
+#[inline(always)]
+fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
+    sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
+    out: &mut [Laned<V, P>],
+    (base, low): (&[f64], &[f64]),
+    terms: &[Laned<V, P>],
+    value: impl Fn((usize, usize), (P::Lanes, P::Lanes), P::Lanes) -> P::Lanes,
+) -> P::Lanes {
+    let n = base.len();
+    let mut places = out.iter_mut();
+    let mut out = P::groups(|_| match places.next() {
+        Some(group) => &mut group.as_mut_slice()[..n],
+        None => &mut [],
+    });
+    let terms = P::groups(|group| &terms[group].as_slice()[..n]);
+    let (out, terms) = (out.as_mut(), terms.as_ref());
+    let mut largest = None;
+    for k in 0..n {
+        let [start, low] = [base[k], low[k]].map(P::Lanes::from_f64);
+        for (group, out) in out.iter_mut().enumerate() {
+            let with = sums.with_low.then_some(low);
+            let term = |j: usize| lane_of(terms[j / P::Lanes::WIDTH][k], j);
+            let sum_of_terms = combination(sums, group, with, term);
+            let new = value((group, k), (start, low), sum_of_terms);
+            let new = moved(sums.beyond, out[k], new);
+            let change = (new - out[k]).abs();
+            out[k] = new;
+            largest = Some(noted(largest, change));
+        }
+    }
+    largest.unwrap_or_else(P::Lanes::zero)
+}
+
+/// `base + sum`, for a sum with what the base leaves out.
+#[inline(always)]
+pub(crate) fn sum<P: StageTableau>(
+    _place: (usize, usize),
+    (base, _low): (P::Lanes, P::Lanes),
+    sum: P::Lanes,
+) -> P::Lanes {
+    base + sum
+}
+
+/// `start + factor Σ_j columns_j terms_j` in one component, for the stages of one group; the factor, if any, is in the products.
+#[inline(always)]
+pub(crate) fn combination<L: Lanes>(
+    sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
+    group: usize,
+    start: Option<L>,
+    term: impl Fn(usize) -> f64,
+) -> L {
+    sum_of_products(start, sums.count, |j| {
+        let column: L = lanes((sums.column)(j), group);
+        let column = match (sums.factor)(j) {
+            Some(factor) => column * L::from_f64(factor),
+            None => column,
+        };
+        (column, L::from_f64(term(j)))
+    })
+}
+
+/// Increments from those of the step before.
+#[inline(always)]
+pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
+    half: &HalfTableau,
+    increments: &mut [Laned<V, P>],
+) {
+    let n = shortest(increments);
+    let columns = half.extrapolation;
+    let sums = Sums {
+        count: columns.len(),
+        column: |j: usize| columns[j],
+        factor: |_| None,
+        with_low: false,
+        beyond: false,
+    };
+    let mut new = P::groups(|_| P::Lanes::from_f64(0.0));
+    for k in 0..n {
+        for (group, new) in new.as_mut().iter_mut().enumerate() {
+            *new = combination(&sums, group, None, |j| entry::<P, V>(increments, j, k));
+        }
+        for (group, new) in new.as_ref().iter().enumerate() {
+            increments[group].as_mut_slice()[k] = *new;
+        }
+    }
+}
+
+/// The result of a step, of the evaluations of one half.
+#[inline(always)]
+pub(crate) fn total<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
+    (out, out_low): (&mut V, &mut V),
+    (base, low): (&V, &V),
+    terms: &[Laned<V, P>],
+    half: &HalfTableau,
+    h: f64,
+) {
+    let n = shortest(terms).min(base.dimension());
+    for k in 0..n {
+        let term = |stage: usize| {
+            let entry = entry::<P, V>(terms, stage, k);
+            if P::INCREMENTS {
+                entry
+            } else {
+                h * half.weights[stage] * entry
+            }
+        };
+        let (base, low) = (base.as_slice()[k], low.as_slice()[k]);
+        let (high, rest) = add::<R, f64>(base, low, half.count, term);
+        out.as_mut_slice()[k] = high;
+        if R::COMPENSATED {
+            out_low.as_mut_slice()[k] = rest;
+        }
+    }
+}
+
+/// The smallest dimension of some vectors.
+#[inline(always)]
+pub(crate) fn shortest<V: Vector>(groups: &[V]) -> usize {
+    let mut shortest = usize::MAX;
+    for group in groups {
+        shortest = shortest.min(group.as_slice().len());
+    }
+    shortest
+}

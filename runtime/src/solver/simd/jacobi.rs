@@ -1,0 +1,287 @@
+//! Both halves of a system that is not separable, at once.
+
+use core::marker::PhantomData;
+
+use crate::error::Quantity;
+use crate::method::tableau::Columns;
+use crate::method::{
+    Change, EvaluationCounts, Failure, Inside, Kept, Outcome, Solver, StageTableau, Step, Stopping,
+    Work,
+};
+use crate::number::{HamiltonianInLanes, Scalar, Summation, Vector};
+use crate::solver::InLanes;
+use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
+use crate::solver::predictor::{Starting, starts_at_once};
+use crate::solver::simd::change::LaneMovement;
+use crate::solver::simd::gauss_seidel::{
+    ByLanes, Sums, extrapolate, extrapolates, fill, sum, sums, total, values,
+};
+use crate::solver::simd::stages::{LaneStages, Laned};
+use crate::system::{Class, Hamiltonian};
+
+/// [`InLanes`] for Hamiltonians that are not separable, with positions and momenta iterated at once.
+///
+/// A sweep of [`InLanes`] takes the velocities where its forces have moved the momenta to (Gauss–Seidel); here both halves are
+/// taken where the sweep before has left the stages (Jacobi). Neither half waits for the other, and there may be more sweeps:
+/// it pays where `∂²H/∂q∂p` is as large as the other second derivatives and evaluations cost little. Where velocity and force have
+/// costly parts in common they are evaluated together, by [`Hamiltonian::slopes`].
+/// The stages are those of [`InLanes`] up to rounding.
+///
+/// Separable systems are taken as by [`InLanes`]: for these there would be twice as many sweeps.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct AtOnceInLanes;
+
+impl<V, S> Solver<V, S> for AtOnceInLanes
+where
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    type Memory<P: StageTableau> = LaneStages<V, P>;
+
+    #[inline(always)]
+    fn take<P, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        stages: &mut LaneStages<V, P>,
+        kept: Kept,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<Work, Failure>
+    where
+        P: StageTableau,
+        R: Summation,
+        S: Hamiltonian<V, Class = P::Class>,
+    {
+        if P::Class::SEPARABLE {
+            return <InLanes as Solver<V, S>>::take::<P, R>(
+                step, system, stages, kept, stopping, outcome,
+            );
+        }
+        let mut sweeps = Halves::<P, R, V, S>(ByLanes {
+            step,
+            system,
+            stages: &mut *stages,
+            sums: PhantomData,
+        });
+        let work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
+        if !R::COMPENSATED {
+            sweeps.0.increments();
+        }
+        let Outcome { q, q_low, p, p_low } = outcome;
+        total::<R, P, V>(
+            (q, q_low),
+            (step.q, step.q_low),
+            stages.velocity.as_ref(),
+            &P::MOMENTA,
+            step.size,
+        );
+        total::<R, P, V>(
+            (p, p_low),
+            (step.p, step.p_low),
+            stages.force.as_ref(),
+            &P::POSITIONS,
+            step.size,
+        );
+        Ok(work)
+    }
+
+    fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
+        <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
+    }
+}
+
+/// Positions and momenta of the stages.
+struct Halves<'a, P: StageTableau, R, V: Vector, S>(ByLanes<'a, P, R, V, S>);
+
+impl<P, R, V, S> Halves<'_, P, R, V, S>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    /// Whether force and velocity of a stage have one time.
+    const AT_ONE_TIME: bool = same(P::POSITIONS.times, P::MOMENTA.times);
+
+    /// New stages from the evaluations, by how much they moved.
+    #[inline(always)]
+    fn stages(&mut self) -> LaneMovement<P::Lanes> {
+        if R::COMPENSATED {
+            self.0.increments();
+        }
+        let step = self.0.step;
+        let LaneStages {
+            q,
+            p,
+            velocity,
+            force,
+        } = &mut *self.0.stages;
+        LaneMovement {
+            p: Self::half(
+                (Columns::<P>::MOMENTA, P::POSITIONS.weights),
+                step,
+                (step.p, step.p_low),
+                p.as_mut(),
+                force.as_ref(),
+            ),
+            q: Self::half(
+                (Columns::<P>::POSITIONS, P::MOMENTA.weights),
+                step,
+                (step.q, step.q_low),
+                q.as_mut(),
+                velocity.as_ref(),
+            ),
+        }
+    }
+
+    /// New values of one half, by the columns of its matrix, from the evaluations of the other, which have these weights.
+    #[inline(always)]
+    fn half(
+        (columns, weights): (&'static [&'static [f64]], &'static [f64]),
+        step: &Step<'_, V>,
+        base: (&V, &V),
+        out: &mut [Laned<V, P>],
+        terms: &[Laned<V, P>],
+    ) -> P::Lanes {
+        let sums = sums::<R, P>(columns, weights, step.size, R::COMPENSATED);
+        values::<P, V>(&sums, out, base, terms, sum::<P>)
+    }
+
+    /// Stages from the increments of the step before.
+    #[inline(always)]
+    fn start(&mut self) {
+        let step = self.0.step;
+        let factor = (!P::INCREMENTS).then_some(step.size);
+        let LaneStages {
+            q,
+            p,
+            velocity,
+            force,
+        } = &mut *self.0.stages;
+        let sums = Sums {
+            count: P::MOMENTA.columns.len(),
+            column: |j: usize| &Starting::<P>::MOMENTA[j][..],
+            factor: |_| factor,
+            with_low: R::COMPENSATED,
+            beyond: false,
+        };
+        let base = (step.p, step.p_low);
+        values::<P, V>(&sums, p.as_mut(), base, force.as_ref(), sum::<P>);
+        let sums = Sums {
+            count: P::POSITIONS.columns.len(),
+            column: |j: usize| &Starting::<P>::POSITIONS[j][..],
+            factor: |_| factor,
+            with_low: R::COMPENSATED,
+            beyond: false,
+        };
+        let base = (step.q, step.q_low);
+        values::<P, V>(&sums, q.as_mut(), base, velocity.as_ref(), sum::<P>);
+    }
+}
+
+/// Whether two lists are the same.
+const fn same(left: &[f64], right: &[f64]) -> bool {
+    let mut i = 0;
+    while i < left.len() && i < right.len() && left[i] == right[i] {
+        i += 1;
+    }
+    i == left.len() && i == right.len()
+}
+
+impl<P, R, V, S> Sweeps for Halves<'_, P, R, V, S>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: HamiltonianInLanes<V>,
+{
+    type Movement = LaneMovement<P::Lanes>;
+
+    const HASTY: bool = !R::COMPENSATED;
+
+    #[inline(always)]
+    fn evaluations(&self) -> EvaluationCounts {
+        let both = (P::POSITIONS.count + P::MOMENTA.count) as u32;
+        let (begin, start) = if extrapolates::<P>() {
+            (0, both)
+        } else {
+            (both, 0)
+        };
+        EvaluationCounts {
+            begin,
+            start,
+            ..self.0.evaluations()
+        }
+    }
+
+    #[inline(always)]
+    fn time(&self) -> f64 {
+        self.0.time()
+    }
+
+    #[inline(always)]
+    fn begin(&mut self, kept: Kept) {
+        if kept.stages && starts_at_once(&P::POSITIONS) && starts_at_once(&P::MOMENTA) {
+            self.start();
+            return;
+        }
+        if kept.stages && extrapolates::<P>() {
+            extrapolate::<P, V>(&P::MOMENTA, self.0.stages.velocity.as_mut());
+            extrapolate::<P, V>(&P::POSITIONS, self.0.stages.force.as_mut());
+            self.0.momenta(true);
+            self.0.positions(true);
+            return;
+        }
+        fill::<P, V>(self.0.stages.q.as_mut(), self.0.step.q);
+        fill::<P, V>(self.0.stages.p.as_mut(), self.0.step.p);
+        self.sweep();
+    }
+
+    #[inline(always)]
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.0.non_finite()
+    }
+
+    #[inline(always)]
+    fn non_finite_force(&self) -> Option<usize> {
+        self.0.non_finite_force()
+    }
+
+    #[inline(always)]
+    fn go_on<C: Class, T: Scalar>(
+        &mut self,
+        kept: Kept,
+        stopping: Stopping,
+        begun: Begun<Self::Movement>,
+    ) -> Result<Work, Failure> {
+        self.0.elsewhere(begun.is_nothing(), |lanes| {
+            patiently::<C, T, _>(&mut Halves(lanes), kept, stopping, begun)
+        })
+    }
+
+    #[inline(always)]
+    fn sweep(&mut self) -> LaneMovement<P::Lanes> {
+        if <S as Hamiltonian<V>>::SHARED_SLOPES && Self::AT_ONE_TIME {
+            self.0.slopes();
+        } else {
+            self.0.forces();
+            self.0.velocities();
+        }
+        self.stages()
+    }
+
+    #[inline(always)]
+    fn sweep_beyond(&mut self) -> LaneMovement<P::Lanes> {
+        Halves(self.0.beyond()).sweep()
+    }
+
+    #[inline(always)]
+    fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
+        self.0.change(movement)
+    }
+
+    #[inline(always)]
+    fn are_about(&self, movement: &Self::Movement, scales: [f64; 2], both: bool) -> bool {
+        self.0.are_about(movement, scales, both)
+    }
+}

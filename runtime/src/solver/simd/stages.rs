@@ -1,0 +1,97 @@
+//! The memory of coupled stages that are side by side in lanes.
+
+use core::mem;
+
+use crate::error::Quantity;
+use crate::method::{HalfTableau, StageStorage, StageTableau};
+use crate::number::{Lanes, Vector};
+
+/// A vector of lanes.
+pub(crate) type Laned<V, P> = <V as Vector>::With<<P as StageTableau>::Lanes>;
+
+/// Stages in lanes.
+#[derive(Debug)]
+pub struct LaneStages<V: Vector, P: StageTableau> {
+    pub(crate) q: P::Groups<Laned<V, P>>,
+    pub(crate) p: P::Groups<Laned<V, P>>,
+    /// Evaluations, or the increments made of them.
+    pub(crate) velocity: P::Groups<Laned<V, P>>,
+    pub(crate) force: P::Groups<Laned<V, P>>,
+}
+
+impl<V: Vector, P: StageTableau> LaneStages<V, P> {
+    /// The stages, moved out: nothing points to where they were. Positions and momenta are blank where they are not wanted.
+    #[inline(always)]
+    pub(crate) fn take(&mut self, with_values: bool) -> Self {
+        let blank = || P::groups(|_| Laned::<V, P>::blank());
+        let mut taken = Self {
+            q: blank(),
+            p: blank(),
+            velocity: mem::replace(&mut self.velocity, blank()),
+            force: mem::replace(&mut self.force, blank()),
+        };
+        // Not one of two values that are moved to one place: the compiler would move from one of two places, and keep both in memory.
+        if with_values {
+            taken.q = mem::replace(&mut self.q, blank());
+            taken.p = mem::replace(&mut self.p, blank());
+        }
+        taken
+    }
+}
+
+impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for LaneStages<V, P> {
+    const BROADCASTS: bool = P::Lanes::WIDTH > 4;
+
+    fn like(prototype: &V) -> Self {
+        let zeros = || P::groups(|_| prototype.zeros_with::<P::Lanes>());
+        Self {
+            q: zeros(),
+            p: zeros(),
+            velocity: zeros(),
+            force: zeros(),
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        let first = |half: &HalfTableau, values: &[_], evaluations: &[_]| {
+            (0..half.count).find(|&stage| {
+                is_lane_finite::<V, P>(values, stage) && !is_lane_finite::<V, P>(evaluations, stage)
+            })
+        };
+        let force = first(&P::POSITIONS, self.q.as_ref(), self.force.as_ref());
+        let velocity = first(&P::MOMENTA, self.p.as_ref(), self.velocity.as_ref());
+        match (force, velocity) {
+            (Some(i), Some(j)) if j < i => Some((Quantity::Velocity, j + 1)),
+            (Some(i), _) => Some((Quantity::Force, i + 1)),
+            (None, j) => j.map(|j| (Quantity::Velocity, j + 1)),
+        }
+    }
+
+    fn non_finite_force(&self) -> Option<usize> {
+        let mut stages = 0..P::POSITIONS.count;
+        let first = stages.find(|&stage| !is_lane_finite::<V, P>(self.force.as_ref(), stage));
+        first.map(|index| index + 1)
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        let first = |groups: &P::Groups<Laned<V, P>>| {
+            let mut groups = groups.as_ref().iter().map(Vector::dimension).enumerate();
+            groups.find(|&(_, found)| found != dimension)
+        };
+        // A system that gives a wrong dimension gives it in all lanes: the first stage of the group stands for them.
+        let stage = |group: usize| group * P::Lanes::WIDTH + 1;
+        if let Some((group, found)) = first(&self.force) {
+            return Some((Quantity::Force, stage(group), found));
+        }
+        first(&self.velocity).map(|(group, found)| (Quantity::Velocity, stage(group), found))
+    }
+}
+
+/// Whether a vector is finite in the lane of a stage.
+fn is_lane_finite<V: Vector, P: StageTableau>(groups: &[Laned<V, P>], stage: usize) -> bool {
+    let group = &groups[stage / P::Lanes::WIDTH];
+    let lane = stage % P::Lanes::WIDTH;
+    let mut components = group.as_slice().iter();
+    components.all(|component| component.to_array().as_ref()[lane].is_finite())
+}

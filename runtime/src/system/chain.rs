@@ -1,0 +1,578 @@
+//! Chains of particles that feel their neighbours.
+
+use core::mem;
+
+use num_traits::Zero;
+
+use crate::number::rows::{Eight, Row, Single, splats};
+use crate::number::{F64x8, Lanes, Scalar, Vector, copy};
+use crate::solver::simd::gauss_seidel::lane_of;
+use crate::system::strands::{Part, parts};
+use crate::system::{Components, Layout, MOST_ROW_STAGES, SeparableHamiltonian, StageRows};
+
+/// What the particles of a [`Chain`] feel.
+///
+/// Doubles are evaluated eight at a time, as one [`Scalar`]: as everywhere in code that is generic over scalars, nothing may be decided
+/// by a value, and whether there is an outer force neither.
+pub trait Bonds {
+    /// The derivative `V′` of the energy of a bond, at `stretch = q_{i+1} − q_i`: it pulls the left particle to the right and
+    /// the right one to the left.
+    fn tension<T: Scalar>(&self, time: T, stretch: T) -> T;
+
+    /// The force `−W′` on a particle at `position` that is not from a bond; `None` where there is none.
+    fn outer_force<T: Scalar>(&self, _time: T, _position: T) -> Option<T> {
+        None
+    }
+
+    /// The energy `V` of a bond, where it is known.
+    fn bond_energy<T: Scalar>(&self, _time: T, _stretch: T) -> Option<T> {
+        None
+    }
+
+    /// The energy `W` of a particle, where it is known.
+    fn outer_energy<T: Scalar>(&self, _time: T, _position: T) -> Option<T> {
+        None
+    }
+}
+
+impl<B: Bonds> Bonds for &B {
+    fn tension<T: Scalar>(&self, time: T, stretch: T) -> T {
+        (**self).tension(time, stretch)
+    }
+
+    fn outer_force<T: Scalar>(&self, time: T, position: T) -> Option<T> {
+        (**self).outer_force(time, position)
+    }
+
+    fn bond_energy<T: Scalar>(&self, time: T, stretch: T) -> Option<T> {
+        (**self).bond_energy(time, stretch)
+    }
+
+    fn outer_energy<T: Scalar>(&self, time: T, position: T) -> Option<T> {
+        (**self).outer_energy(time, position)
+    }
+}
+
+/// What is beyond the first and the last particle of a [`Chain`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ends {
+    /// A bond to a wall at the place zero.
+    Walls,
+    /// Nothing.
+    Free,
+    /// The other end.
+    Ring,
+}
+
+/// Particles of mass one in a row, each bound to its two neighbours: Fermi–Pasta–Ulam–Tsingou, Toda, Klein–Gordon and
+/// sine-Gordon chains, wave equations on a grid. With as many particles as vectors have components,
+///
+/// ```text
+/// H = Σ p_i²/2 + Σ W(t, q_i) + Σ V(t, q_{i+1} − q_i)
+/// ```
+///
+/// where `q_i` is how far particle `i` is from its place at rest. The last sum goes over all bonds: with [walls](Self::between_walls) one more than particles, for `q_0 = q_{n+1} = 0`, with
+/// [free ends](Self::with_free_ends) one less, and in a [ring](Self::ring) as many, for `q_{n+1} = q_1`.
+///
+/// Of a system that is a chain an integrator knows who feels whom. In blocks of explicit steps with plain sums and 64
+/// components or more, force, kicks and drift are made in one pass through the chain, with eight particles of doubles side by side.
+/// For many passes the chain is laid in eight strands (a [`Layout`]), one in each lane, and put back after them. Steps one by one
+/// have the same bits.
+///
+/// ```
+/// use symplectic::nalgebra::DVector;
+/// use symplectic::{Bonds, Chain, Error, Integrator, Scalar, State};
+///
+/// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+///
+/// /// V(d) = d²/2 + d⁴/4
+/// struct Beta;
+///
+/// impl Bonds for Beta {
+///     fn tension<T: Scalar>(&self, _time: T, d: T) -> T {
+///         d + d * d * d
+///     }
+/// }
+///
+/// # fn main() -> Result<(), Error> {
+/// let n = 1000;
+/// let pushed = DVector::from_fn(n, |i, _| if i == n / 2 { 1.0 } else { 0.0 });
+/// let start = State::new(0.0, DVector::zeros(n), pushed);
+/// let mut chain = Integrator::plain(StoermerVerlet, Chain::between_walls(Beta), start, 0.05)?;
+/// let end = chain.integrate_to(100.0)?;
+/// assert!(end.q.iter().all(|q| q.is_finite()));
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Chain<B> {
+    bonds: B,
+    ends: Ends,
+}
+
+impl<B: Bonds> Chain<B> {
+    /// The chain with its first and last particle bound to walls at the place zero.
+    pub const fn between_walls(bonds: B) -> Self {
+        Self {
+            bonds,
+            ends: Ends::Walls,
+        }
+    }
+
+    /// The chain with a first particle that only feels the second, and a last one that only feels the one before.
+    pub const fn with_free_ends(bonds: B) -> Self {
+        Self {
+            bonds,
+            ends: Ends::Free,
+        }
+    }
+
+    /// The chain with its last particle bound to the first.
+    pub const fn ring(bonds: B) -> Self {
+        Self {
+            bonds,
+            ends: Ends::Ring,
+        }
+    }
+
+    /// The bonds.
+    pub const fn bonds(&self) -> &B {
+        &self.bonds
+    }
+
+    /// What is right of the last particle; `None` for no bond.
+    #[inline(always)]
+    fn beyond<T: Scalar>(&self, first: T) -> Option<T> {
+        match self.ends {
+            Ends::Walls => Some(T::zero()),
+            Ends::Free => None,
+            Ends::Ring => Some(first),
+        }
+    }
+
+    /// The tension left of the first particle.
+    #[inline(always)]
+    fn first_tension<T: Scalar>(&self, time: T, first: T, last: T) -> T {
+        match self.ends {
+            Ends::Walls => self.bonds.tension(time, first),
+            Ends::Free => T::zero(),
+            Ends::Ring => self.bonds.tension(time, first - last),
+        }
+    }
+
+    /// The force on particles between two tensions.
+    #[inline(always)]
+    fn between<T: Scalar>(&self, time: T, left: T, here: T, right: T) -> T {
+        match self.bonds.outer_force(time, here) {
+            Some(outer) => outer + (right - left),
+            None => right - left,
+        }
+    }
+
+    /// How many particles have a bond to the right of them.
+    fn bound(&self, particles: usize) -> usize {
+        match self.ends {
+            Ends::Free => particles.saturating_sub(1),
+            Ends::Walls | Ends::Ring => particles,
+        }
+    }
+
+    /// Makes a pass from the first particle to the last, in rows as far as they are filled.
+    #[inline(always)]
+    fn walk<T: Scalar, R: Row<T>>(&self, time: T, layout: Layout, pass: &mut impl Pass<T>) {
+        let q = pass.positions();
+        let n = q.len();
+        // At the ends all are in their order.
+        let (Some(&first), Some(&last)) = (q.first(), q.last()) else {
+            return;
+        };
+        let beyond = self.beyond(first);
+        let mut tension = self.first_tension(time, first, last);
+        // With no bond to the right of it the last particle is apart.
+        let bound = self.bound(n);
+        let [before, between, rows, after, last_ones] = if layout.is_natural() {
+            let begin = R::misaligned(q).min(bound);
+            let end = bound - (bound - begin) % R::WIDTH;
+            parts((begin, end), begin, bound)
+        } else {
+            layout.parts(bound)
+        };
+        self.part::<T, Single>(time, pass, before, beyond, &mut tension);
+        self.part::<T, Single>(time, pass, between, beyond, &mut tension);
+        match layout.is_natural() {
+            true => self.part::<T, R>(time, pass, rows, beyond, &mut tension),
+            false => self.strands::<T, R>(time, pass, rows, beyond, &mut tension),
+        }
+        self.part::<T, Single>(time, pass, after, beyond, &mut tension);
+        self.part::<T, Single>(time, pass, last_ones, beyond, &mut tension);
+        let apart = Part {
+            q: bound,
+            p: bound,
+            length: n - bound,
+        };
+        pass.rows::<Single>(apart, last, |here, _after| {
+            self.between(time, tension, here, T::zero())
+        });
+    }
+
+    /// Kicks and a drift in one pass; `false` where there are more kicks than one has before a drift.
+    // Vectors are long: one copy of it for all passes of a step.
+    #[inline(never)]
+    fn kicks_and_drift<T: Scalar, R: Row<T>>(
+        &self,
+        time: T,
+        (q, p): (&mut [T], &mut [T]),
+        layout: Layout,
+        kicks: &[T],
+        drift: T,
+    ) -> bool {
+        match *kicks {
+            [kick] => self.walk::<T, R>(
+                time,
+                layout,
+                &mut KicksAndDrift {
+                    q,
+                    p,
+                    kicks: [kick],
+                    drift,
+                },
+            ),
+            [earlier, later] => {
+                let kicks = [earlier, later];
+                self.walk::<T, R>(time, layout, &mut KicksAndDrift { q, p, kicks, drift });
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    /// The particles of a part, with the tension left of them; in the end it is that right of them.
+    #[inline(always)]
+    fn part<T: Scalar, R: Row<T>>(
+        &self,
+        time: T,
+        pass: &mut impl Pass<T>,
+        part: Part,
+        beyond: Option<T>,
+        tension: &mut T,
+    ) {
+        let after = (pass.positions().get(part.in_q().end).copied()).or(beyond);
+        let (time, after) = (R::splat(time), R::splat(after.unwrap_or(T::zero())));
+        let mut before = R::splat(*tension);
+        pass.rows::<R>(part, after, |here, next| {
+            let right = self.bonds.tension(time, R::right(here, next) - here);
+            let left = R::left(before, right);
+            before = right;
+            self.between(time, left, here, right)
+        });
+        *tension = R::last(before);
+    }
+
+    /// [`part`](Self::part) in strands, one in each lane: the right neighbours of a row are the next row, and those of the last row
+    /// are the first particles of the next strands.
+    #[inline(always)]
+    fn strands<T: Scalar, R: Row<T>>(
+        &self,
+        time: T,
+        pass: &mut impl Pass<T>,
+        part: Part,
+        beyond: Option<T>,
+        tension: &mut T,
+    ) {
+        let q = pass.positions();
+        let after = q
+            .get(part.in_q().end)
+            .copied()
+            .or(beyond)
+            .unwrap_or(T::zero());
+        let (rows, _) = R::rows(&q[part.in_q()]);
+        let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
+            return;
+        };
+        let (time, after) = (R::splat(time), R::right(R::load(first), R::splat(after)));
+        let between_strands = self.bonds.tension(time, after - R::load(last));
+        let mut before = R::left(R::splat(*tension), between_strands);
+        pass.rows::<R>(part, after, |here, next| {
+            let left = mem::replace(&mut before, self.bonds.tension(time, next - here));
+            self.between(time, left, here, before)
+        });
+        *tension = R::last(before);
+    }
+}
+
+/// What a way through a chain is for.
+trait Pass<T: Scalar> {
+    /// The positions; of those behind, which the way has not come to, the old ones.
+    fn positions(&self) -> &[T];
+
+    /// Does it to the particles of a part, which are whole rows, from left to right, with the force that a row has by its
+    /// positions and those of the next; the next of the last row is `after`.
+    fn rows<R: Row<T>>(
+        &mut self,
+        part: Part,
+        after: R::Numbers,
+        force: impl FnMut(R::Numbers, R::Numbers) -> R::Numbers,
+    );
+}
+
+/// Writes the forces.
+struct Forces<'a, T> {
+    q: &'a [T],
+    force: &'a mut [T],
+}
+
+impl<T: Scalar> Pass<T> for Forces<'_, T> {
+    #[inline(always)]
+    fn positions(&self) -> &[T] {
+        self.q
+    }
+
+    #[inline(always)]
+    fn rows<R: Row<T>>(
+        &mut self,
+        part: Part,
+        after: R::Numbers,
+        mut force: impl FnMut(R::Numbers, R::Numbers) -> R::Numbers,
+    ) {
+        let (out, _) = R::rows_mut(&mut self.force[part.in_q()]);
+        let (q, _) = R::rows(&self.q[part.in_q()]);
+        let n = q.len().min(out.len());
+        let (q, out) = (&q[..n], &mut out[..n]);
+        let (Some(first), Some(last)) = (q.first(), n.checked_sub(1)) else {
+            return;
+        };
+        let mut here = R::load(first);
+        for i in 0..last {
+            let next = R::load(&q[i + 1]);
+            out[i] = R::store(force(here, next));
+            here = next;
+        }
+        out[last] = R::store(force(here, after));
+    }
+}
+
+/// Kicks, one after the other, and a drift.
+struct KicksAndDrift<'a, T, const K: usize> {
+    q: &'a mut [T],
+    p: &'a mut [T],
+    kicks: [T; K],
+    drift: T,
+}
+
+impl<T: Scalar, const K: usize> Pass<T> for KicksAndDrift<'_, T, K> {
+    #[inline(always)]
+    fn positions(&self) -> &[T] {
+        self.q
+    }
+
+    #[inline(always)]
+    fn rows<R: Row<T>>(
+        &mut self,
+        part: Part,
+        after: R::Numbers,
+        mut force: impl FnMut(R::Numbers, R::Numbers) -> R::Numbers,
+    ) {
+        let (q, _) = R::rows_mut(&mut self.q[part.in_q()]);
+        let (p, _) = R::rows_mut(&mut self.p[part.in_p()]);
+        let n = q.len().min(p.len());
+        let (q, p) = (&mut q[..n], &mut p[..n]);
+        let (kicks, drift) = (splats::<T, R, K>(self.kicks), R::splat(self.drift));
+        let row = |here: R::Numbers, force: R::Numbers, q: &mut R::Array, p: &mut R::Array| {
+            let mut momentum = R::load(p);
+            for kick in kicks {
+                momentum = kick.fused(force, momentum);
+            }
+            *p = R::store(momentum);
+            *q = R::store(drift.fused(momentum, here));
+        };
+        let (Some(first), Some(last)) = (q.first(), n.checked_sub(1)) else {
+            return;
+        };
+        let mut here = R::load(first);
+        for i in 0..last {
+            let next = R::load(&q[i + 1]);
+            row(here, force(here, next), &mut q[i], &mut p[i]);
+            here = next;
+        }
+        row(here, force(here, after), &mut q[last], &mut p[last]);
+    }
+}
+
+/// A row with nothing in its last lane.
+#[inline(always)]
+fn without_last(row: F64x8) -> F64x8 {
+    let lanes = row.to_array();
+    F64x8::from_fn(|lane| {
+        if lane + 1 < F64x8::WIDTH {
+            lanes[lane]
+        } else {
+            0.0
+        }
+    })
+}
+
+impl<V: Vector, B: Bonds> SeparableHamiltonian<V> for Chain<B> {
+    const UNIT_MASSES: bool = true;
+
+    #[inline]
+    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
+        copy(velocity, p);
+    }
+
+    #[inline]
+    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
+        let (q, force) = (q.as_slice(), force.as_mut_slice());
+        let n = q.len().min(force.len());
+        let (q, force) = (&q[..n], &mut force[..n]);
+        if let (Some(&[time]), Some(q), Some(force)) = (
+            V::Scalar::doubles(&[time]),
+            V::Scalar::doubles(q),
+            V::Scalar::doubles_mut(&mut *force),
+        ) {
+            return self.walk::<f64, Eight>(time, Layout::NATURAL, &mut Forces { q, force });
+        }
+        self.walk::<V::Scalar, Single>(time, Layout::NATURAL, &mut Forces { q, force });
+    }
+
+    const LOCAL_FORCE: bool = true;
+
+    #[inline(always)]
+    fn local_force(&self, time: V::Scalar, components: &mut impl Components<V::Scalar>) {
+        let Some(last) = components.dimension().checked_sub(1) else {
+            return;
+        };
+        let first = components.position(0);
+        // Only a ring looks at its other end.
+        let at_last = match self.ends {
+            Ends::Ring => components.position(last),
+            Ends::Walls | Ends::Free => first,
+        };
+        let (mut here, mut left) = (first, self.first_tension(time, first, at_last));
+        for k in 0..last {
+            let next = components.position(k + 1);
+            let right = self.bonds.tension(time, next - here);
+            components.set_force(k, self.between(time, left, here, right));
+            (here, left) = (next, right);
+        }
+        let right = match self.beyond(first) {
+            Some(beyond) => self.bonds.tension(time, beyond - here),
+            None => V::Scalar::zero(),
+        };
+        components.set_force(last, self.between(time, left, here, right));
+    }
+
+    const ROW_FORCES: bool = true;
+
+    #[inline(always)]
+    fn row_forces(&self, rows: &mut impl StageRows) {
+        let stages = rows.stages();
+        let Some(last) = rows.count().checked_sub(1) else {
+            return;
+        };
+        let first = rows.positions(0);
+        // Only a ring looks at its other end.
+        let at_last = match self.ends {
+            Ends::Ring => rows.positions(last),
+            Ends::Walls | Ends::Free => first,
+        };
+        let zeros = [F64x8::zero(); MOST_ROW_STAGES];
+        let (mut here, mut before) = (first, zeros);
+        for stage in 0..stages {
+            // That left of the first particle, in all lanes.
+            let [first, last] = [
+                lane_of(first[stage], 0),
+                lane_of(at_last[stage], F64x8::WIDTH - 1),
+            ];
+            let ends = [first, last].map(F64x8::from_f64);
+            before[stage] = self.first_tension(rows.time(stage), ends[0], ends[1]);
+        }
+        for row in 0..last {
+            let (next, mut forces) = (rows.positions(row + 1), zeros);
+            for stage in 0..stages {
+                let (time, here) = (rows.time(stage), here[stage]);
+                let tension = self
+                    .bonds
+                    .tension(time, Eight::right(here, next[stage]) - here);
+                forces[stage] =
+                    self.between(time, Eight::left(before[stage], tension), here, tension);
+                before[stage] = tension;
+            }
+            rows.set_forces(row, forces);
+            here = next;
+        }
+        let mut forces = zeros;
+        for stage in 0..stages {
+            let (time, here) = (rows.time(stage), here[stage]);
+            // With no bond to the right of it the last particle is where the next one would be.
+            let beyond = self.beyond(first[stage]);
+            let next = Eight::right(here, beyond.unwrap_or(here));
+            let mut tension = self.bonds.tension(time, next - here);
+            if beyond.is_none() {
+                tension = without_last(tension);
+            }
+            forces[stage] = self.between(time, Eight::left(before[stage], tension), here, tension);
+        }
+        rows.set_forces(last, forces);
+    }
+
+    #[inline]
+    fn kick_and_drift(
+        &self,
+        time: V::Scalar,
+        (q, p): (&mut [V::Scalar], &mut [V::Scalar]),
+        layout: Layout,
+        kicks: &[V::Scalar],
+        drift: V::Scalar,
+    ) -> bool {
+        let n = q.len().min(p.len());
+        let (q, p) = (&mut q[..n], &mut p[..n]);
+        if !layout.is_natural() && layout != SeparableHamiltonian::<V>::layout(self, q, p) {
+            return false;
+        }
+        if let (Some(&[time, drift]), Some(kicks), Some(q), Some(p)) = (
+            V::Scalar::doubles(&[time, drift]),
+            V::Scalar::doubles(kicks),
+            V::Scalar::doubles_mut(&mut *q),
+            V::Scalar::doubles_mut(&mut *p),
+        ) {
+            return self.kicks_and_drift::<f64, Eight>(time, (q, p), layout, kicks, drift);
+        }
+        self.kicks_and_drift::<V::Scalar, Single>(time, (q, p), layout, kicks, drift)
+    }
+
+    /// A strand in each lane.
+    #[inline]
+    fn layout(&self, q: &[V::Scalar], p: &[V::Scalar]) -> Layout {
+        let (Some(q), Some(p)) = (V::Scalar::doubles(q), V::Scalar::doubles(p)) else {
+            return Layout::NATURAL;
+        };
+        let bound = self.bound(q.len().min(p.len()));
+        let begin = [q, p].map(|vector| <Eight as Row<f64>>::misaligned(vector).min(bound));
+        let width = <Eight as Row<f64>>::WIDTH;
+        Layout::strands(width, (bound - begin[0].max(begin[1])) / width, begin)
+    }
+
+    fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
+        let zero = V::Scalar::zero();
+        let (q, p) = (q.as_slice(), p.as_slice());
+        let bond = |stretch| self.bonds.bond_energy(time, stretch);
+        let (&first, &last) = (q.first()?, q.last()?);
+        // Those at the ends.
+        let mut energy = match self.ends {
+            Ends::Walls => bond(first)? + bond(-last)?,
+            Ends::Free => zero,
+            Ends::Ring => bond(first - last)?,
+        };
+        for pair in q.windows(2) {
+            energy += bond(pair[1] - pair[0])?;
+        }
+        let half = V::Scalar::from_f64(0.5);
+        for (&q, &p) in q.iter().zip(p) {
+            energy += half * p * p;
+            if self.bonds.outer_force(time, q).is_some() {
+                energy += self.bonds.outer_energy(time, q)?;
+            }
+        }
+        Some(energy)
+    }
+}

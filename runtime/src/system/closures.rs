@@ -1,0 +1,289 @@
+//! Systems made of closures.
+
+use core::fmt;
+use core::marker::PhantomData;
+
+use nalgebra::SVector;
+
+use crate::number::{Scalar, Vector, copy};
+use crate::system::{General, Hamiltonian, SeparableHamiltonian};
+
+/// A separable system of two closures, `|time, p, velocity| …` and `|time, q, force| …`, that write their result
+/// into the last argument.
+///
+/// Name the vector, in the call or at an argument, and the rest is inferred:
+///
+/// ```
+/// use symplectic::nalgebra::{Vector1, Vector2};
+/// use symplectic::separable;
+///
+/// let oscillator = separable::<Vector1<f64>, _, _>(
+///     |_time, p, velocity| velocity[0] = p[0],
+///     |time, q, force| force[0] = time.cos() - q[0],
+/// );
+/// let kepler = separable(
+///     |_time, p: &Vector2<f64>, velocity| *velocity = *p,
+///     |_time, q, force| *force = -q / q.norm().powi(3),
+/// )
+/// .with_energy(|_time, q, p| p.norm_squared() / 2.0 - q.norm().recip());
+/// # symplectic::SeparableHamiltonian::force(&oscillator, 0.0, &Vector1::new(1.0), &mut Vector1::new(0.0));
+/// # symplectic::SeparableHamiltonian::force(&kepler, 0.0, &Vector2::new(1.0, 0.0), &mut Vector2::zeros());
+/// ```
+pub const fn separable<V, F, G>(velocity: F, force: G) -> SeparableClosures<V, F, G>
+where
+    V: Vector,
+    F: Fn(V::Scalar, &V, &mut V),
+    G: Fn(V::Scalar, &V, &mut V),
+{
+    SeparableClosures {
+        velocity,
+        force,
+        energy: NoEnergy,
+        vector: PhantomData,
+    }
+}
+
+/// A second-order system `q'' = acceleration(t, q)` of one closure, `|time, q, acceleration| …`, with `p = q'`.
+///
+/// It is the separable system `H = |p|²/2 + U(q)` with `acceleration = −∂U/∂q`; where the acceleration is no gradient there
+/// is no Hamiltonian, and nothing is conserved.
+///
+/// ```
+/// use symplectic::acceleration;
+/// use symplectic::nalgebra::Vector2;
+///
+/// let kepler = acceleration(|_time, q: &Vector2<f64>, acceleration| *acceleration = -q / q.norm().powi(3))
+///     .with_energy(|_time, q, p| p.norm_squared() / 2.0 - q.norm().recip());
+/// # let mut velocity = Vector2::zeros();
+/// # symplectic::SeparableHamiltonian::velocity(&kepler, 0.0, &Vector2::new(1.0, 2.0), &mut velocity);
+/// # assert_eq!(velocity, Vector2::new(1.0, 2.0));
+/// ```
+pub const fn acceleration<V, G>(acceleration: G) -> SeparableClosures<V, Momentum, G>
+where
+    V: Vector,
+    G: Fn(V::Scalar, &V, &mut V),
+{
+    SeparableClosures {
+        velocity: Momentum,
+        force: acceleration,
+        energy: NoEnergy,
+        vector: PhantomData,
+    }
+}
+
+/// In place of the velocity of a system in which it is the momentum.
+#[derive(Clone, Copy, Debug)]
+pub struct Momentum;
+
+/// A system with any Hamiltonian of two closures, `|time, q, p, velocity| …` and `|time, q, p, force| …`, that write
+/// their result into the last argument.
+///
+/// ```
+/// use symplectic::hamiltonian;
+/// use symplectic::nalgebra::Vector1;
+///
+/// // H = (q² + 1)(p² + 1)/2
+/// let system = hamiltonian::<Vector1<f64>, _, _>(
+///     |_time, q, p, velocity| velocity[0] = p[0] * (q[0] * q[0] + 1.0),
+///     |_time, q, p, force| force[0] = -q[0] * (p[0] * p[0] + 1.0),
+/// )
+/// .with_energy(|_time, q, p| (q[0] * q[0] + 1.0) * (p[0] * p[0] + 1.0) / 2.0);
+/// # symplectic::Hamiltonian::energy(&system, 0.0, &Vector1::new(1.0), &Vector1::new(0.0));
+/// ```
+pub const fn hamiltonian<V, F, G>(velocity: F, force: G) -> HamiltonianClosures<V, F, G>
+where
+    V: Vector,
+    F: Fn(V::Scalar, &V, &V, &mut V),
+    G: Fn(V::Scalar, &V, &V, &mut V),
+{
+    HamiltonianClosures {
+        velocity,
+        force,
+        energy: NoEnergy,
+        vector: PhantomData,
+    }
+}
+
+/// What [`separable`] returns.
+#[derive(Clone, Copy)]
+pub struct SeparableClosures<V, F, G, E = NoEnergy> {
+    velocity: F,
+    force: G,
+    energy: E,
+    vector: PhantomData<fn(V)>,
+}
+
+/// What [`hamiltonian`] returns; a system over [`SVector`] and [`DVector`](nalgebra::DVector).
+#[derive(Clone, Copy)]
+pub struct HamiltonianClosures<V, F, G, E = NoEnergy> {
+    velocity: F,
+    force: G,
+    energy: E,
+    vector: PhantomData<fn(V)>,
+}
+
+/// In place of the energy of a system that was given none.
+#[derive(Clone, Copy, Debug)]
+pub struct NoEnergy;
+
+impl<V: Vector, F, G> SeparableClosures<V, F, G> {
+    /// The same system, with its Hamiltonian `|time, q, p| …`.
+    pub fn with_energy<E>(self, energy: E) -> SeparableClosures<V, F, G, E>
+    where
+        E: Fn(V::Scalar, &V, &V) -> V::Scalar,
+    {
+        let Self {
+            velocity,
+            force,
+            vector,
+            ..
+        } = self;
+        SeparableClosures {
+            velocity,
+            force,
+            energy,
+            vector,
+        }
+    }
+}
+
+impl<V: Vector, F, G> HamiltonianClosures<V, F, G> {
+    /// The same system, with its Hamiltonian `|time, q, p| …`.
+    pub fn with_energy<E>(self, energy: E) -> HamiltonianClosures<V, F, G, E>
+    where
+        E: Fn(V::Scalar, &V, &V) -> V::Scalar,
+    {
+        let Self {
+            velocity,
+            force,
+            vector,
+            ..
+        } = self;
+        HamiltonianClosures {
+            velocity,
+            force,
+            energy,
+            vector,
+        }
+    }
+}
+
+impl<V, F, G, E> SeparableHamiltonian<V> for SeparableClosures<V, F, G, E>
+where
+    V: Vector,
+    F: Velocity<V>,
+    G: Fn(V::Scalar, &V, &mut V),
+    E: Energy<V>,
+{
+    const UNIT_MASSES: bool = F::UNIT_MASSES;
+
+    #[inline(always)]
+    fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V) {
+        self.velocity.write(time, p, velocity);
+    }
+
+    #[inline(always)]
+    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
+        (self.force)(time, q, force);
+    }
+
+    fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
+        self.energy.evaluate(time, q, p)
+    }
+}
+
+// One implementation a family of vectors, not one for all `V`: elsewhere somebody could make these closures
+// `SeparableHamiltonian` over a vector of their own, and would meet two implementations of `Hamiltonian`.
+macro_rules! general {
+    ($V:ty, $($parameter:tt)*) => {
+        impl<F, G, E, $($parameter)*> Hamiltonian<$V> for HamiltonianClosures<$V, F, G, E>
+        where
+            F: Fn(T, &$V, &$V, &mut $V),
+            G: Fn(T, &$V, &$V, &mut $V),
+            E: Energy<$V>,
+        {
+            type Class = General;
+
+            #[inline(always)]
+            fn velocity(&self, time: T, q: &$V, p: &$V, velocity: &mut $V) {
+                (self.velocity)(time, q, p, velocity);
+            }
+
+            #[inline(always)]
+            fn force(&self, time: T, q: &$V, p: &$V, force: &mut $V) {
+                (self.force)(time, q, p, force);
+            }
+
+            fn energy(&self, time: T, q: &$V, p: &$V) -> Option<T> {
+                self.energy.evaluate(time, q, p)
+            }
+        }
+    };
+}
+
+general!(SVector<T, N>, T: Scalar, const N: usize);
+#[cfg(feature = "alloc")]
+general!(nalgebra::DVector<T>, T: Scalar);
+
+impl<V, F, G, E> fmt::Debug for SeparableClosures<V, F, G, E> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("SeparableClosures")
+            .finish_non_exhaustive()
+    }
+}
+
+impl<V, F, G, E> fmt::Debug for HamiltonianClosures<V, F, G, E> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("HamiltonianClosures")
+            .finish_non_exhaustive()
+    }
+}
+
+mod parts {
+    use super::{Momentum, NoEnergy, Vector, copy};
+
+    /// A closure for the velocity, or the momentum.
+    pub trait Velocity<V: Vector> {
+        const UNIT_MASSES: bool;
+
+        fn write(&self, time: V::Scalar, p: &V, velocity: &mut V);
+    }
+
+    impl<V: Vector> Velocity<V> for Momentum {
+        const UNIT_MASSES: bool = true;
+
+        #[inline(always)]
+        fn write(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
+            copy(velocity, p);
+        }
+    }
+
+    impl<V: Vector, F: Fn(V::Scalar, &V, &mut V)> Velocity<V> for F {
+        const UNIT_MASSES: bool = false;
+
+        #[inline(always)]
+        fn write(&self, time: V::Scalar, p: &V, velocity: &mut V) {
+            self(time, p, velocity);
+        }
+    }
+
+    /// A closure for the energy, or none.
+    pub trait Energy<V: Vector> {
+        fn evaluate(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar>;
+    }
+
+    impl<V: Vector> Energy<V> for NoEnergy {
+        fn evaluate(&self, _time: V::Scalar, _q: &V, _p: &V) -> Option<V::Scalar> {
+            None
+        }
+    }
+
+    impl<V: Vector, E: Fn(V::Scalar, &V, &V) -> V::Scalar> Energy<V> for E {
+        fn evaluate(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
+            Some(self(time, q, p))
+        }
+    }
+}
+use parts::{Energy, Velocity};

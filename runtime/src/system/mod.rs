@@ -1,0 +1,18 @@
+//! What is integrated: Hamiltonians, separable or not, and chains of particles.
+
+pub(crate) mod chain;
+pub(crate) mod class;
+pub(crate) mod closures;
+pub(crate) mod hamiltonian;
+pub(crate) mod local_force;
+pub(crate) mod strands;
+
+pub use chain::{Bonds, Chain};
+pub use class::{Class, General, Separable};
+pub use closures::{
+    HamiltonianClosures, Momentum, NoEnergy, SeparableClosures, acceleration, hamiltonian,
+    separable,
+};
+pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
+pub use local_force::{Components, MOST_ROW_STAGES, StageRows};
+pub use strands::Layout;
