@@ -101,9 +101,9 @@ pub use method::{
 pub use nalgebra;
 pub use num_traits;
 pub use number::{
-    Coefficient, Coefficients, Compensated, F64x2, F64x4, F64x8, HamiltonianInLanes, Lanes, Plain,
-    Scalar, Summation, Vector, advance, combine, copy, copy_to, factors, increment, relative,
-    scale, total, transform, weighted_total, weights,
+    Coefficient, Coefficients, Compensated, F64x2, F64x4, F64x8, Lanes, Plain, Scalar, Summation,
+    Vector, advance, combine, copy, copy_to, factors, increment, relative, scale, total, transform,
+    weighted_total, weights,
 };
 pub use output::{DenseOutput, Event, Events, Invariant, Moment, Progress, States};
 #[cfg(feature = "alloc")]
@@ -119,9 +119,9 @@ pub use solver::{
 pub use solver::{DualNumbers, HamiltonianInDuals};
 pub use state::State;
 pub use system::{
-    Bonds, Chain, Class, Components, General, Hamiltonian, HamiltonianClosures, Layout,
-    MOST_ROW_STAGES, Momentum, NoEnergy, Separable, SeparableClosures, SeparableHamiltonian,
-    StageRows, acceleration, hamiltonian, separable,
+    Bonds, Chain, Class, Components, General, Hamiltonian, HamiltonianClosures, HamiltonianInLanes,
+    Layout, MOST_ROW_STAGES, Momentum, NoEnergy, Separable, SeparableClosures,
+    SeparableHamiltonian, StageRows, SystemLanes, acceleration, hamiltonian, separable,
 };
 #[cfg(feature = "alloc")]
 pub use variational::{GeneratingFunction, generating_function};

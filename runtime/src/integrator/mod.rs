@@ -1,6 +1,8 @@
 //! Steps, and what holds between them.
 
 pub(crate) mod clock;
+pub(crate) mod last_event;
+pub(crate) mod last_step;
 pub(crate) mod partial_step;
 pub(crate) mod retry;
 pub(crate) mod statistics;
@@ -15,33 +17,27 @@ use core::ops::ControlFlow;
 
 use crate::error::Error;
 use crate::integrator::clock::{Clock, uniform};
+use crate::integrator::last_event::LastEvent;
+use crate::integrator::last_step::LastStep;
 use crate::method::interpolation::Line;
 use crate::method::{Inside, Interpolation, Method, Plan, ProvedFor, Solver, Stopping};
 #[cfg(feature = "alloc")]
 use crate::method::{Kept, Step};
-use crate::number::{Compensated, HamiltonianInLanes, Plain, Scalar, Summation, Vector};
-use crate::output::States;
-use crate::output::dense::LastStep;
-use crate::output::event::LastEvent;
-use crate::solver::{AtOnceInLanes, FixedPoint, InLanes, SecondOrderInLanes};
+use crate::number::{Compensated, Plain, Scalar, Summation, Vector};
+use crate::solver::FixedPoint;
 use crate::state::State;
 use crate::system::{Class, Hamiltonian};
-#[cfg(feature = "alloc")]
-use crate::variational::GeneratingFunction;
-#[cfg(feature = "alloc")]
-use crate::variational::generating_function::generating;
 
-pub(crate) mod linearity;
 mod many_steps;
 mod memory;
 mod one_step;
 mod retry_in_parts;
+mod solvers;
 pub(crate) mod validation;
 
 use memory::Course;
 use validation::{
-    check_local_forces, check_masses, check_pass, check_quadratic_kinetic, check_slopes,
-    check_state, check_step_size,
+    check_masses, check_pass, check_quadratic_kinetic, check_slopes, check_state, check_step_size,
 };
 
 /// The plan of the method `M` for the class of the system `S`.
@@ -183,67 +179,6 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> Integrator<M, S, 
     }
 }
 
-impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
-    Integrator<M, S, V, R>
-{
-    /// The same integrator with coupled stages side by side, [`InLanes`]: for a system that is generic over its
-    /// scalar. Vectors may be long. An explicit method stays what it is.
-    ///
-    /// ```
-    /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
-    /// use symplectic::nalgebra::SVector;
-    /// use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, State};
-    ///
-    /// struct Kepler;
-    ///
-    /// impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
-    ///     fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
-    ///         *velocity = *p;
-    ///     }
-    ///
-    ///     fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
-    ///         let square = q.dot(q);
-    ///         *force = -q * (square * square.sqrt()).recip();
-    ///     }
-    /// }
-    ///
-    /// # fn main() -> Result<(), Error> {
-    /// let start = || State::new(0.0, SVector::from([0.4, 0.0]), SVector::from([0.0, 2.0]));
-    /// let mut one_by_one = Integrator::new(Gauss4, Kepler, start(), 0.05)?;
-    /// let mut side_by_side = Integrator::new(Gauss4, Kepler, start(), 0.05)?.in_lanes();
-    /// // The same to the last bit.
-    /// assert_eq!(one_by_one.integrate_to(10.0)?, side_by_side.integrate_to(10.0)?);
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub fn in_lanes(self) -> Integrator<M, S, V, R, InLanes> {
-        self.with_solver(InLanes)
-    }
-
-    /// [`in_lanes`](Self::in_lanes) for a Hamiltonian that is not separable, with positions and momenta iterated at once:
-    /// [`AtOnceInLanes`], which says where that pays.
-    pub fn at_once_in_lanes(self) -> Integrator<M, S, V, R, AtOnceInLanes> {
-        self.with_solver(AtOnceInLanes)
-    }
-
-    /// [`in_lanes`](Self::in_lanes) for a second-order system `q'' = M⁻¹ f(q)`, one whose velocity `M⁻¹ p` is linear in the
-    /// momentum: by [`SecondOrderInLanes`], which iterates the positions only.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::NotSecondOrder`], where the velocity is not linear in the momentum, or depends on time;
-    /// [`Error::NotTheSameLocalForce`], where the force component by component, or in rows, is another one, and [`Error::NoSuchRow`], where
-    /// there is no such row.
-    pub fn in_second_order_lanes(
-        self,
-    ) -> Result<Integrator<M, S, V, R, SecondOrderInLanes>, Error> {
-        check_local_forces(&self.system, &self.course.state, self.step_size)?;
-        let State { time, q, p } = &self.course.state;
-        let solver = SecondOrderInLanes::new(&self.system, *time, q, p)?;
-        Ok(self.with_solver(solver))
-    }
-}
-
 impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     Integrator<M, S, V, R, N>
 {
@@ -298,20 +233,6 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         })
     }
 
-    /// The same integrator with another [`Solver`] for coupled stages: from here on, with the counts so far.
-    pub fn with_solver<O: Solver<V, S>>(self, _solver: O) -> Integrator<M, S, V, R, O> {
-        Integrator {
-            system: self.system,
-            course: self.course.with_memory(),
-            clock: self.clock,
-            step_size: self.step_size,
-            stopping: self.stopping,
-            retry: self.retry,
-            last_event: self.last_event,
-            method: PhantomData,
-        }
-    }
-
     /// Takes one step and returns the state after it.
     ///
     /// # Errors
@@ -359,33 +280,12 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         outcome.map(|()| &self.course.state)
     }
 
-    /// Takes one step and returns its generating function at the position before and the momentum after it, the
-    /// `p0` and `q1` of which are the momentum before and the position after it, up to rounding.
-    ///
-    /// The stages are solved for once more, and memory is allocated: see
-    /// [`generating_function`](crate::generating_function).
-    ///
-    /// # Errors
-    ///
-    /// Those of [`step`](Self::step), [`Error::NoEnergy`], [`Error::TwoClocks`]; the state is untouched.
-    ///
-    /// ```
-    /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
-    /// # use symplectic::nalgebra::Vector1;
-    /// # use symplectic::{Error, Integrator, State, hamiltonian};
-    /// # fn main() -> Result<(), Error> {
-    /// let system = hamiltonian::<Vector1<f64>, _, _>(|_, q, _p, velocity| *velocity = *q, |_, _q, p, force| *force = -p)
-    ///     .with_energy(|_, q, p| q[0] * p[0]);
-    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(1.0));
-    /// let mut integrator = Integrator::new(Midpoint, system, start, 0.5)?;
-    /// let generating = integrator.step_with_generating_function()?;
-    /// assert!((generating.q1[0] - integrator.state().q[0]).abs() < 1e-15);
-    /// assert!((generating.p0[0] - 1.0).abs() < 1e-15);
-    /// # Ok(())
-    /// # }
-    /// ```
+    /// A step whose stages `solve` finds from the momentum after it, with its number.
     #[cfg(feature = "alloc")]
-    pub fn step_with_generating_function(&mut self) -> Result<GeneratingFunction<V>, Error> {
+    pub(crate) fn step_solved_by<T>(
+        &mut self,
+        solve: impl FnOnce(&S, &Step<'_, V>, u64, Stopping) -> Result<T, Error>,
+    ) -> Result<T, Error> {
         let (size, time) = (self.step_size, self.clock.next());
         self.prepare(size, time)?;
         let step = Step {
@@ -397,7 +297,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             p_low: &self.course.next_low.1,
         };
         let number = self.course.statistics.steps + 1;
-        let outcome = generating::<M, S, V>(&self.system, &step, number, self.stopping);
+        let outcome = solve(&self.system, &step, number, self.stopping);
         if outcome.is_ok() {
             self.accept(size, time);
             self.clock.tick();
@@ -499,11 +399,6 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             Err(_) => self.restart_clock(),
         }
         outcome.map(|_| ())
-    }
-
-    /// An endless iterator over the states after each step. [`Iterator::take`] what is needed.
-    pub const fn states(&mut self) -> States<'_, M, S, V, R, N> {
-        States::new(self)
     }
 
     /// The present state, rounded.

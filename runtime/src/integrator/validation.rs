@@ -1,13 +1,14 @@
 //! What is looked at before an integrator is made or changed.
 
-use super::linearity::non_linear_velocity;
 use crate::error::{Error, Quantity};
 use crate::method::Method;
 use crate::method::storage::is_finite;
 use crate::number::array::array;
 use crate::number::linear_combination::kick_and_drift;
-use crate::number::{F64x2, F64x4, F64x8, HamiltonianInLanes, Lanes, Scalar, Vector, copy};
+use crate::number::{F64x2, F64x4, F64x8, Lanes, Scalar, Vector, copy};
 use crate::state::State;
+use crate::system::HamiltonianInLanes;
+use crate::system::linearity::non_linear_velocity;
 use crate::system::{Class, Components, Hamiltonian, Layout, MOST_ROW_STAGES, StageRows};
 
 pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {

@@ -4,7 +4,7 @@ use core::mem;
 
 use crate::error::Quantity;
 use crate::method::{Span, Witness};
-use crate::number::linear_combination::{advance, kick_and_drift, velocity};
+use crate::number::linear_combination::{advance, kick_and_drift};
 use crate::number::{Coefficient, Scalar, Summation, Vector};
 use crate::system::{Hamiltonian, Layout};
 
@@ -331,6 +331,26 @@ impl Moves for Waiting {
         }
         self.count = 0;
     }
+}
+
+/// The velocity of a drift: the momentum itself where [masses are one](Hamiltonian::UNIT_MASSES), else what is in `place`,
+/// which is evaluated unless it is `known`.
+#[inline(always)]
+fn velocity<'a, V: Vector, S: Hamiltonian<V>>(
+    system: &S,
+    time: V::Scalar,
+    q: &V,
+    p: &'a V,
+    place: &'a mut V,
+    known: bool,
+) -> &'a V {
+    if S::UNIT_MASSES {
+        return p;
+    }
+    if !known {
+        system.velocity(time, q, p, place);
+    }
+    place
 }
 
 #[cfg(test)]

@@ -4,7 +4,8 @@ use core::fmt::Debug;
 use core::marker::PhantomData;
 
 use crate::method::StagePlan;
-use crate::number::{Lanes, Vector};
+use crate::number::Vector;
+use crate::system::SystemLanes;
 
 /// The coupled stages of a plan as matrices, for solvers that treat them all at once.
 ///
@@ -20,7 +21,7 @@ use crate::number::{Lanes, Vector};
 /// front of the sums elsewhere.
 pub trait StageTableau: StagePlan {
     /// The lanes that the stages are put into.
-    type Lanes: Lanes;
+    type Lanes: SystemLanes;
     /// As many lanes as there are stages.
     type Groups<T: Debug>: Debug + AsRef<[T]> + AsMut<[T]>;
 

@@ -5,10 +5,9 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use num_traits::{One, Zero};
 
+use crate::number::Scalar;
 use crate::number::array::array;
 use crate::number::scalar::elementary;
-use crate::number::{Scalar, Vector};
-use crate::system::{Components, Hamiltonian};
 
 /// A few doubles side by side, in one register of the processor where it has so wide ones.
 ///
@@ -56,72 +55,25 @@ pub trait Lanes: Scalar {
 
     /// Whether a number is NaN.
     fn any_nan(self) -> bool;
-
-    /// [`Hamiltonian::velocity`] in every lane at once.
-    fn velocity<V, S>(
-        system: &S,
-        time: Self,
-        q: &V::With<Self>,
-        p: &V::With<Self>,
-        velocity: &mut V::With<Self>,
-    ) where
-        V: Vector,
-        S: HamiltonianInLanes<V>;
-
-    /// [`Hamiltonian::force`] in every lane at once.
-    fn force<V, S>(
-        system: &S,
-        time: Self,
-        q: &V::With<Self>,
-        p: &V::With<Self>,
-        force: &mut V::With<Self>,
-    ) where
-        V: Vector,
-        S: HamiltonianInLanes<V>;
-
-    /// [`Hamiltonian::LOCAL_FORCE`] of a system over these lanes.
-    fn has_local_force<V, S>() -> bool
-    where
-        V: Vector,
-        S: HamiltonianInLanes<V>;
-
-    /// [`Hamiltonian::local_force`] in every lane at once.
-    fn local_force<V, S>(system: &S, time: Self, components: &mut impl Components<Self>)
-    where
-        V: Vector,
-        S: HamiltonianInLanes<V>;
-
-    /// [`Hamiltonian::slopes`] in every lane at once.
-    fn slopes<V, S>(
-        system: &S,
-        time: Self,
-        q: &V::With<Self>,
-        p: &V::With<Self>,
-        slopes: (&mut V::With<Self>, &mut V::With<Self>),
-    ) where
-        V: Vector,
-        S: HamiltonianInLanes<V>;
 }
 
-/// A system over vectors of doubles and over vectors of [`Lanes`]: every one that is generic over its scalar.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a Hamiltonian system over the vectors `{V}` with lanes in place of doubles",
-    label = "this needs a system that is generic over its `Scalar`: `impl<T: Scalar> SeparableHamiltonian<SVector<T, N>> for …`"
-)]
-pub trait HamiltonianInLanes<V: Vector>:
-    Hamiltonian<V>
-    + Hamiltonian<V::With<F64x2>>
-    + Hamiltonian<V::With<F64x4>>
-    + Hamiltonian<V::With<F64x8>>
-{
+/// The lanes of one group in a list over the stages.
+#[inline(always)]
+pub(crate) fn lanes<L: Lanes>(list: &[f64], group: usize) -> L {
+    let list = &list[group * L::WIDTH..(group + 1) * L::WIDTH];
+    L::from_fn(|lane| list[lane])
 }
 
-impl<V: Vector, S> HamiltonianInLanes<V> for S where
-    S: Hamiltonian<V>
-        + Hamiltonian<V::With<F64x2>>
-        + Hamiltonian<V::With<F64x4>>
-        + Hamiltonian<V::With<F64x8>>
-{
+/// The double of a stage among those of its group.
+#[inline(always)]
+pub(crate) fn lane_of<L: Lanes>(group: L, stage: usize) -> f64 {
+    group.to_array().as_ref()[stage % L::WIDTH]
+}
+
+/// The double of a stage in some groups.
+#[inline(always)]
+pub(crate) fn in_groups<L: Lanes>(groups: &[L], stage: usize) -> f64 {
+    lane_of(groups[stage / L::WIDTH], stage)
 }
 
 /// The largest of some numbers, any where one of them is NaN: half by half, for registers are narrower then.
@@ -353,66 +305,6 @@ macro_rules! lanes {
             #[inline(always)]
             fn any_nan(self) -> bool {
                 self.0.is_nan().any()
-            }
-
-            #[inline(always)]
-            fn velocity<V, S>(
-                system: &S,
-                time: Self,
-                q: &V::With<Self>,
-                p: &V::With<Self>,
-                velocity: &mut V::With<Self>,
-            ) where
-                V: Vector,
-                S: HamiltonianInLanes<V>,
-            {
-                Hamiltonian::<V::With<Self>>::velocity(system, time, q, p, velocity);
-            }
-
-            #[inline(always)]
-            fn force<V, S>(
-                system: &S,
-                time: Self,
-                q: &V::With<Self>,
-                p: &V::With<Self>,
-                force: &mut V::With<Self>,
-            ) where
-                V: Vector,
-                S: HamiltonianInLanes<V>,
-            {
-                Hamiltonian::<V::With<Self>>::force(system, time, q, p, force);
-            }
-
-            #[inline(always)]
-            fn has_local_force<V, S>() -> bool
-            where
-                V: Vector,
-                S: HamiltonianInLanes<V>,
-            {
-                <S as Hamiltonian<V::With<Self>>>::LOCAL_FORCE
-            }
-
-            #[inline(always)]
-            fn local_force<V, S>(system: &S, time: Self, components: &mut impl Components<Self>)
-            where
-                V: Vector,
-                S: HamiltonianInLanes<V>,
-            {
-                Hamiltonian::<V::With<Self>>::local_force(system, time, components);
-            }
-
-            #[inline(always)]
-            fn slopes<V, S>(
-                system: &S,
-                time: Self,
-                q: &V::With<Self>,
-                p: &V::With<Self>,
-                slopes: (&mut V::With<Self>, &mut V::With<Self>),
-            ) where
-                V: Vector,
-                S: HamiltonianInLanes<V>,
-            {
-                Hamiltonian::<V::With<Self>>::slopes(system, time, q, p, slopes);
             }
         }
     };

@@ -12,7 +12,6 @@ use crate::number::array::array;
 use crate::number::rows::{Four, Row};
 use crate::number::summation::{add, add_sum};
 use crate::number::{Coefficient, Scalar, Summation, Vector};
-use crate::system::Hamiltonian;
 
 /// Coefficients times the step size: the factors of evaluations.
 #[inline(always)]
@@ -255,26 +254,6 @@ fn add_kicked<T: Scalar, const N: usize>(
         p[i] = momentum;
         q[i] = drift.fused(momentum, q[i]);
     }
-}
-
-/// The velocity of a drift: the momentum itself where [masses are one](Hamiltonian::UNIT_MASSES), else what is in `place`,
-/// which is evaluated unless it is `known`.
-#[inline(always)]
-pub(crate) fn velocity<'a, V: Vector, S: Hamiltonian<V>>(
-    system: &S,
-    time: V::Scalar,
-    q: &V,
-    p: &'a V,
-    place: &'a mut V,
-    known: bool,
-) -> &'a V {
-    if S::UNIT_MASSES {
-        return p;
-    }
-    if !known {
-        system.velocity(time, q, p, place);
-    }
-    place
 }
 
 /// `vectors_i = Σ_j matrix_ij vectors_j`, for those vectors the `indices` of which are given: starting values from the

@@ -4,7 +4,6 @@ use core::fmt;
 
 use crate::error::{Error, Quantity};
 use crate::integrator::Integrator;
-use crate::method::interpolation::Line;
 use crate::method::storage::is_finite;
 use crate::method::{Inside, Interpolation, Method, Solver};
 use crate::number::{Compensated, Scalar, Summation, Vector};
@@ -48,15 +47,6 @@ pub struct DenseOutput<
 > {
     integrator: &'a Integrator<M, S, V, R, N>,
     ends: Ends<V>,
-}
-
-/// The last step of an integrator.
-pub(crate) struct LastStep<'a, V> {
-    pub(crate) start: f64,
-    pub(crate) end: f64,
-    pub(crate) size: f64,
-    pub(crate) positions: Line<'a, V>,
-    pub(crate) momenta: Line<'a, V>,
 }
 
 /// The derivatives at the ends of a step, where values inside it depend on them; room for those of another step after

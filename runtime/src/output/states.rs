@@ -11,6 +11,15 @@ use crate::solver::FixedPoint;
 use crate::state::State;
 use crate::system::Hamiltonian;
 
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+    Integrator<M, S, V, R, N>
+{
+    /// An endless iterator over the states after each step. [`Iterator::take`] what is needed.
+    pub const fn states(&mut self) -> States<'_, M, S, V, R, N> {
+        States::new(self)
+    }
+}
+
 /// The endless iterator that [`Integrator::states`] returns.
 ///
 /// Every item is the state after one more step, or after [some more](Self::every), cloned. After an error there are no

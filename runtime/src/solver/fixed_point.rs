@@ -21,7 +21,7 @@ use crate::system::{Class, Hamiltonian};
 /// (Hairer, McLachlan & Razakarivony, 2008). It has settled when a sweep changes nothing, or when the change has
 /// stopped shrinking and is down to rounding errors, at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) relative to the
 /// largest position and the largest momentum: in either half for a separable system, in both for a general one
-/// (see [`Class::settling`](crate::Class::settling)). It has stopped when it has not shrunk further for one sweep and a sixteenth of
+/// . It has stopped when it has not shrunk further for one sweep and a sixteenth of
 /// all: where sweeps take little and turn the stages as they do, changes grow now and then before that. In the last sweep that
 /// is allowed one will do.
 /// Where evaluations are noisier than that, or sweeps amplify what rounding does, it is enough that the change has shrunk a

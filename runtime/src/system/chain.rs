@@ -4,9 +4,9 @@ use core::mem;
 
 use num_traits::Zero;
 
+use crate::number::lanes::lane_of;
 use crate::number::rows::{Eight, Row, Single, splats};
 use crate::number::{F64x8, Lanes, Scalar, Vector, copy};
-use crate::solver::simd::gauss_seidel::lane_of;
 use crate::system::strands::{Part, parts};
 use crate::system::{Components, Layout, MOST_ROW_STAGES, SeparableHamiltonian, StageRows};
 

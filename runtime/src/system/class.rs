@@ -1,6 +1,6 @@
 //! The kinds of Hamiltonian that a method has a plan for.
 
-use crate::method::{Change, Method, Plan};
+use crate::method::{Method, Plan};
 
 mod sealed {
     pub trait Sealed {}
@@ -16,14 +16,6 @@ pub trait Class: sealed::Sealed + Sized + 'static {
     type Plan<M: Method>: Plan<Class = Self>;
     /// Whether the velocity depends on the momentum only, and the force on the position only.
     const SEPARABLE: bool;
-
-    /// The relative change of the stages that has to be down to rounding errors where an iteration has settled.
-    ///
-    /// Of a general system both halves have to be. Of a separable one either will do: the stage momenta are a function
-    /// of the stage positions and the other way round, so where one half only rounds, the other half moves by
-    /// the noise of the system's own evaluations at most. This noise can be far above the rounding errors of a
-    /// sum: stiff springs between masses far from the origin.
-    fn settling(change: &Change) -> f64;
 }
 
 /// Velocity and force may depend on position and momentum both.
@@ -37,19 +29,9 @@ pub struct Separable;
 impl Class for General {
     type Plan<M: Method> = M::General;
     const SEPARABLE: bool = false;
-
-    #[inline]
-    fn settling(change: &Change) -> f64 {
-        change.residual()
-    }
 }
 
 impl Class for Separable {
     type Plan<M: Method> = M::Separable;
     const SEPARABLE: bool = true;
-
-    #[inline]
-    fn settling(change: &Change) -> f64 {
-        change.q.relative().min(change.p.relative())
-    }
 }

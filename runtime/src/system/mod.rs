@@ -4,6 +4,8 @@ pub(crate) mod chain;
 pub(crate) mod class;
 pub(crate) mod closures;
 pub(crate) mod hamiltonian;
+pub(crate) mod in_lanes;
+pub(crate) mod linearity;
 pub(crate) mod local_force;
 pub(crate) mod strands;
 
@@ -14,5 +16,6 @@ pub use closures::{
     separable,
 };
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
+pub use in_lanes::{HamiltonianInLanes, SystemLanes};
 pub use local_force::{Components, MOST_ROW_STAGES, StageRows};
 pub use strands::Layout;

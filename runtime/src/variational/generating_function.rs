@@ -6,7 +6,9 @@ use core::marker::PhantomData;
 use num_traits::Zero;
 
 use crate::error::{Error, Quantity};
+use crate::integrator::Integrator;
 use crate::integrator::validation::{check_state, check_step_size};
+use crate::method::Solver;
 use crate::method::diagnosis::{Attempt, FirstFault};
 use crate::method::storage::{first_mismatch, first_non_finite, first_non_finite_of, is_finite};
 use crate::method::{
@@ -108,8 +110,41 @@ pub fn generating_function<M: Method + ProvedFor<S::Class>, S: Hamiltonian<V>, V
     generating::<M, S, V>(system, &step, 1, Stopping::DEFAULT)
 }
 
+impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+    Integrator<M, S, V, R, N>
+{
+    /// Takes one step and returns its generating function at the position before and the momentum after it, the
+    /// `p0` and `q1` of which are the momentum before and the position after it, up to rounding.
+    ///
+    /// The stages are solved for once more, and memory is allocated: see
+    /// [`generating_function`](crate::generating_function).
+    ///
+    /// # Errors
+    ///
+    /// Those of [`step`](Self::step), [`Error::NoEnergy`], [`Error::TwoClocks`]; the state is untouched.
+    ///
+    /// ```
+    /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, hamiltonian};
+    /// # fn main() -> Result<(), Error> {
+    /// let system = hamiltonian::<Vector1<f64>, _, _>(|_, q, _p, velocity| *velocity = *q, |_, _q, p, force| *force = -p)
+    ///     .with_energy(|_, q, p| q[0] * p[0]);
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(1.0));
+    /// let mut integrator = Integrator::new(Midpoint, system, start, 0.5)?;
+    /// let generating = integrator.step_with_generating_function()?;
+    /// assert!((generating.q1[0] - integrator.state().q[0]).abs() < 1e-15);
+    /// assert!((generating.p0[0] - 1.0).abs() < 1e-15);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn step_with_generating_function(&mut self) -> Result<GeneratingFunction<V>, Error> {
+        self.step_solved_by(generating::<M, S, V>)
+    }
+}
+
 /// [`generating_function`] with `q0` and `p1` for the position and the momentum of `step`, whose number is for errors.
-pub(crate) fn generating<M: Method, S: Hamiltonian<V>, V: Vector>(
+fn generating<M: Method, S: Hamiltonian<V>, V: Vector>(
     system: &S,
     step: &Step<'_, V>,
     number: u64,

@@ -203,14 +203,3 @@ pub enum Moment<'a, V> {
         state: &'a mut State<V>,
     },
 }
-
-/// The event that was found last: a search that starts at its time starts on it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct LastEvent {
-    time: f64,
-    index: usize,
-    /// The sign that the function had before.
-    side: f64,
-    /// How many events have been found at this time.
-    count: u32,
-}

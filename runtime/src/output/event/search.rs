@@ -2,11 +2,12 @@
 
 use core::ops::ControlFlow;
 
+use super::Moment;
 use super::list::EventList;
 use super::track::{Crossing, Track, sign};
-use super::{LastEvent, Moment};
 use crate::error::Error;
 use crate::integrator::Integrator;
+use crate::integrator::last_event::LastEvent;
 use crate::integrator::partial_step::PartialSteps;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector, copy};

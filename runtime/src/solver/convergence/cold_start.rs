@@ -7,6 +7,7 @@ use super::{
 use crate::error::Quantity;
 use crate::method::{Change, Failure, Kept, PartChange, Stopping, Work};
 use crate::number::Scalar;
+use crate::solver::convergence::settling;
 use crate::system::{Class, Separable};
 
 /// Iterates until the stages have settled, from where that was begun; returns what all of it took.
@@ -178,13 +179,13 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
             } else {
                 (mark, slow + 1)
             };
-            let is_rounding = || C::settling(&change) <= ROUNDING * T::EPSILON;
+            let is_rounding = || settling::<C>(&change) <= ROUNDING * T::EPSILON;
             // What rounding does may be amplified by all sweeps after the one whose change was the smallest.
             let is_noise = || {
                 let at_first = first.map_or(0.0, |first| size_of(&sweeps.change(&first)));
                 smallest <= CONTRACTION * larger(at_first, largest)
-                    && Separable::settling(&least) <= ROUNDING * T::EPSILON
-                    && Separable::settling(&change) <= AMPLIFIED * T::EPSILON
+                    && settling::<Separable>(&least) <= ROUNDING * T::EPSILON
+                    && settling::<Separable>(&change) <= AMPLIFIED * T::EPSILON
             };
             if size == 0.0 {
                 return Ok((iteration, change.scales()));

@@ -4,6 +4,7 @@ use super::linear_solver::LinearSolver;
 use super::sweep::ByIncrements;
 use crate::method::{Change, Failure, Kept, StageTableau, Stopping, Work};
 use crate::number::{Scalar, Summation, Vector};
+use crate::solver::convergence::settling;
 use crate::solver::convergence::{
     CONTRACTION, NOISIEST, PATIENCE, ROUNDING, STAGNATION, coin, is_last, non_finite,
 };
@@ -141,8 +142,8 @@ where
         if course.stagnates(iteration, max_iterations) {
             let is_within = |size: f64| size <= ROUNDING * V::Scalar::EPSILON;
             // The noise of derivatives at one point may be larger than it has to be.
-            let may_be_noise = !attempt.gives_up || is_within(Separable::settling(&change));
-            let is_noise = is_within(P::Class::settling(&change))
+            let may_be_noise = !attempt.gives_up || is_within(settling::<Separable>(&change));
+            let is_noise = is_within(settling::<P::Class>(&change))
                 || may_be_noise && course.may_be_noise() && measurements < MOST_MEASUREMENTS && {
                     measurements += 1;
                     work.evaluations += 2 * sweeps.evaluations();
@@ -157,7 +158,7 @@ where
             }
         }
         let is_late = iteration >= MOST_SWEEPS || course.slow >= SLOW;
-        let is_far = P::Class::settling(&change) > ROUNDING * V::Scalar::EPSILON;
+        let is_far = settling::<P::Class>(&change) > ROUNDING * V::Scalar::EPSILON;
         if attempt.gives_up && (is_late && is_far || sweeps.is_slow()) {
             return Err(course.failure(iteration));
         }
@@ -186,7 +187,7 @@ struct Course {
 impl Course {
     /// Takes note of a change; one below `floor` is not told from a smaller one.
     fn note<C: Class>(&mut self, change: &Change, floor: f64) {
-        let size = C::settling(change).max(floor);
+        let size = settling::<C>(change).max(floor);
         self.last = Some(*change);
         self.largest = self.largest.max(size);
         (self.smallest, self.idle) = match self.smallest {
@@ -197,7 +198,7 @@ impl Course {
             Some(mark) if size > 0.5 * mark => (Some(mark), self.slow + 1),
             _ => (Some(size), 0),
         };
-        self.resting = match Separable::settling(change) <= floor {
+        self.resting = match settling::<Separable>(change) <= floor {
             true => self.resting + 1,
             false => 0,
         };

@@ -22,10 +22,8 @@ pub use jacobian::{Analytic, BandMatrix, Derivatives, Differences, Jacobian, Lin
 pub use linear_solver::{Banded, Coupling, Dense, LinearSolver, Matrices, Parts};
 pub use memory::NewtonMemory;
 
-use crate::integrator::Integrator;
 use crate::method::{
-    Failure, Inside, Kept, Method, Outcome, Solver, StageTableau, Step, Stopping,
-    StoredEvaluations, Work,
+    Failure, Inside, Kept, Outcome, Solver, StageTableau, Step, Stopping, StoredEvaluations, Work,
 };
 use crate::number::{Summation, Vector};
 use crate::system::Hamiltonian;
@@ -62,7 +60,7 @@ use sweep::ByIncrements;
 ///
 /// * The change stagnates if it has not become smaller for one sweep and a sixteenth of all, or has not halved in three.
 /// * It is at the level of rounding at 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) of the largest position or momentum: of
-///   either for a separable system, as [`Class::settling`](crate::Class::settling) says. Otherwise the noise is measured: the arguments of
+///   either for a separable system. Otherwise the noise is measured: the arguments of
 ///   all evaluations move by one unit, and a change up to 16 times the response is noise. A stiff spring `k (r − 1)` is evaluated with an
 ///   error of `k` units; momenta then are uncertain by `1/h` units of the positions.
 ///
@@ -97,30 +95,6 @@ use sweep::ByIncrements;
 /// # }
 /// ```
 pub struct Newton<L>(PhantomData<L>);
-
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
-    Integrator<M, S, V, R, N>
-{
-    /// The same integrator with [`Newton`]'s iteration, on full matrices of [`Differences`]: for stiff systems with few
-    /// components. An explicit method stays what it is.
-    ///
-    /// ```
-    /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
-    /// # use symplectic::nalgebra::Vector1;
-    /// # use symplectic::{Error, Integrator, State, separable};
-    /// # fn main() -> Result<(), Error> {
-    /// let stiff = separable::<Vector1<f64>, _, _>(|_, p, velocity| *velocity = *p, |_, q, force| *force = -q * 1e12);
-    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
-    /// let mut integrator = Integrator::new(Midpoint, stiff, start, 0.1)?.by_newton();
-    /// integrator.integrate_to(10.0)?;
-    /// assert_eq!(integrator.statistics().factorisations, 1);
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub fn by_newton(self) -> Integrator<M, S, V, R, Newton<Dense<Differences>>> {
-        self.with_solver(Newton::new())
-    }
-}
 
 impl<L> Newton<L> {
     /// The solver.

@@ -15,6 +15,7 @@ use crate::method::{
 };
 use crate::number::summation::add;
 use crate::number::{Scalar, Summation, Vector};
+use crate::solver::convergence::settling;
 use crate::system::{Class, Hamiltonian, Separable};
 
 /// A change that goes on by more than this factor makes the derivatives stale for the next step.
@@ -202,7 +203,7 @@ where
                 q: moved(&memory.q, step.q),
                 p: moved(&memory.p, step.p),
             };
-            if first > P::Class::settling(&change) {
+            if first > settling::<P::Class>(&change) {
                 memory.waiting = PATIENCE;
             }
         }
@@ -469,12 +470,12 @@ where
     /// Decides from a change whether the derivatives at one point are still good enough.
     fn judge(&mut self, change: &Change) -> Result<(), Failure> {
         if self.sweeps == 0 && self.memory.first_change.is_some() {
-            self.memory.first_change = Some(P::Class::settling(change));
+            self.memory.first_change = Some(settling::<P::Class>(change));
         }
         self.sweeps += 1;
         self.since += 1;
         // Either half shows it: the noise of the other one may be large.
-        let size = Separable::settling(change);
+        let size = settling::<Separable>(change);
         let contraction = size / self.last;
         self.last = size;
         if self.in_full

@@ -9,14 +9,15 @@ use super::rows::{AlongRows, are_in_rows, enter, leave};
 use super::{Positions, Start, Terms, apart, eliminates, position, tableau};
 use crate::error::Quantity;
 use crate::method::{Change, EvaluationCounts, Failure, Kept, StageTableau, Stopping, Work};
+use crate::number::lanes::{lane_of, lanes};
 use crate::number::linear_combination::sum_of_products;
-use crate::number::{HamiltonianInLanes, Lanes, Scalar, Summation, Vector};
+use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::convergence::{Begun, Sweeps};
 use crate::solver::predictor::starts_at_once;
 use crate::solver::simd::change::{LaneMovement, noted, part_change};
-use crate::solver::simd::gauss_seidel::{
-    combination, increment_factor, is_about, lane_of, lanes, times,
-};
+use crate::solver::simd::gauss_seidel::{combination, increment_factor, is_about, times};
+use crate::system::HamiltonianInLanes;
+use crate::system::SystemLanes;
 use crate::system::{Class, Components, Hamiltonian, StageRows};
 
 /// Whether stages are iterated along the components: for vectors on the heap, where all stages of a component are in one group.

@@ -12,22 +12,25 @@ use self::local::{Locally, is_local};
 use self::rows::are_in_rows;
 pub use self::stages::SecondOrderStages;
 use crate::error::{Error, Quantity};
-use crate::integrator::linearity::{NonLinear, non_linear_velocity};
 use crate::method::tableau::Columns;
 use crate::method::{
     Change, EvaluationCounts, Failure, Inside, Kept, Outcome, SecondOrderTableau, Solver,
     StageTableau, Step, Stopping, Work,
 };
+use crate::number::lanes::lanes;
 use crate::number::vector::is_in_place;
-use crate::number::{HamiltonianInLanes, Lanes, Scalar, Summation, Vector};
+use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::InLanes;
 use crate::solver::convergence::{Begun, Sweeps, coin, patiently, settle};
 use crate::solver::predictor::{MOST, StartingColumns, starting_columns, starts_at_once, weighted};
 use crate::solver::simd::change::{LaneMovement, part_change};
 use crate::solver::simd::gauss_seidel::{
-    ByLanes, Sums, entry, extend, extrapolate, is_about, lanes, scale_of, values,
+    ByLanes, Sums, entry, extend, extrapolate, is_about, scale_of, values,
 };
 use crate::solver::simd::stages::LaneStages;
+use crate::system::HamiltonianInLanes;
+use crate::system::SystemLanes;
+use crate::system::linearity::{NonLinear, non_linear_velocity};
 use crate::system::{Class, Hamiltonian};
 
 /// [`InLanes`] for second-order systems `q'' = M⁻¹ f(q)`, whose velocity `M⁻¹ p` is linear in the momentum: only the

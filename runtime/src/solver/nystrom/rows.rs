@@ -11,10 +11,12 @@ use num_traits::Zero;
 use super::local::is_local;
 use super::{Terms, position, tableau};
 use crate::method::{StageTableau, Step};
+use crate::number::lanes::lane_of;
 use crate::number::linear_combination::sum_of_products;
-use crate::number::{F64x8, HamiltonianInLanes, Lanes, Scalar, Summation, Vector};
-use crate::solver::simd::gauss_seidel::{entry, lane_of, shortest, times};
+use crate::number::{F64x8, Lanes, Scalar, Summation, Vector};
+use crate::solver::simd::gauss_seidel::{entry, shortest, times};
 use crate::solver::simd::stages::LaneStages;
+use crate::system::HamiltonianInLanes;
 use crate::system::{Hamiltonian, MOST_ROW_STAGES, StageRows};
 
 /// Components in a row.

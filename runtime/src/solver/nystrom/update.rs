@@ -6,11 +6,13 @@ use super::rows::{WIDTH, forces, load, row_length, rows, rows_mut};
 use super::{slopes, tableau, velocity};
 use crate::method::{Outcome, StageTableau, Step};
 use crate::number::array::array;
+use crate::number::lanes::{in_groups, lane_of, lanes};
 use crate::number::linear_combination::sum_of_products;
 use crate::number::summation::add;
-use crate::number::{F64x8, HamiltonianInLanes, Lanes, Plain, Scalar, Summation, Vector};
-use crate::solver::simd::gauss_seidel::{in_groups, lane_of, lanes, shortest, total};
+use crate::number::{F64x8, Lanes, Plain, Scalar, Summation, Vector};
+use crate::solver::simd::gauss_seidel::{shortest, total};
 use crate::solver::simd::stages::{LaneStages, Laned};
+use crate::system::HamiltonianInLanes;
 
 /// With unit masses, of forces in rows.
 #[inline(always)]

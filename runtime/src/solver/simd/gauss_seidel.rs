@@ -11,13 +11,16 @@ use crate::method::{
     Change, EvaluationCounts, Failure, HalfTableau, Inside, Kept, Outcome, Solver, StageStorage,
     StageTableau, Step, Stopping, Work,
 };
+use crate::number::lanes::{lane_of, lanes};
 use crate::number::linear_combination::sum_of_products;
 use crate::number::summation::{Beyond, add, moved};
 use crate::number::vector::{LIGHT, is_in_place};
-use crate::number::{HamiltonianInLanes, Lanes, Scalar, Summation, Vector};
+use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
 use crate::solver::simd::change::{LaneMovement, noted, part_change};
 use crate::solver::simd::stages::{LaneStages, Laned};
+use crate::system::HamiltonianInLanes;
+use crate::system::SystemLanes;
 use crate::system::{Class, Hamiltonian};
 
 /// The iteration of [`FixedPoint`](crate::FixedPoint) with the stages side by side in [`Lanes`]: one evaluation of the
@@ -401,13 +404,6 @@ where
     }
 }
 
-/// The lanes of one group in a list over the stages.
-#[inline(always)]
-pub(crate) fn lanes<L: Lanes>(list: &[f64], group: usize) -> L {
-    let list = &list[group * L::WIDTH..(group + 1) * L::WIDTH];
-    L::from_fn(|lane| list[lane])
-}
-
 /// The times of the evaluations of a group.
 #[inline(always)]
 pub(crate) fn times<P: StageTableau, V>(
@@ -471,18 +467,6 @@ pub(crate) fn entry<P: StageTableau, V: Vector>(
     component: usize,
 ) -> f64 {
     lane_of(groups[stage / P::Lanes::WIDTH].as_slice()[component], stage)
-}
-
-/// The double of a stage among those of its group.
-#[inline(always)]
-pub(crate) fn lane_of<L: Lanes>(group: L, stage: usize) -> f64 {
-    group.to_array().as_ref()[stage % L::WIDTH]
-}
-
-/// The double of a stage in some groups.
-#[inline(always)]
-pub(crate) fn in_groups<L: Lanes>(groups: &[L], stage: usize) -> f64 {
-    lane_of(groups[stage / L::WIDTH], stage)
 }
 
 /// What the stages are sums of: a matrix by its columns, which have an entry for each lane, and the factor of each, if any.

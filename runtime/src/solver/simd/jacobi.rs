@@ -8,7 +8,7 @@ use crate::method::{
     Change, EvaluationCounts, Failure, Inside, Kept, Outcome, Solver, StageTableau, Step, Stopping,
     Work,
 };
-use crate::number::{HamiltonianInLanes, Scalar, Summation, Vector};
+use crate::number::{Scalar, Summation, Vector};
 use crate::solver::InLanes;
 use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
 use crate::solver::predictor::{Starting, starts_at_once};
@@ -17,6 +17,7 @@ use crate::solver::simd::gauss_seidel::{
     ByLanes, Sums, extrapolate, extrapolates, fill, sum, sums, total, values,
 };
 use crate::solver::simd::stages::{LaneStages, Laned};
+use crate::system::HamiltonianInLanes;
 use crate::system::{Class, Hamiltonian};
 
 /// [`InLanes`] for Hamiltonians that are not separable, with positions and momenta iterated at once.
