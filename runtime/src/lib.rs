@@ -21,7 +21,7 @@
 //! | How coupled stages are found | [`Solver`]: [`FixedPoint`], [`InLanes`], [`AtOnceInLanes`], [`SecondOrderInLanes`], [`Newton`], [`FixedPointThenNewton`] |
 //! | Between the steps | [`DenseOutput`], [`Interpolation`], [`Event`], [`Events`], [`Moment`] |
 //! | What generates a step | [`generating_function`], of Type II |
-//! | Which method to take | the module `report` |
+//! | Which method to take | the package `symplectic-report` |
 //! | The method, as the macro emits it | [`Method`], [`StagePlan`], [`Composition`], [`Stages`], [`Coefficient`], [`combine`], [`relax`] |
 //!
 //! A [`Separable`] system with an [`Explicit`] plan is straight-line code with no solver in it; anything else
@@ -58,7 +58,6 @@
 //! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library; implies `alloc`.
 //! * `alloc`: dynamic vectors, [`nalgebra::DVector`], [`Newton`], and [`generating_function`].
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and [`Newton`] takes derivatives by dual numbers; implies `std`.
-//! * `report`: the module `report`, error against run time of methods on a problem, as a page, plots and data; implies `std`.
 //! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, the functions named under `std` from `libm`.
 
 #![no_std]
@@ -70,10 +69,6 @@ extern crate self as symplectic;
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
-#[cfg(feature = "report")]
-#[macro_use]
-extern crate std;
-
 mod error;
 mod state;
 
@@ -81,8 +76,6 @@ mod integrator;
 mod method;
 mod number;
 mod output;
-#[cfg(feature = "report")]
-pub mod report;
 mod solver;
 mod system;
 #[cfg(feature = "alloc")]

@@ -9,9 +9,9 @@ use std::path::Path;
 
 use nalgebra::Matrix2;
 use serde::Deserialize;
-use symplectic::report::Fact;
 use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::{Definition, Evidence, Limits};
+use symplectic_report::Fact;
 
 /// A method of the catalogue.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 //!
 //! `cargo run --release -p symplectic-tests --bin report -- --scene stiff` makes a page of it, with 10⁷ steps in its last row.
 
-use symplectic::report::Verdict;
+use symplectic_report::Verdict;
 use symplectic_tests::stiff_and_extreme::{
     ENTRANTS, PARTS_OF_THE_LIMIT, Stages, at_the_limit, extremes, limits, oscillators, verdicts,
 };

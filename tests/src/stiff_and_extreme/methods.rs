@@ -1,7 +1,7 @@
 //! The methods of the table: at least one of each kind of the catalogue.
 
 use symplectic::Method;
-use symplectic::report::Verdict;
+use symplectic_report::Verdict;
 
 use super::Run;
 use crate::methods::{

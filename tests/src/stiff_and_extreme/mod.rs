@@ -6,8 +6,8 @@ mod methods;
 use std::io;
 
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
-use symplectic::report::{Cell, StabilityLimit, Verdict, Verdicts};
 use symplectic::{Error, Integrator, Method, SeparableHamiltonian, State};
+use symplectic_report::{Cell, StabilityLimit, Verdict, Verdicts};
 
 use crate::linear_stability::{self, Entry, FARTHEST};
 use crate::scenes::fput_springs::{self, FputSprings};

@@ -1,8 +1,8 @@
 //! What the compiler proves of a method, in a few words.
 
-use symplectic::report::Fact;
 use symplectic_compiler::order::{ClassOrder, HamiltonianClass};
 use symplectic_compiler::{Definition, Error, Limits, Property};
+use symplectic_report::Fact;
 use symplectic_tests::linear_stability::evidence;
 
 /// Stability of methods with more stages takes seconds.

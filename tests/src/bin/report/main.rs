@@ -16,7 +16,7 @@ use std::time::Duration;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
-use symplectic::report::{Fact, Measurements, Repetitions, Settings, Study};
+use symplectic_report::{Fact, Measurements, Repetitions, Settings, Study};
 use symplectic_tests::stiff_and_extreme;
 
 use crate::scenes::{SCENES, Scene};

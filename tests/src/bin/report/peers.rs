@@ -5,8 +5,8 @@ use differential_equations::methods::{ExplicitRungeKutta, SymplecticIntegrator};
 use differential_equations::prelude::{IVP, ODE, Solution};
 use ode_solvers::{Dop853, OutputType, SVector as PeerVector, System};
 use symplectic::nalgebra::SVector;
-use symplectic::report::{Finish, Ladder, Observe, Problem};
 use symplectic::{Hamiltonian, State, Vector};
+use symplectic_report::{Finish, Ladder, Observe, Problem};
 
 /// Steps that a peer may take that chooses them itself: a second or so, after which it is said to have failed. No problem here is
 /// solved with as many, but in an encounter a loose tolerance leads astray, to steps that are shorter and shorter.

@@ -5,8 +5,8 @@
 use std::f64::consts::TAU;
 
 use symplectic::nalgebra::SVector;
-use symplectic::report::{Ladder, Problem, Reference, Study};
 use symplectic::{Error, Hamiltonian, HamiltonianInLanes, Integrator, Separable, State, Vector};
+use symplectic_report::{Ladder, Problem, Reference, Study};
 use symplectic_tests::methods::{Gauss8, Midpoint, VelocityVerlet};
 use symplectic_tests::scenes::{
     argon_crystal, charged_particle, double_pendulum, fput_chain, fput_springs,

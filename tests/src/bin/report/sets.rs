@@ -3,8 +3,8 @@
 //! Every method is generic over the system once, here: a scene chooses a set and says its numbers.
 
 use symplectic::nalgebra::SVector;
-use symplectic::report::Problem;
 use symplectic::{Hamiltonian, HamiltonianInLanes, Integrator, Separable, Vector};
+use symplectic_report::Problem;
 use symplectic_tests::methods::{
     BlanesMoanS6, BlanesMoanS10, BlanesMoanSrkn11b, BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4,
     Gauss6, Gauss8, KahanLi8, Lobatto3, SofroniouSpaletta10, StoermerVerlet, SymplecticEuler,

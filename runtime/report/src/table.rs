@@ -1,7 +1,5 @@
 //! The table of a README.
 
-use std::prelude::v1::*;
-
 use super::text;
 use super::{Cost, Curve, Kind, Measurements, ProblemRecord};
 
@@ -91,7 +89,7 @@ pub(super) fn cost(cost: &Cost) -> String {
 mod tests {
     use expect_test::expect;
 
-    use crate::report::tests::measurements;
+    use crate::tests::measurements;
 
     #[test]
     fn the_table_of_a_small_study() {

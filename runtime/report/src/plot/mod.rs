@@ -6,8 +6,6 @@ pub(super) mod element;
 mod labels;
 mod look;
 
-use std::prelude::v1::*;
-
 use axis::{Axis, Scale};
 use chart::{Chart, Drawn, Shape};
 use element::Element;
@@ -248,7 +246,7 @@ pub(super) fn file_name(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::tests::measurements;
+    use crate::tests::measurements;
 
     #[test]
     fn plots_are_well_formed_in_all_schemes() {

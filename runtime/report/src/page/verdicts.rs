@@ -1,11 +1,9 @@
 //! Tables of verdicts and of limits of stability on the page.
 
-use std::prelude::v1::*;
-
 use super::{table, tag};
-use crate::report::plot::element::Element;
-use crate::report::plot::file_name;
-use crate::report::{Cause, Cell, Fact, StabilityLimit, Verdict, Verdicts, text};
+use crate::plot::element::Element;
+use crate::plot::file_name;
+use crate::{Cause, Cell, Fact, StabilityLimit, Verdict, Verdicts, text};
 
 /// What a kind of verdict looks like: the name of its colour, a sign, a word.
 type Kind = (&'static str, &'static str, &'static str);

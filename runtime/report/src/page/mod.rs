@@ -2,8 +2,6 @@
 
 mod verdicts;
 
-use std::prelude::v1::*;
-
 use super::plot::element::Element;
 use super::plot::{file_name, style};
 use super::table::{cost, error};
@@ -336,7 +334,7 @@ fn tag(name: &'static str, words: impl Into<String>) -> Element {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::tests::measurements;
+    use crate::tests::measurements;
 
     #[test]
     fn the_page_is_well_formed_and_needs_nothing_from_elsewhere() {

@@ -1,7 +1,5 @@
 //! One row for each run, each verdict, each limit.
 
-use std::prelude::v1::*;
-
 use serde::Serialize;
 
 use super::{Curve, Measured, Measurements, Outcome, Parameter, Point, ProblemRecord, Verdict};
@@ -188,7 +186,7 @@ impl<'a> VerdictRow<'a> {
 mod tests {
     use expect_test::expect;
 
-    use crate::report::tests::measurements;
+    use crate::tests::measurements;
 
     #[test]
     fn rows_of_all_outcomes() {

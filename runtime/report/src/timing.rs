@@ -1,7 +1,5 @@
 //! CPU times of many runs, taken in turn.
 
-use std::prelude::v1::*;
-
 use std::time::Duration;
 
 use cpu_time::ThreadTime;

@@ -1,11 +1,11 @@
 //! A problem, and the methods that are to try it.
 
-use std::prelude::v1::*;
-
 use super::contestant::{Contestant, Finish, Observe};
 use super::text;
 use super::{Ladder, Measured};
-use crate::{Error, Hamiltonian, Integrator, Method, ProvedFor, Solver, State, Summation, Vector};
+use symplectic::{
+    Error, Hamiltonian, Integrator, Method, ProvedFor, Solver, State, Summation, Vector,
+};
 
 /// A system with a start, the state at the end, and the methods that are run on it.
 ///
@@ -176,7 +176,7 @@ impl<V: Vector<Scalar = f64>> Reference<V> {
     ///
     /// ```
     /// use symplectic::nalgebra::Vector1;
-    /// use symplectic::report::Reference;
+    /// use symplectic_report::Reference;
     /// use symplectic::{Error, State, acceleration};
     ///
     /// symplectic::tableau! { Gauss6 { basis: polynomial(6), nodes: gauss(6) } }

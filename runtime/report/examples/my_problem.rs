@@ -1,10 +1,10 @@
-//! A Hamiltonian of one's own, three methods, one call, a page: `cargo run --release --features report --example my_problem`
+//! A Hamiltonian of one's own, three methods, one call, a page: `cargo run --release -p symplectic-report --example my_problem`
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
 use symplectic::nalgebra::Vector2;
-use symplectic::report::{Problem, Reference, Study};
 use symplectic::{State, acceleration};
+use symplectic_report::{Problem, Reference, Study};
 
 symplectic::tableau! {
     /// Störmer–Verlet, order 2, explicit.

@@ -1,7 +1,5 @@
 //! What a study has found, as plain data: everything that is written or drawn comes from here alone.
 
-use std::prelude::v1::*;
-
 use serde::{Deserialize, Serialize};
 
 use super::{StabilityLimit, Verdicts};
@@ -58,7 +56,7 @@ pub struct MethodRecord {
     pub name: String,
     /// What it is, as far as that was seen.
     pub kind: Kind,
-    /// What it was derived from: [`Method::DEFINITION`](crate::Method::DEFINITION).
+    /// What it was derived from: [`Method::DEFINITION`](symplectic::Method::DEFINITION).
     pub definition: Option<String>,
     /// Number of stages.
     pub stages: Option<usize>,

@@ -1,8 +1,6 @@
 //! Axes: from numbers to places, and where the ticks are.
 
-use std::prelude::v1::*;
-
-use crate::report::text;
+use crate::text;
 
 /// How numbers become places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

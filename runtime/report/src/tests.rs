@@ -6,9 +6,9 @@ use std::vec::Vec;
 use nalgebra::Vector1;
 
 use super::*;
-use crate::{State, acceleration};
+use symplectic::{State, acceleration};
 
-crate::tableau! {
+symplectic::tableau! {
     Verlet { basis: polynomial(2), nodes: lobatto(2) }
     Gauss4 { basis: polynomial(4), nodes: gauss(4) }
 }
@@ -151,7 +151,7 @@ fn settings() -> Settings {
 }
 
 /// The oscillator from (1, 0) to the time 10.
-fn oscillator() -> Problem<Vector1<f64>, impl crate::Hamiltonian<Vector1<f64>> + Clone> {
+fn oscillator() -> Problem<Vector1<f64>, impl symplectic::Hamiltonian<Vector1<f64>> + Clone> {
     let system = acceleration::<Vector1<f64>, _>(|_, q, acceleration| *acceleration = -q)
         .with_energy(|_, q, p| (q[0] * q[0] + p[0] * p[0]) / 2.0);
     let start = State::from_arrays(0.0, [1.0], [0.0]);
@@ -169,7 +169,8 @@ fn a_study_of_an_oscillator() {
     let problem = oscillator()
         .method(Verlet)
         .run("Gauss", |system, start, h| {
-            Ok(crate::Integrator::plain(Gauss4, system, start, h)?.with_solver(crate::FixedPoint))
+            Ok(symplectic::Integrator::plain(Gauss4, system, start, h)?
+                .with_solver(symplectic::FixedPoint))
         });
     let study = Study::new("Oscillator").problem(problem.conserving("twice the energy", |state| {
         state.q[0] * state.q[0] + state.p[0] * state.p[0]

@@ -1,7 +1,5 @@
 //! Running all methods on all problems.
 
-use std::prelude::v1::*;
-
 use std::time::Duration;
 
 use super::contestant::{Contestant, Stop};
@@ -11,7 +9,7 @@ use super::{
     Curve, Kind, Measured, Measurements, MethodRecord, Outcome, Parameter, Point, Problem,
     ProblemRecord, Trace, text,
 };
-use crate::{Hamiltonian, State, Vector};
+use symplectic::{Hamiltonian, State, Vector};
 
 /// How much is measured.
 #[derive(Clone, Debug, PartialEq)]

@@ -119,7 +119,7 @@ impl Measurements {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::tests::curve;
+    use crate::tests::curve;
 
     #[test]
     fn a_time_lies_between_two_runs() {
@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn the_fastest_is_first_and_of_its_kind() {
-        let measurements = crate::report::tests::measurements();
+        let measurements = crate::tests::measurements();
         let problem = &measurements.problems[0];
         let names: Vec<&str> = problem
             .fastest(1e-3)

@@ -1,7 +1,5 @@
 //! Everything into one folder.
 
-use std::prelude::v1::*;
-
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};

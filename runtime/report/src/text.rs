@@ -1,7 +1,5 @@
 //! Numbers as people read them.
 
-use std::prelude::v1::*;
-
 /// An integer in superscripts: ⁻¹².
 pub(super) fn superscript(exponent: i32) -> String {
     let raise = |c| match c {

@@ -1,11 +1,9 @@
 //! Colours and shapes.
 
-use std::prelude::v1::*;
-
 use core::fmt::Write;
 
 use super::element::{Element, Pixels};
-use crate::report::{Kind, Measurements};
+use crate::{Kind, Measurements};
 
 /// For what background a plot is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

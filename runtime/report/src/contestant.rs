@@ -1,13 +1,13 @@
 //! Whatever can be run on a problem, whatever its types.
 
-use std::prelude::v1::*;
-
 use core::hint::black_box;
 use core::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::{Kind, Ladder, MethodRecord};
-use crate::{Error, Hamiltonian, Integrator, Method, Solver, State, Statistics, Summation, Vector};
+use symplectic::{
+    Error, Hamiltonian, Integrator, Method, Solver, State, Statistics, Summation, Vector,
+};
 
 /// Who is shown the states of a run.
 pub type Observe<'a, V> = &'a mut dyn FnMut(&State<V>);

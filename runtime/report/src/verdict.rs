@@ -1,7 +1,5 @@
 //! What becomes of a method on a problem: one of a few kinds, each a finite answer.
 
-use std::prelude::v1::*;
-
 use core::fmt;
 
 use serde::{Deserialize, Serialize};
@@ -9,13 +7,13 @@ use serde::{Deserialize, Serialize};
 use super::observer::Deviation;
 use super::text;
 use super::{Fact, Measured};
-use crate::{Error, Hamiltonian, Integrator, Method, Solver, State, Summation, Vector};
+use symplectic::{Error, Hamiltonian, Integrator, Method, Solver, State, Summation, Vector};
 
 /// What became of a run of equal steps.
 ///
 /// ```
 /// use symplectic::nalgebra::Vector1;
-/// use symplectic::report::Verdict;
+/// use symplectic_report::Verdict;
 /// use symplectic::{Integrator, State, acceleration};
 ///
 /// symplectic::tableau! { Verlet { basis: polynomial(2), nodes: lobatto(2) } }
@@ -312,10 +310,10 @@ impl StabilityLimit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::acceleration;
     use nalgebra::Vector1;
+    use symplectic::acceleration;
 
-    crate::tableau! {
+    symplectic::tableau! {
         Verlet { basis: polynomial(2), nodes: lobatto(2) }
         Gauss4 { basis: polynomial(4), nodes: gauss(4) }
     }

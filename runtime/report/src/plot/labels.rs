@@ -1,7 +1,5 @@
 //! Places for the names of curves next to their ends, where nothing else is.
 
-use std::prelude::v1::*;
-
 /// A rectangle in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {

@@ -1,9 +1,7 @@
 //! What is looked at along a run.
 
-use std::prelude::v1::*;
-
 use super::Trace;
-use crate::{State, Vector};
+use symplectic::{State, Vector};
 
 /// Parts of the time in a [`Trace`].
 const PARTS: usize = 240;

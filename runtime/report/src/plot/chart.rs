@@ -1,14 +1,12 @@
 //! A chart: axes, curves, and their names.
 
-use std::prelude::v1::*;
-
 use core::fmt::Write;
 
 use super::axis::Axis;
 use super::element::{Element, Pixels};
 use super::labels::{self, Area};
 use super::look::Look;
-use crate::report::Kind;
+use crate::Kind;
 
 /// The size of a chart, with its texts.
 pub const WIDTH: f64 = 820.0;

@@ -1,7 +1,5 @@
 //! Which step sizes are tried.
 
-use std::prelude::v1::*;
-
 use super::Parameter;
 
 /// The step sizes, or the tolerances, at which a method is run.
@@ -28,7 +26,7 @@ impl Ladder {
     /// The tolerances 10^−`coarse`, …, 10^−`fine`.
     ///
     /// ```
-    /// use symplectic::report::Ladder;
+    /// use symplectic_report::Ladder;
     ///
     /// assert_eq!(Ladder::decades(2, 4), Ladder::Tolerances(vec![1e-2, 1e-3, 1e-4]));
     /// ```

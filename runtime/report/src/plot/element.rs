@@ -1,7 +1,5 @@
 //! Elements of SVG and HTML.
 
-use std::prelude::v1::*;
-
 use core::fmt::{self, Display, Write};
 
 /// An element with attributes, elements and text in it.

@@ -16,7 +16,7 @@
 //!
 //! ```
 //! use symplectic::nalgebra::Vector1;
-//! use symplectic::report::{Kind, Measurements, Problem, Reference, Settings, Study};
+//! use symplectic_report::{Kind, Measurements, Problem, Reference, Settings, Study};
 //! use symplectic::{Error, State, acceleration};
 //!
 //! symplectic::tableau! {
@@ -36,7 +36,7 @@
 //! # let settings = Settings {
 //! #     targets: vec![1e-3, 1e-6],
 //! #     budget: std::time::Duration::from_millis(5),
-//! #     repetitions: symplectic::report::Repetitions { least: 1, most: 1, enough: std::time::Duration::ZERO },
+//! #     repetitions: symplectic_report::Repetitions { least: 1, most: 1, enough: std::time::Duration::ZERO },
 //! # };
 //! # let _defaults =
 //! Settings::default();
