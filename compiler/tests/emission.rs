@@ -48,8 +48,8 @@ fn a_splitting_is_straight_line_code() {
     let code = emitted(&tableau, "ForestRuth");
     let separable = code.split("struct ForestRuthSeparable").nth(1);
     let separable = separable.expect("the plan");
-    assert!(code.contains("Separable = ::symplectic::Splitting<ForestRuthSeparable>"));
-    assert!(separable.contains("&mut ::symplectic::Evaluations<V>"));
+    assert!(code.contains("Separable = ::symplectic::emitted::Splitting<ForestRuthSeparable>"));
+    assert!(separable.contains("&mut ::symplectic::emitted::Evaluations<V>"));
     assert!(separable.contains("if !kept.evaluation {"), "{separable}");
     // The last momentum stage has no drift after it, and no velocity is evaluated there.
     let moves = [".kick::<", ".drift::<"].map(|call| separable.matches(call).count());
@@ -63,12 +63,22 @@ fn a_composition_of_implicit_methods_is_a_list_of_steps() {
     let definition = Definition::parse("base: gauss-2, weights: triple_jump(6)");
     let tableau = definition.and_then(|definition| definition.derive(&Limits::default()));
     let code = emitted(&tableau.expect("derived"), "Jump");
-    assert_eq!(code.matches("impl ::symplectic::StagePlan for").count(), 2);
-    assert_eq!(code.matches("::symplectic::Stages<V, 2, 2>").count(), 2);
-    assert_eq!(code.matches("::symplectic::Substep {").count(), 6);
+    assert_eq!(
+        code.matches("impl ::symplectic::emitted::StagePlan for")
+            .count(),
+        2
+    );
+    let on_one_line = code.replace([' ', '\n'], "");
+    assert_eq!(
+        on_one_line
+            .matches("::symplectic::emitted::Stages<V,2,2")
+            .count(),
+        2
+    );
+    assert_eq!(code.matches("::symplectic::emitted::Substep {").count(), 6);
     // The sizes of the first and the last step are equal, and so are those of the last and the next first one.
     assert_eq!(code.matches("Kept::new(true, true)").count(), 2);
-    assert!(code.contains("type Separable = ::symplectic::Composition<JumpSeparable>"));
+    assert!(code.contains("type Separable = ::symplectic::emitted::Composition<JumpSeparable>"));
     // Explicit for separable systems: one splitting there.
     let definition = Definition::parse("base: velocity-verlet, weights: triple_jump(4)");
     let tableau = definition.and_then(|definition| definition.derive(&Limits::default()));
@@ -81,7 +91,9 @@ fn factors(code: &str) -> Vec<f64> {
     let plans = code.split_once("pub struct").expect("a method").1;
     let plans = plans.split_once("pub struct").expect("plans").1;
     let plans = plans.replace([' ', '\n'], "");
-    let parts: Vec<&str> = plans.split("::symplectic::Coefficient::").collect();
+    let parts: Vec<&str> = plans
+        .split("::symplectic::emitted::Coefficient::")
+        .collect();
     let before = [".at(", "start:", "time:"];
     let is_time = |pair: &&[&str]| before.iter().any(|&end| pair[0].ends_with(end));
     let factors = parts.windows(2).filter(|pair| !is_time(pair));
@@ -130,8 +142,8 @@ fn a_composition_of_explicit_methods_is_explicit() {
     let separable = code.split("struct TripleJumpSeparable").nth(1);
     let separable = separable.expect("the plan");
     // Four positions with a force, the last of which is the first of the next step, and three momenta.
-    assert!(code.contains("Separable = ::symplectic::Splitting<TripleJumpSeparable>"));
-    assert!(separable.contains("&mut ::symplectic::Evaluations<V>"));
+    assert!(code.contains("Separable = ::symplectic::emitted::Splitting<TripleJumpSeparable>"));
+    assert!(separable.contains("&mut ::symplectic::emitted::Evaluations<V>"));
     assert!(separable.contains("if !kept.evaluation {"), "{separable}");
     assert!(!separable.contains("relax") && !separable.contains("combine"));
     assert_eq!(separable.matches(".force::<").count(), 4);

@@ -7,7 +7,7 @@ use core::fmt;
 #[non_exhaustive]
 pub enum Error {
     /// The iteration for the coupled stages diverged, or converged too slowly: a smaller step helps, and for a stiff system
-    /// [`Newton`](crate::Newton) in place of a fixed-point iteration.
+    /// [`Newton`](crate::solver::Newton) in place of a fixed-point iteration.
     #[error(
         "step {step} of size {step_size} at time {time}: the stages {}; take a smaller step",
         Divergence { residual: *.residual, iterations: *.iterations }

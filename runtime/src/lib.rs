@@ -14,20 +14,16 @@
 //!
 //! | What | Where |
 //! |---|---|
-//! | The system: a trait, or closures | [`Hamiltonian`], [`SeparableHamiltonian`], [`separable`], [`hamiltonian`], [`acceleration`]; [`Chain`] of [`Bonds`] |
-//! | What it computes with | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors) |
+//! | The system: closures or a trait | [`separable`], [`hamiltonian`], [`acceleration`]; [`SeparableHamiltonian`], [`Hamiltonian`]; [`system`] |
+//! | Numbers and vectors | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors), [`simd`] |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`] |
-//! | Running it | [`State`], [`Integrator`], [`Error`], [`Retry`], [`Statistics`], [`Progress`], [`Invariant`] |
-//! | How coupled stages are found | [`Solver`]: [`FixedPoint`], [`InLanes`], [`AtOnceInLanes`], [`SecondOrderInLanes`], [`Newton`], [`FixedPointThenNewton`] |
-//! | Between the steps | [`DenseOutput`], [`Interpolation`], [`Event`], [`Events`], [`Moment`] |
-//! | What generates a step | [`generating_function`], of Type II |
+//! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`] |
+//! | What is seen of a run | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
+//! | How coupled stages are found | [`solver`] |
 //! | Which method to take | the package `symplectic-report` |
-//! | The method, as the macro emits it | [`Method`], [`StagePlan`], [`Composition`], [`Stages`], [`Coefficient`], [`combine`], [`relax`] |
 //!
-//! A [`Separable`] system with an [`Explicit`] plan is straight-line code with no solver in it; anything else
-//! is [`Coupled`] and goes through the iteration of a [`Solver`]: of [`FixedPoint`] unless told otherwise, of [`Newton`] for
-//! stiff systems. The types of the system and of the method decide
-//! which, not a test at run time.
+//! The types of the system and of the method decide how a step is taken. Splittings of [`Separable`] systems are straight-line code.
+//! Coupled stages are found by an iteration: by fixed points unless a [`solver`] such as Newton's is named.
 //!
 //! ```
 //! symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
@@ -56,8 +52,8 @@
 //! # Features
 //!
 //! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library; implies `alloc`.
-//! * `alloc`: dynamic vectors, [`nalgebra::DVector`], [`Newton`], and [`generating_function`].
-//! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and [`Newton`] takes derivatives by dual numbers; implies `std`.
+//! * `alloc`: dynamic vectors, [`nalgebra::DVector`], Newton's iteration and generating functions.
+//! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and Newton's iteration takes derivatives by dual numbers; implies `std`.
 //! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, the functions named under `std` from `libm`.
 
 #![no_std]
@@ -75,46 +71,35 @@ mod state;
 mod integrator;
 mod method;
 mod number;
-mod output;
-mod solver;
-mod system;
+pub mod output;
+pub mod solver;
+pub mod system;
 #[cfg(feature = "alloc")]
-mod variational;
+pub mod variational;
 
 pub use error::{Error, Quantity};
 pub use integrator::{Integrator, Retry, Statistics};
-pub use method::{
-    Change, Composition, CompositionMemory, Coupled, Decoupling, Drift, EvaluationCounts,
-    Evaluations, Explicit, Failure, Force, HalfTableau, Inside, Interpolation, Kept, LowerOrder,
-    Method, Moves, Orders, Outcome, PartChange, Plan, ProvedFor, SecondOrderTableau, SeparableOnly,
-    Solver, Span, Splitting, SplittingPlan, StagePlan, StagePolynomial, StageStorage, StageTableau,
-    Stages, Step, Stopping, StoredEvaluations, Substep, Substeps, Witness, Work, composition, rows,
-    splitting, staircase, tableau,
-};
+pub use method::{LowerOrder, Method, Orders, ProvedFor, composition, splitting, tableau};
 pub use nalgebra;
 pub use num_traits;
-pub use number::{
-    Coefficient, Coefficients, Compensated, F64x2, F64x4, F64x8, Lanes, Plain, Scalar, Summation,
-    Vector, advance, combine, copy, copy_to, factors, increment, relative, scale, total, transform,
-    weighted_total, weights,
-};
-pub use output::{DenseOutput, Event, Events, Invariant, Moment, Progress, States};
-#[cfg(feature = "alloc")]
-pub use solver::{
-    Analytic, BandMatrix, Banded, Coupling, Dense, Derivatives, Differences, EveryStage,
-    FixedPointThenNewton, FixedPointThenNewtonMemory, Jacobian, LinearSolver, Linearized, Matrices,
-    Newton, NewtonMemory, Parts,
-};
-pub use solver::{
-    AtOnceInLanes, FixedPoint, InLanes, LaneStages, SecondOrderInLanes, SecondOrderStages, relax,
-};
-#[cfg(feature = "num-dual")]
-pub use solver::{DualNumbers, HamiltonianInDuals};
+pub use number::{Compensated, Plain, Scalar, Summation, Vector};
+pub use output::{Event, Events, Invariant, Moment, Progress};
 pub use state::State;
 pub use system::{
-    Bonds, Chain, Class, Components, General, Hamiltonian, HamiltonianClosures, HamiltonianInLanes,
-    Layout, MOST_ROW_STAGES, Momentum, NoEnergy, Separable, SeparableClosures,
-    SeparableHamiltonian, StageRows, SystemLanes, acceleration, hamiltonian, separable,
+    Class, General, Hamiltonian, Separable, SeparableHamiltonian, acceleration, hamiltonian,
+    separable,
 };
-#[cfg(feature = "alloc")]
-pub use variational::{GeneratingFunction, generating_function};
+
+/// Doubles side by side.
+pub mod simd {
+    pub use crate::number::{F64x2, F64x4, F64x8, Lanes};
+}
+
+/// What emitted code names; not for people.
+#[doc(hidden)]
+pub mod emitted {
+    pub use crate::method::*;
+    pub use crate::number::*;
+    pub use crate::solver::*;
+    pub use crate::system::*;
+}

@@ -11,7 +11,8 @@ use std::ops::ControlFlow;
 
 use common::systems::Pendulum;
 use common::{Midpoint, StoermerVerlet};
-use symplectic::{Bonds, Chain, Error, Event, Integrator, Method, Moment, Scalar, State, Vector};
+use symplectic::system::{Bonds, Chain};
+use symplectic::{Error, Event, Integrator, Method, Moment, Scalar, State, Vector};
 
 thread_local! {
     static COUNT: Cell<u64> = const { Cell::new(0) };

@@ -2,10 +2,13 @@
 
 use std::cell::Cell;
 
+use symplectic::emitted::copy;
 use symplectic::nalgebra::DVector;
+use symplectic::simd::{F64x4, Lanes};
+use symplectic::system::{Bonds, Chain, Layout};
 use symplectic::{
-    Bonds, Chain, Compensated, Error, F64x4, Hamiltonian, Integrator, Lanes, Layout, Method, Plain,
-    Scalar, SeparableHamiltonian, State, Vector, acceleration, composition, copy, tableau,
+    Compensated, Error, Hamiltonian, Integrator, Method, Plain, Scalar, SeparableHamiltonian,
+    State, Vector, acceleration, composition, tableau,
 };
 
 tableau! { VelocityVerlet { basis: polynomial(2), nodes: lobatto(2) } }

@@ -4,9 +4,11 @@ mod common;
 
 use common::systems::{Pendulum, Product, point};
 use symplectic::nalgebra::{DVector, SVector, Vector2};
+use symplectic::output::Interpolation;
+use symplectic::solver::Solver;
 use symplectic::{
-    Error, Hamiltonian, Integrator, Interpolation, Method, ProvedFor, Scalar, SeparableHamiltonian,
-    Solver, State, Summation, Vector, composition, tableau,
+    Error, Hamiltonian, Integrator, Method, ProvedFor, Scalar, SeparableHamiltonian, State,
+    Summation, Vector, composition, tableau,
 };
 
 tableau! {

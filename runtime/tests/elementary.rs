@@ -1,6 +1,7 @@
 //! Elementary functions of doubles and of lanes.
 
-use symplectic::{F64x2, F64x4, F64x8, Lanes, Scalar};
+use symplectic::Scalar;
+use symplectic::simd::{F64x2, F64x4, F64x8, Lanes};
 
 /// What is made of sums and products, for one scalar.
 fn functions<T: Scalar>(x: T) -> [T; 7] {

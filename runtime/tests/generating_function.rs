@@ -12,10 +12,11 @@ use common::dual::{Dual, dual};
 use common::systems::{Driven, Pendulum, Product, point};
 use common::{Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
+use symplectic::solver::{Coefficient, Coefficients};
+use symplectic::variational::{GeneratingFunction, generating_function};
 use symplectic::{
-    Coefficient, Coefficients, Error, General, GeneratingFunction, Hamiltonian, Integrator, Method,
-    Orders, ProvedFor, Quantity, Scalar, SeparableHamiltonian, State, generating_function,
-    hamiltonian, separable,
+    Error, General, Hamiltonian, Integrator, Method, Orders, ProvedFor, Quantity, Scalar,
+    SeparableHamiltonian, State, hamiltonian, separable,
 };
 
 symplectic::tableau! {

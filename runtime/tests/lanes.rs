@@ -4,10 +4,12 @@ use std::cell::Cell;
 use std::fmt::Debug;
 
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
+use symplectic::simd::{F64x2, F64x4, F64x8, Lanes};
+use symplectic::solver::Solver;
+use symplectic::system::HamiltonianInLanes;
 use symplectic::{
-    Compensated, Error, F64x2, F64x4, F64x8, General, Hamiltonian, HamiltonianInLanes, Integrator,
-    Lanes, Method, Plain, ProvedFor, Quantity, Scalar, Separable, SeparableHamiltonian, Solver,
-    State, Summation, Vector, tableau,
+    Compensated, Error, General, Hamiltonian, Integrator, Method, Plain, ProvedFor, Quantity,
+    Scalar, Separable, SeparableHamiltonian, State, Summation, Vector, tableau,
 };
 
 tableau! { Gauss1 { basis: polynomial(1), nodes: gauss(1) } }

@@ -4,11 +4,15 @@ use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::rc::Rc;
 
+use symplectic::emitted::copy;
 use symplectic::nalgebra::DVector;
+use symplectic::simd::F64x8;
+use symplectic::system::{
+    Bonds, Chain, Components, HamiltonianInLanes, MOST_ROW_STAGES, StageRows,
+};
 use symplectic::{
-    Bonds, Chain, Compensated, Components, Error, F64x8, Hamiltonian, HamiltonianInLanes,
-    Integrator, MOST_ROW_STAGES, Method, Plain, Scalar, Separable, SeparableHamiltonian, StageRows,
-    State, Statistics, Summation, Vector, copy, tableau,
+    Compensated, Error, Hamiltonian, Integrator, Method, Plain, Scalar, Separable,
+    SeparableHamiltonian, State, Statistics, Summation, Vector, tableau,
 };
 
 tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }

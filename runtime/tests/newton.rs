@@ -5,9 +5,11 @@ mod common;
 use common::systems::Product;
 use common::{Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
+use symplectic::solver::{
+    Analytic, Banded, Dense, Differences, FixedPointThenNewton, Jacobian, Linearized, Newton,
+};
 use symplectic::{
-    Analytic, Banded, Dense, Differences, Error, FixedPointThenNewton, General, Hamiltonian,
-    Integrator, Jacobian, Linearized, Method, Newton, ProvedFor, Quantity, Scalar, Separable,
+    Error, General, Hamiltonian, Integrator, Method, ProvedFor, Quantity, Scalar, Separable,
     SeparableHamiltonian, State, Vector, separable, tableau,
 };
 
@@ -643,7 +645,7 @@ fn wrong_dimensions_are_an_error() -> Result<(), Error> {
 #[cfg(feature = "num-dual")]
 #[test]
 fn dual_numbers_give_the_derivatives() -> Result<(), Error> {
-    use symplectic::{Derivatives, DualNumbers};
+    use symplectic::solver::{Derivatives, DualNumbers};
 
     let State { q, p, .. } = chain_start();
     let mut expected = Jacobian::new(24, 1);

@@ -1,9 +1,10 @@
 //! Stages that are no numbers for a sweep, and numbers again after it.
 
 use symplectic::nalgebra::Vector2;
+use symplectic::solver::Solver;
+use symplectic::system::HamiltonianInLanes;
 use symplectic::{
-    Error, Hamiltonian, HamiltonianInLanes, Integrator, Scalar, SeparableHamiltonian, Solver,
-    State, Summation, tableau,
+    Error, Hamiltonian, Integrator, Scalar, SeparableHamiltonian, State, Summation, tableau,
 };
 
 tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }

@@ -1,9 +1,10 @@
 //! Tolerances of the iteration for coupled stages.
 
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
+use symplectic::solver::{Dense, Differences, Newton, Solver};
+use symplectic::system::HamiltonianInLanes;
 use symplectic::{
-    Dense, Differences, Error, HamiltonianInLanes, Integrator, Method, Newton, Plain, Quantity,
-    Scalar, SeparableHamiltonian, Solver, State, tableau,
+    Error, Integrator, Method, Plain, Quantity, Scalar, SeparableHamiltonian, State, tableau,
 };
 
 mod common;

@@ -4,9 +4,10 @@
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
+use symplectic::system::HamiltonianInLanes;
 use symplectic::{
-    Class, Compensated, Error, Hamiltonian, HamiltonianInLanes, Integrator, Method, Plain,
-    ProvedFor, State, Summation, Vector,
+    Class, Compensated, Error, Hamiltonian, Integrator, Method, Plain, ProvedFor, State, Summation,
+    Vector,
 };
 use symplectic_tests::drift::{Sample, ensemble, exponent};
 use symplectic_tests::methods::{Gauss6, Gauss8};

@@ -8,7 +8,8 @@
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, Solver, State, Summation};
+use symplectic::solver::Solver;
+use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, State, Summation};
 
 symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
 

@@ -4,9 +4,8 @@
 //! spread grows like the square root of the number of steps (Brouwer's law). A drift is a mean that is many of its own
 //! standard errors away from zero, and that grows with the number of steps itself.
 
-use symplectic::{
-    Error, Hamiltonian, Integrator, Method, ProvedFor, Solver, State, Summation, Vector,
-};
+use symplectic::solver::Solver;
+use symplectic::{Error, Hamiltonian, Integrator, Method, ProvedFor, State, Summation, Vector};
 
 /// The relative energy errors of an ensemble after a number of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,9 +10,11 @@ use std::alloc::System;
 
 use nalgebra::DVector;
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+use symplectic::solver::{
+    Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Newton, Solver,
+};
 use symplectic::{
-    Banded, Dense, Differences, Error, FixedPoint, FixedPointThenNewton, Hamiltonian, Integrator,
-    Method, Newton, ProvedFor, Solver, State, hamiltonian, separable,
+    Error, Hamiltonian, Integrator, Method, ProvedFor, State, hamiltonian, separable,
 };
 use symplectic_tests::methods::{Gauss4, Lobatto3, StoermerVerlet};
 

@@ -5,7 +5,8 @@
 
 use std::collections::{BTreeSet, HashSet};
 
-use symplectic::{Coefficient, Error, General, Integrator, Method, ProvedFor, Scalar};
+use symplectic::solver::Coefficient;
+use symplectic::{Error, General, Integrator, Method, ProvedFor, Scalar};
 use symplectic_compiler::{Coefficients, Definition, Limits, Properties, Tableau};
 use symplectic_tests::scenes::kepler::{Kepler, start};
 

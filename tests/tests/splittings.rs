@@ -1,6 +1,7 @@
 //! Every splitting and composition of the catalogue in use: how often a step evaluates, and that it is of its order.
 
-use symplectic::{Coefficient, Error, Integrator, Method};
+use symplectic::solver::Coefficient;
+use symplectic::{Error, Integrator, Method};
 use symplectic_compiler::catalogue;
 use symplectic_tests::counting::{Counting, Counts};
 use symplectic_tests::scenes::kepler;

@@ -51,10 +51,10 @@ pub(super) fn coefficient(number: &Number<'_>) -> TokenStream {
 pub(super) fn rounded(number: Rounded) -> TokenStream {
     let high = double(number.double);
     if number.low == 0.0 && number.single.to_bits() == (number.double as f32).to_bits() {
-        return quote!(::symplectic::Coefficient::exact(#high));
+        return quote!(::symplectic::emitted::Coefficient::exact(#high));
     }
     let (low, single) = (double(number.low), single(number.single));
-    quote!(::symplectic::Coefficient::new(#high, #low, #single))
+    quote!(::symplectic::emitted::Coefficient::new(#high, #low, #single))
 }
 
 /// A number of stages without a suffix.

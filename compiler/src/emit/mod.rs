@@ -1,6 +1,6 @@
 //! From an exact tableau to Rust code.
 //!
-//! The generated code names everything as `::symplectic::…`. It contains the coefficients as constants,
+//! The generated code names everything as `::symplectic::emitted::…`. It contains the coefficients as constants,
 //! each rounded correctly to a double, and as what the runtime computes with: rounded correctly to a
 //! double and from the exact value again to a single, which is infinite for a coefficient beyond the
 //! largest single, because the method is sound in doubles. For each class of Hamiltonians a plan of the step in which every
@@ -98,7 +98,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
 
         #[allow(clippy::approx_constant)]
         const _: () = {
-            impl ::symplectic::Method for #name {
+            impl ::symplectic::emitted::Method for #name {
                 const NAME: &'static str = #text;
                 const STAGES: usize = #stages;
                 const DEFINITION: &'static str = #definition;
@@ -145,7 +145,7 @@ fn constants(
     let rows = |rows: &[Vec<f64>], weights: &str, own: fn(Staircase) -> bool| {
         if let Some(own) = left_out.map(own) {
             let weights = literal::identifier(weights);
-            return quote!(::symplectic::staircase(Self::#weights, 0.0, #own));
+            return quote!(::symplectic::emitted::staircase(Self::#weights, 0.0, #own));
         }
         let rows = rows.iter().map(|row| literal::array(row));
         quote!([#(#rows),*])
@@ -199,7 +199,7 @@ fn coefficients(
     let length = left_out.map(|_| quote!(; #stages));
     let vector = |name: &Ident, numbers: &[Number<'_>]| {
         let values = literal::coefficients(numbers);
-        quote!(const #name: &[::symplectic::Coefficient #length] = &#values;)
+        quote!(const #name: &[::symplectic::emitted::Coefficient #length] = &#values;)
     };
     let matrix = |name: &Ident,
                   rows: &[Vec<Number<'_>>],
@@ -208,15 +208,15 @@ fn coefficients(
         if let Some(own) = left_out.map(own) {
             let weights = literal::identifier(weights);
             return quote! {
-                const #name: &[&[::symplectic::Coefficient]] = {
-                    const ENTRIES: &[[::symplectic::Coefficient; #stages]; #stages] =
-                        &::symplectic::staircase(*#weights, ::symplectic::Coefficient::exact(0.0), #own);
-                    &::symplectic::rows(ENTRIES)
+                const #name: &[&[::symplectic::emitted::Coefficient]] = {
+                    const ENTRIES: &[[::symplectic::emitted::Coefficient; #stages]; #stages] =
+                        &::symplectic::emitted::staircase(*#weights, ::symplectic::emitted::Coefficient::exact(0.0), #own);
+                    &::symplectic::emitted::rows(ENTRIES)
                 };
             };
         }
         let rows = rows.iter().map(|row| literal::coefficients(row));
-        quote!(const #name: &[&[::symplectic::Coefficient]] = &[#(&#rows),*];)
+        quote!(const #name: &[&[::symplectic::emitted::Coefficient]] = &[#(&#rows),*];)
     };
     let [a, b, c] = ["A", "B", "C"].map(literal::identifier);
     let [mut a_tilde, mut b_tilde, mut c_tilde] =
@@ -246,9 +246,9 @@ fn coefficients(
         constants.push(vector(&b_tilde, &numbers.b_tilde));
     }
     quote! {
-        const COEFFICIENTS: ::symplectic::Coefficients = {
+        const COEFFICIENTS: ::symplectic::emitted::Coefficients = {
             #(#constants)*
-            ::symplectic::Coefficients { a: #a, a_tilde: #a_tilde, b: #b, b_tilde: #b_tilde, c: #c, c_tilde: #c_tilde }
+            ::symplectic::emitted::Coefficients { a: #a, a_tilde: #a_tilde, b: #b, b_tilde: #b_tilde, c: #c, c_tilde: #c_tilde }
         };
     }
 }
@@ -259,20 +259,20 @@ fn orders(tableau: &Tableau) -> TokenStream {
     let [general, separable, nystrom] = [&orders.general, &orders.separable, &orders.nystrom]
         .map(|class| literal::count(class.order));
     quote! {
-        const ORDERS: ::symplectic::Orders =
-            ::symplectic::Orders { general: #general, separable: #separable, nystrom: #nystrom };
+        const ORDERS: ::symplectic::emitted::Orders =
+            ::symplectic::emitted::Orders { general: #general, separable: #separable, nystrom: #nystrom };
     }
 }
 
 /// The classes of systems on which the method is no worse than on narrower ones.
 fn proved(tableau: &Tableau, name: &Ident) -> TokenStream {
     if tableau.keeps_its_order_in_general() {
-        quote!(impl<C> ::symplectic::ProvedFor<C> for #name {})
+        quote!(impl<C> ::symplectic::emitted::ProvedFor<C> for #name {})
     } else {
         // The second keeps the compiler from concluding the class from the method.
         quote! {
-            impl ::symplectic::ProvedFor<::symplectic::Separable> for #name {}
-            impl ::symplectic::ProvedFor<()> for #name {}
+            impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::Separable> for #name {}
+            impl ::symplectic::emitted::ProvedFor<()> for #name {}
         }
     }
 }

@@ -84,196 +84,196 @@ impl ForestRuth {
 }
 #[allow(clippy::approx_constant)]
 const _: () = {
-    impl ::symplectic::Method for ForestRuth {
+    impl ::symplectic::emitted::Method for ForestRuth {
         const NAME: &'static str = "ForestRuth";
         const STAGES: usize = 4;
         const DEFINITION: &'static str = "kick: [-1/(2*(cbrt(2) - 2)), (cbrt(2) - 1)/(2*(cbrt(2) - 2))], drift: [-1/(cbrt(2) - 2), cbrt(2)/(cbrt(2) - 2)], symmetric: true";
-        const COEFFICIENTS: ::symplectic::Coefficients = {
-            const A: &[&[::symplectic::Coefficient]] = &[
+        const COEFFICIENTS: ::symplectic::emitted::Coefficients = {
+            const A: &[&[::symplectic::emitted::Coefficient]] = &[
                 &[
-                    ::symplectic::Coefficient::exact(0.0),
-                    ::symplectic::Coefficient::exact(0.0),
-                    ::symplectic::Coefficient::exact(0.0),
-                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
                 ],
                 &[
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         1.3512071919596575,
                         8.42741775545176e-17,
                         1.3512071,
                     ),
-                    ::symplectic::Coefficient::exact(0.0),
-                    ::symplectic::Coefficient::exact(0.0),
-                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
                 ],
                 &[
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         1.3512071919596575,
                         8.42741775545176e-17,
                         1.3512071,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         (-1.7024143839193153),
                         5.349624981599612e-17,
                         (-1.7024144),
                     ),
-                    ::symplectic::Coefficient::exact(0.0),
-                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
                 ],
                 &[
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         1.3512071919596575,
                         8.42741775545176e-17,
                         1.3512071,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         (-1.7024143839193153),
                         5.349624981599612e-17,
                         (-1.7024144),
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         1.3512071919596575,
                         8.42741775545176e-17,
                         1.3512071,
                     ),
-                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
                 ],
             ];
-            const B: &[::symplectic::Coefficient] = &[
-                ::symplectic::Coefficient::new(
+            const B: &[::symplectic::emitted::Coefficient] = &[
+                ::symplectic::emitted::Coefficient::new(
                     1.3512071919596575,
                     8.42741775545176e-17,
                     1.3512071,
                 ),
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     (-1.7024143839193153),
                     5.349624981599612e-17,
                     (-1.7024144),
                 ),
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     1.3512071919596575,
                     8.42741775545176e-17,
                     1.3512071,
                 ),
-                ::symplectic::Coefficient::exact(0.0),
+                ::symplectic::emitted::Coefficient::exact(0.0),
             ];
-            const C: &[::symplectic::Coefficient] = &[
-                ::symplectic::Coefficient::exact(0.0),
-                ::symplectic::Coefficient::new(
+            const C: &[::symplectic::emitted::Coefficient] = &[
+                ::symplectic::emitted::Coefficient::exact(0.0),
+                ::symplectic::emitted::Coefficient::new(
                     1.3512071919596575,
                     8.42741775545176e-17,
                     1.3512071,
                 ),
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     (-0.35120719195965766),
                     2.674812490799806e-17,
                     (-0.3512072),
                 ),
-                ::symplectic::Coefficient::exact(1.0),
+                ::symplectic::emitted::Coefficient::exact(1.0),
             ];
-            const A_TILDE: &[&[::symplectic::Coefficient]] = &[
+            const A_TILDE: &[&[::symplectic::emitted::Coefficient]] = &[
                 &[
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.6756035959798288,
                         4.21370887772588e-17,
                         0.67560357,
                     ),
-                    ::symplectic::Coefficient::exact(0.0),
-                    ::symplectic::Coefficient::exact(0.0),
-                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
                 ],
                 &[
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.6756035959798288,
                         4.21370887772588e-17,
                         0.67560357,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         (-0.17560359597982883),
                         1.337406245399903e-17,
                         (-0.1756036),
                     ),
-                    ::symplectic::Coefficient::exact(0.0),
-                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
                 ],
                 &[
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.6756035959798288,
                         4.21370887772588e-17,
                         0.67560357,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         (-0.17560359597982883),
                         1.337406245399903e-17,
                         (-0.1756036),
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         (-0.17560359597982883),
                         1.337406245399903e-17,
                         (-0.1756036),
                     ),
-                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
                 ],
                 &[
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.6756035959798288,
                         4.21370887772588e-17,
                         0.67560357,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         (-0.17560359597982883),
                         1.337406245399903e-17,
                         (-0.1756036),
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         (-0.17560359597982883),
                         1.337406245399903e-17,
                         (-0.1756036),
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.6756035959798288,
                         4.21370887772588e-17,
                         0.67560357,
                     ),
                 ],
             ];
-            const C_TILDE: &[::symplectic::Coefficient] = &[
-                ::symplectic::Coefficient::new(
+            const C_TILDE: &[::symplectic::emitted::Coefficient] = &[
+                ::symplectic::emitted::Coefficient::new(
                     0.6756035959798288,
                     4.21370887772588e-17,
                     0.67560357,
                 ),
-                ::symplectic::Coefficient::exact(0.5),
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::new(
                     0.32439640402017117,
                     1.337406245399903e-17,
                     0.3243964,
                 ),
-                ::symplectic::Coefficient::exact(1.0),
+                ::symplectic::emitted::Coefficient::exact(1.0),
             ];
-            const B_TILDE: &[::symplectic::Coefficient] = &[
-                ::symplectic::Coefficient::new(
+            const B_TILDE: &[::symplectic::emitted::Coefficient] = &[
+                ::symplectic::emitted::Coefficient::new(
                     0.6756035959798288,
                     4.21370887772588e-17,
                     0.67560357,
                 ),
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     (-0.17560359597982883),
                     1.337406245399903e-17,
                     (-0.1756036),
                 ),
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     (-0.17560359597982883),
                     1.337406245399903e-17,
                     (-0.1756036),
                 ),
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.6756035959798288,
                     4.21370887772588e-17,
                     0.67560357,
                 ),
             ];
-            ::symplectic::Coefficients {
+            ::symplectic::emitted::Coefficients {
                 a: A,
                 a_tilde: A_TILDE,
                 b: B,
@@ -282,22 +282,27 @@ const _: () = {
                 c_tilde: C_TILDE,
             }
         };
-        const ORDERS: ::symplectic::Orders = ::symplectic::Orders {
+        const ORDERS: ::symplectic::emitted::Orders = ::symplectic::emitted::Orders {
             general: 1,
             separable: 4,
             nystrom: 4,
         };
-        type General = ::symplectic::Coupled<ForestRuthGeneral>;
-        type Separable = ::symplectic::Splitting<ForestRuthSeparable>;
+        type General = ::symplectic::emitted::Coupled<ForestRuthGeneral>;
+        type Separable = ::symplectic::emitted::Splitting<ForestRuthSeparable>;
     }
-    impl ::symplectic::ProvedFor<::symplectic::Separable> for ForestRuth {}
-    impl ::symplectic::ProvedFor<()> for ForestRuth {}
+    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::Separable>
+    for ForestRuth {}
+    impl ::symplectic::emitted::ProvedFor<()> for ForestRuth {}
     pub struct ForestRuthGeneral;
     #[allow(unused_variables)]
-    impl ::symplectic::StagePlan for ForestRuthGeneral {
-        type Class = ::symplectic::General;
-        type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 4, 4>;
-        const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
+    impl ::symplectic::emitted::StagePlan for ForestRuthGeneral {
+        type Class = ::symplectic::emitted::General;
+        type Stages<V: ::symplectic::emitted::Vector> = ::symplectic::emitted::Stages<
+            V,
+            4,
+            4,
+        >;
+        const EVALUATIONS: ::symplectic::emitted::EvaluationCounts = ::symplectic::emitted::EvaluationCounts {
             begin: 0,
             start: 1,
             sweep: 7,
@@ -306,25 +311,25 @@ const _: () = {
         };
         #[inline]
         fn begin<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::Kept,
+            kept: ::symplectic::emitted::Kept,
         ) {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::copy(&mut p[0], step.p);
-            ::symplectic::copy(&mut p[1], step.p);
-            ::symplectic::copy(&mut p[2], step.p);
-            ::symplectic::copy(&mut p[3], step.p);
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            ::symplectic::emitted::copy(&mut p[0], step.p);
+            ::symplectic::emitted::copy(&mut p[1], step.p);
+            ::symplectic::emitted::copy(&mut p[2], step.p);
+            ::symplectic::emitted::copy(&mut p[3], step.p);
             system
                 .velocity(
                     step
                         .at(
-                            ::symplectic::Coefficient::new(
+                            ::symplectic::emitted::Coefficient::new(
                                 0.6756035959798288,
                                 4.21370887772588e-17,
                                 0.67560357,
@@ -334,8 +339,8 @@ const _: () = {
                     step.p,
                     &mut velocity[0],
                 );
-            ::symplectic::copy_to(velocity, 0, [1, 2]);
-            ::symplectic::combine::<
+            ::symplectic::emitted::copy_to(velocity, 0, [1, 2]);
+            ::symplectic::emitted::combine::<
                 R,
                 V,
                 _,
@@ -343,10 +348,10 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.q_low,
-                ::symplectic::weights(
+                ::symplectic::emitted::weights(
                     step.size,
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             1.3512071919596575,
                             8.42741775545176e-17,
                             1.3512071,
@@ -355,7 +360,7 @@ const _: () = {
                 ),
                 [&velocity[0]],
             );
-            ::symplectic::combine::<
+            ::symplectic::emitted::combine::<
                 R,
                 V,
                 _,
@@ -363,15 +368,15 @@ const _: () = {
                 &mut q[2],
                 step.q,
                 step.q_low,
-                ::symplectic::weights(
+                ::symplectic::emitted::weights(
                     step.size,
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             1.3512071919596575,
                             8.42741775545176e-17,
                             1.3512071,
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             (-1.7024143839193153),
                             5.349624981599612e-17,
                             (-1.7024144),
@@ -380,7 +385,7 @@ const _: () = {
                 ),
                 [&velocity[0], &velocity[1]],
             );
-            ::symplectic::combine::<
+            ::symplectic::emitted::combine::<
                 R,
                 V,
                 _,
@@ -388,20 +393,20 @@ const _: () = {
                 &mut q[3],
                 step.q,
                 step.q_low,
-                ::symplectic::weights(
+                ::symplectic::emitted::weights(
                     step.size,
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             1.3512071919596575,
                             8.42741775545176e-17,
                             1.3512071,
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             (-1.7024143839193153),
                             5.349624981599612e-17,
                             (-1.7024144),
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             1.3512071919596575,
                             8.42741775545176e-17,
                             1.3512071,
@@ -413,19 +418,19 @@ const _: () = {
         }
         #[inline]
         fn sweep<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::Change {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::Change::default();
+        ) -> ::symplectic::emitted::Change {
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            let mut change = ::symplectic::emitted::Change::default();
             system
                 .force(
-                    step.at(::symplectic::Coefficient::exact(0.0)),
+                    step.at(::symplectic::emitted::Coefficient::exact(0.0)),
                     step.q,
                     &p[0],
                     &mut force[0],
@@ -434,7 +439,7 @@ const _: () = {
                 .force(
                     step
                         .at(
-                            ::symplectic::Coefficient::new(
+                            ::symplectic::emitted::Coefficient::new(
                                 1.3512071919596575,
                                 8.42741775545176e-17,
                                 1.3512071,
@@ -448,7 +453,7 @@ const _: () = {
                 .force(
                     step
                         .at(
-                            ::symplectic::Coefficient::new(
+                            ::symplectic::emitted::Coefficient::new(
                                 (-0.35120719195965766),
                                 2.674812490799806e-17,
                                 (-0.3512072),
@@ -460,12 +465,12 @@ const _: () = {
                 );
             system
                 .force(
-                    step.at(::symplectic::Coefficient::exact(1.0)),
+                    step.at(::symplectic::emitted::Coefficient::exact(1.0)),
                     &q[3],
                     &p[3],
                     &mut force[3],
                 );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -473,10 +478,10 @@ const _: () = {
                 &mut p[0],
                 step.p,
                 step.p_low,
-                ::symplectic::weights(
+                ::symplectic::emitted::weights(
                     step.size,
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             0.6756035959798288,
                             4.21370887772588e-17,
                             0.67560357,
@@ -486,7 +491,7 @@ const _: () = {
                 [&force[0]],
                 &mut change.p,
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -494,15 +499,15 @@ const _: () = {
                 &mut p[1],
                 step.p,
                 step.p_low,
-                ::symplectic::weights(
+                ::symplectic::emitted::weights(
                     step.size,
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             0.6756035959798288,
                             4.21370887772588e-17,
                             0.67560357,
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.17560359597982883),
                             1.337406245399903e-17,
                             (-0.1756036),
@@ -512,7 +517,7 @@ const _: () = {
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -520,20 +525,20 @@ const _: () = {
                 &mut p[2],
                 step.p,
                 step.p_low,
-                ::symplectic::weights(
+                ::symplectic::emitted::weights(
                     step.size,
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             0.6756035959798288,
                             4.21370887772588e-17,
                             0.67560357,
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.17560359597982883),
                             1.337406245399903e-17,
                             (-0.1756036),
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.17560359597982883),
                             1.337406245399903e-17,
                             (-0.1756036),
@@ -543,7 +548,7 @@ const _: () = {
                 [&force[0], &force[1], &force[2]],
                 &mut change.p,
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -551,25 +556,25 @@ const _: () = {
                 &mut p[3],
                 step.p,
                 step.p_low,
-                ::symplectic::weights(
+                ::symplectic::emitted::weights(
                     step.size,
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             0.6756035959798288,
                             4.21370887772588e-17,
                             0.67560357,
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.17560359597982883),
                             1.337406245399903e-17,
                             (-0.1756036),
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.17560359597982883),
                             1.337406245399903e-17,
                             (-0.1756036),
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             0.6756035959798288,
                             4.21370887772588e-17,
                             0.67560357,
@@ -583,7 +588,7 @@ const _: () = {
                 .velocity(
                     step
                         .at(
-                            ::symplectic::Coefficient::new(
+                            ::symplectic::emitted::Coefficient::new(
                                 0.6756035959798288,
                                 4.21370887772588e-17,
                                 0.67560357,
@@ -595,7 +600,7 @@ const _: () = {
                 );
             system
                 .velocity(
-                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
                     &q[1],
                     &p[1],
                     &mut velocity[1],
@@ -604,7 +609,7 @@ const _: () = {
                 .velocity(
                     step
                         .at(
-                            ::symplectic::Coefficient::new(
+                            ::symplectic::emitted::Coefficient::new(
                                 0.32439640402017117,
                                 1.337406245399903e-17,
                                 0.3243964,
@@ -614,7 +619,7 @@ const _: () = {
                     &p[2],
                     &mut velocity[2],
                 );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -622,10 +627,10 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.q_low,
-                ::symplectic::weights(
+                ::symplectic::emitted::weights(
                     step.size,
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             1.3512071919596575,
                             8.42741775545176e-17,
                             1.3512071,
@@ -635,7 +640,7 @@ const _: () = {
                 [&velocity[0]],
                 &mut change.q,
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -643,15 +648,15 @@ const _: () = {
                 &mut q[2],
                 step.q,
                 step.q_low,
-                ::symplectic::weights(
+                ::symplectic::emitted::weights(
                     step.size,
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             1.3512071919596575,
                             8.42741775545176e-17,
                             1.3512071,
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             (-1.7024143839193153),
                             5.349624981599612e-17,
                             (-1.7024144),
@@ -661,7 +666,7 @@ const _: () = {
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -669,20 +674,20 @@ const _: () = {
                 &mut q[3],
                 step.q,
                 step.q_low,
-                ::symplectic::weights(
+                ::symplectic::emitted::weights(
                     step.size,
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             1.3512071919596575,
                             8.42741775545176e-17,
                             1.3512071,
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             (-1.7024143839193153),
                             5.349624981599612e-17,
                             (-1.7024144),
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             1.3512071919596575,
                             8.42741775545176e-17,
                             1.3512071,
@@ -696,28 +701,33 @@ const _: () = {
         }
         #[inline]
         fn finish<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
-            W: ::symplectic::Witness,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            W: ::symplectic::emitted::Witness,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::Kept,
-            outcome: ::symplectic::Outcome<'_, V>,
+            kept: ::symplectic::emitted::Kept,
+            outcome: ::symplectic::emitted::Outcome<'_, V>,
             witness: &mut W,
         ) {
-            let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            let ::symplectic::emitted::Outcome {
+                q: q1,
+                q_low: q1_low,
+                p: p1,
+                p_low: p1_low,
+            } = outcome;
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
             system
                 .velocity(
-                    step.at(::symplectic::Coefficient::exact(1.0)),
+                    step.at(::symplectic::emitted::Coefficient::exact(1.0)),
                     &q[3],
                     &p[3],
                     &mut velocity[3],
                 );
-            ::symplectic::weighted_total::<
+            ::symplectic::emitted::weighted_total::<
                 R,
                 V,
                 _,
@@ -726,20 +736,20 @@ const _: () = {
                 q1_low,
                 step.q,
                 step.q_low,
-                ::symplectic::weights(
+                ::symplectic::emitted::weights(
                     step.size,
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             1.3512071919596575,
                             8.42741775545176e-17,
                             1.3512071,
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             (-1.7024143839193153),
                             5.349624981599612e-17,
                             (-1.7024144),
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             1.3512071919596575,
                             8.42741775545176e-17,
                             1.3512071,
@@ -748,7 +758,7 @@ const _: () = {
                 ),
                 [&velocity[0], &velocity[1], &velocity[2]],
             );
-            ::symplectic::weighted_total::<
+            ::symplectic::emitted::weighted_total::<
                 R,
                 V,
                 _,
@@ -757,25 +767,25 @@ const _: () = {
                 p1_low,
                 step.p,
                 step.p_low,
-                ::symplectic::weights(
+                ::symplectic::emitted::weights(
                     step.size,
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             0.6756035959798288,
                             4.21370887772588e-17,
                             0.67560357,
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.17560359597982883),
                             1.337406245399903e-17,
                             (-0.1756036),
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.17560359597982883),
                             1.337406245399903e-17,
                             (-0.1756036),
                         ),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             0.6756035959798288,
                             4.21370887772588e-17,
                             0.67560357,
@@ -786,11 +796,11 @@ const _: () = {
             );
         }
     }
-    impl ::symplectic::StageTableau for ForestRuthGeneral {
-        type Lanes = ::symplectic::F64x4;
+    impl ::symplectic::emitted::StageTableau for ForestRuthGeneral {
+        type Lanes = ::symplectic::emitted::F64x4;
         type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = false;
-        const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+        const POSITIONS: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
             count: 4,
             columns: &[
                 &[0.0, 1.3512071919596575, 1.3512071919596575, 1.3512071919596575],
@@ -808,7 +818,7 @@ const _: () = {
             extrapolation: &[],
             polynomial: ::core::option::Option::None,
         };
-        const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+        const MOMENTA: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
             count: 4,
             columns: &[
                 &[
@@ -836,7 +846,9 @@ const _: () = {
             extrapolation: &[],
             polynomial: ::core::option::Option::None,
         };
-        const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
+        const SECOND_ORDER: ::core::option::Option<
+            ::symplectic::emitted::SecondOrderTableau,
+        > = ::core::option::Option::None;
         #[inline(always)]
         fn groups<T: ::core::fmt::Debug>(
             mut make: impl ::core::ops::FnMut(usize) -> T,
@@ -844,15 +856,15 @@ const _: () = {
             [make(0)]
         }
         #[inline(always)]
-        fn stored<V: ::symplectic::Vector>(
+        fn stored<V: ::symplectic::emitted::Vector>(
             stages: &Self::Stages<V>,
-        ) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+        ) -> [::symplectic::emitted::StoredEvaluations<'_, V>; 2] {
             [
-                ::symplectic::StoredEvaluations {
+                ::symplectic::emitted::StoredEvaluations {
                     values: &stages.velocity,
                     carried: &[],
                 },
-                ::symplectic::StoredEvaluations {
+                ::symplectic::emitted::StoredEvaluations {
                     values: &stages.force,
                     carried: &[],
                 },
@@ -861,28 +873,28 @@ const _: () = {
     }
     pub struct ForestRuthSeparable;
     #[allow(unused_variables)]
-    impl ::symplectic::SplittingPlan for ForestRuthSeparable {
-        type Class = ::symplectic::Separable;
+    impl ::symplectic::emitted::SplittingPlan for ForestRuthSeparable {
+        type Class = ::symplectic::emitted::Separable;
         const EVALUATIONS: u32 = 7;
         const CARRIED: u32 = 1;
         #[inline(always)]
         fn apply<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
-            K: ::symplectic::Moves,
-            W: ::symplectic::Witness,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            K: ::symplectic::emitted::Moves,
+            W: ::symplectic::emitted::Witness,
         >(
-            span: ::symplectic::Span,
+            span: ::symplectic::emitted::Span,
             system: &S,
-            evaluations: &mut ::symplectic::Evaluations<V>,
-            kept: ::symplectic::Kept,
-            state: ::symplectic::Outcome<'_, V>,
+            evaluations: &mut ::symplectic::emitted::Evaluations<V>,
+            kept: ::symplectic::emitted::Kept,
+            state: ::symplectic::emitted::Outcome<'_, V>,
             moves: &mut K,
             witness: &mut W,
         ) {
-            let ::symplectic::Evaluations { velocity, force } = evaluations;
-            let ::symplectic::Outcome { q, q_low, p, p_low } = state;
+            let ::symplectic::emitted::Evaluations { velocity, force } = evaluations;
+            let ::symplectic::emitted::Outcome { q, q_low, p, p_low } = state;
             if !kept.evaluation {
                 moves
                     .force::<
@@ -891,10 +903,10 @@ const _: () = {
                         S,
                         W,
                     >(
-                        ::symplectic::Force {
+                        ::symplectic::emitted::Force {
                             span,
                             stage: 1,
-                            time: ::symplectic::Coefficient::exact(0.0),
+                            time: ::symplectic::emitted::Coefficient::exact(0.0),
                         },
                         system,
                         &mut *force,
@@ -910,7 +922,7 @@ const _: () = {
                     S,
                 >(
                     span.size,
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.6756035959798288,
                         4.21370887772588e-17,
                         0.67560357,
@@ -927,15 +939,15 @@ const _: () = {
                     S,
                     W,
                 >(
-                    ::symplectic::Drift {
+                    ::symplectic::emitted::Drift {
                         span,
                         stage: 1,
-                        time: ::symplectic::Coefficient::new(
+                        time: ::symplectic::emitted::Coefficient::new(
                             0.6756035959798288,
                             4.21370887772588e-17,
                             0.67560357,
                         ),
-                        weight: ::symplectic::Coefficient::new(
+                        weight: ::symplectic::emitted::Coefficient::new(
                             1.3512071919596575,
                             8.42741775545176e-17,
                             1.3512071,
@@ -955,10 +967,10 @@ const _: () = {
                     S,
                     W,
                 >(
-                    ::symplectic::Force {
+                    ::symplectic::emitted::Force {
                         span,
                         stage: 2,
-                        time: ::symplectic::Coefficient::new(
+                        time: ::symplectic::emitted::Coefficient::new(
                             1.3512071919596575,
                             8.42741775545176e-17,
                             1.3512071,
@@ -977,7 +989,7 @@ const _: () = {
                     S,
                 >(
                     span.size,
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         (-0.17560359597982883),
                         1.337406245399903e-17,
                         (-0.1756036),
@@ -994,11 +1006,11 @@ const _: () = {
                     S,
                     W,
                 >(
-                    ::symplectic::Drift {
+                    ::symplectic::emitted::Drift {
                         span,
                         stage: 2,
-                        time: ::symplectic::Coefficient::exact(0.5),
-                        weight: ::symplectic::Coefficient::new(
+                        time: ::symplectic::emitted::Coefficient::exact(0.5),
+                        weight: ::symplectic::emitted::Coefficient::new(
                             (-1.7024143839193153),
                             5.349624981599612e-17,
                             (-1.7024144),
@@ -1018,10 +1030,10 @@ const _: () = {
                     S,
                     W,
                 >(
-                    ::symplectic::Force {
+                    ::symplectic::emitted::Force {
                         span,
                         stage: 3,
-                        time: ::symplectic::Coefficient::new(
+                        time: ::symplectic::emitted::Coefficient::new(
                             (-0.35120719195965766),
                             2.674812490799806e-17,
                             (-0.3512072),
@@ -1040,7 +1052,7 @@ const _: () = {
                     S,
                 >(
                     span.size,
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         (-0.17560359597982883),
                         1.337406245399903e-17,
                         (-0.1756036),
@@ -1057,15 +1069,15 @@ const _: () = {
                     S,
                     W,
                 >(
-                    ::symplectic::Drift {
+                    ::symplectic::emitted::Drift {
                         span,
                         stage: 3,
-                        time: ::symplectic::Coefficient::new(
+                        time: ::symplectic::emitted::Coefficient::new(
                             0.32439640402017117,
                             1.337406245399903e-17,
                             0.3243964,
                         ),
-                        weight: ::symplectic::Coefficient::new(
+                        weight: ::symplectic::emitted::Coefficient::new(
                             1.3512071919596575,
                             8.42741775545176e-17,
                             1.3512071,
@@ -1085,10 +1097,10 @@ const _: () = {
                     S,
                     W,
                 >(
-                    ::symplectic::Force {
+                    ::symplectic::emitted::Force {
                         span,
                         stage: 4,
-                        time: ::symplectic::Coefficient::exact(1.0),
+                        time: ::symplectic::emitted::Coefficient::exact(1.0),
                     },
                     system,
                     &mut *force,
@@ -1103,7 +1115,7 @@ const _: () = {
                     S,
                 >(
                     span.size,
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.6756035959798288,
                         4.21370887772588e-17,
                         0.67560357,

@@ -46,46 +46,46 @@ impl Gauss2 {
 }
 #[allow(clippy::approx_constant)]
 const _: () = {
-    impl ::symplectic::Method for Gauss2 {
+    impl ::symplectic::emitted::Method for Gauss2 {
         const NAME: &'static str = "Gauss2";
         const STAGES: usize = 2;
         const DEFINITION: &'static str = "basis: polynomial(2), nodes: gauss(2)";
-        const COEFFICIENTS: ::symplectic::Coefficients = {
-            const A: &[&[::symplectic::Coefficient]] = &[
+        const COEFFICIENTS: ::symplectic::emitted::Coefficients = {
+            const A: &[&[::symplectic::emitted::Coefficient]] = &[
                 &[
-                    ::symplectic::Coefficient::exact(0.25),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::exact(0.25),
+                    ::symplectic::emitted::Coefficient::new(
                         (-0.03867513459481288),
                         (-2.8473525618637145e-18),
                         (-0.038675133),
                     ),
                 ],
                 &[
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.5386751345948129,
                         1.6725140369678172e-17,
                         0.5386751,
                     ),
-                    ::symplectic::Coefficient::exact(0.25),
+                    ::symplectic::emitted::Coefficient::exact(0.25),
                 ],
             ];
-            const B: &[::symplectic::Coefficient] = &[
-                ::symplectic::Coefficient::exact(0.5),
-                ::symplectic::Coefficient::exact(0.5),
+            const B: &[::symplectic::emitted::Coefficient] = &[
+                ::symplectic::emitted::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             ];
-            const C: &[::symplectic::Coefficient] = &[
-                ::symplectic::Coefficient::new(
+            const C: &[::symplectic::emitted::Coefficient] = &[
+                ::symplectic::emitted::Coefficient::new(
                     0.2113248654051871,
                     1.1030435245950743e-17,
                     0.21132487,
                 ),
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.7886751345948129,
                     1.6725140369678172e-17,
                     0.7886751,
                 ),
             ];
-            ::symplectic::Coefficients {
+            ::symplectic::emitted::Coefficients {
                 a: A,
                 a_tilde: A,
                 b: B,
@@ -94,21 +94,25 @@ const _: () = {
                 c_tilde: C,
             }
         };
-        const ORDERS: ::symplectic::Orders = ::symplectic::Orders {
+        const ORDERS: ::symplectic::emitted::Orders = ::symplectic::emitted::Orders {
             general: 4,
             separable: 4,
             nystrom: 4,
         };
-        type General = ::symplectic::Coupled<Gauss2General>;
-        type Separable = ::symplectic::Coupled<Gauss2Separable>;
+        type General = ::symplectic::emitted::Coupled<Gauss2General>;
+        type Separable = ::symplectic::emitted::Coupled<Gauss2Separable>;
     }
-    impl<C> ::symplectic::ProvedFor<C> for Gauss2 {}
+    impl<C> ::symplectic::emitted::ProvedFor<C> for Gauss2 {}
     pub struct Gauss2General;
     #[allow(unused_variables)]
-    impl ::symplectic::StagePlan for Gauss2General {
-        type Class = ::symplectic::General;
-        type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;
-        const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
+    impl ::symplectic::emitted::StagePlan for Gauss2General {
+        type Class = ::symplectic::emitted::General;
+        type Stages<V: ::symplectic::emitted::Vector> = ::symplectic::emitted::Stages<
+            V,
+            2,
+            2,
+        >;
+        const EVALUATIONS: ::symplectic::emitted::EvaluationCounts = ::symplectic::emitted::EvaluationCounts {
             begin: 0,
             start: 1,
             sweep: 4,
@@ -117,18 +121,18 @@ const _: () = {
         };
         #[inline]
         fn begin<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::Kept,
+            kept: ::symplectic::emitted::Kept,
         ) {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
             if kept.stages {
-                ::symplectic::transform(
+                ::symplectic::emitted::transform(
                     velocity,
                     [0, 1],
                     [
@@ -136,7 +140,7 @@ const _: () = {
                         [(-1.7320508075688772), 2.732050807568877],
                     ],
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -144,9 +148,9 @@ const _: () = {
                     &mut q[0],
                     step.q,
                     step.q_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.07735026918962573),
                             (-3.3450280739356345e-17),
                             (-0.07735026),
@@ -154,7 +158,7 @@ const _: () = {
                     ]),
                     [&velocity[0], &velocity[1]],
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -162,17 +166,17 @@ const _: () = {
                     &mut q[1],
                     step.q,
                     step.q_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::new(
                             1.0773502691896257,
                             3.3450280739356345e-17,
                             1.0773503,
                         ),
-                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
                     ]),
                     [&velocity[0], &velocity[1]],
                 );
-                ::symplectic::transform(
+                ::symplectic::emitted::transform(
                     force,
                     [0, 1],
                     [
@@ -180,7 +184,7 @@ const _: () = {
                         [(-1.7320508075688772), 2.732050807568877],
                     ],
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -188,9 +192,9 @@ const _: () = {
                     &mut p[0],
                     step.p,
                     step.p_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.07735026918962573),
                             (-3.3450280739356345e-17),
                             (-0.07735026),
@@ -198,7 +202,7 @@ const _: () = {
                     ]),
                     [&force[0], &force[1]],
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -206,24 +210,24 @@ const _: () = {
                     &mut p[1],
                     step.p,
                     step.p_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::new(
                             1.0773502691896257,
                             3.3450280739356345e-17,
                             1.0773503,
                         ),
-                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
                     ]),
                     [&force[0], &force[1]],
                 );
             } else {
-                ::symplectic::copy(&mut p[0], step.p);
-                ::symplectic::copy(&mut p[1], step.p);
+                ::symplectic::emitted::copy(&mut p[0], step.p);
+                ::symplectic::emitted::copy(&mut p[1], step.p);
                 system
                     .velocity(
                         step
                             .at(
-                                ::symplectic::Coefficient::new(
+                                ::symplectic::emitted::Coefficient::new(
                                     0.2113248654051871,
                                     1.1030435245950743e-17,
                                     0.21132487,
@@ -233,18 +237,18 @@ const _: () = {
                         step.p,
                         &mut velocity[0],
                     );
-                ::symplectic::copy_to(velocity, 0, [1]);
-                ::symplectic::scale(
+                ::symplectic::emitted::copy_to(velocity, 0, [1]);
+                ::symplectic::emitted::scale(
                     &mut velocity[0],
                     step.size,
-                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
                 );
-                ::symplectic::scale(
+                ::symplectic::emitted::scale(
                     &mut velocity[1],
                     step.size,
-                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -252,9 +256,9 @@ const _: () = {
                     &mut q[0],
                     step.q,
                     step.q_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.07735026918962573),
                             (-3.3450280739356345e-17),
                             (-0.07735026),
@@ -262,7 +266,7 @@ const _: () = {
                     ]),
                     [&velocity[0], &velocity[1]],
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -270,13 +274,13 @@ const _: () = {
                     &mut q[1],
                     step.q,
                     step.q_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::new(
                             1.0773502691896257,
                             3.3450280739356345e-17,
                             1.0773503,
                         ),
-                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
                     ]),
                     [&velocity[0], &velocity[1]],
                 );
@@ -284,41 +288,41 @@ const _: () = {
         }
         #[inline]
         fn sweep<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::Change {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::Change::default();
-            let force_weights = ::symplectic::weights::<
+        ) -> ::symplectic::emitted::Change {
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            let mut change = ::symplectic::emitted::Change::default();
+            let force_weights = ::symplectic::emitted::weights::<
                 V::Scalar,
                 _,
             >(
                 step.size,
                 [
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
                 ],
             );
-            let velocity_weights = ::symplectic::weights::<
+            let velocity_weights = ::symplectic::emitted::weights::<
                 V::Scalar,
                 _,
             >(
                 step.size,
                 [
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
                 ],
             );
             system
                 .force(
                     step
                         .at(
-                            ::symplectic::Coefficient::new(
+                            ::symplectic::emitted::Coefficient::new(
                                 0.2113248654051871,
                                 1.1030435245950743e-17,
                                 0.21132487,
@@ -328,15 +332,15 @@ const _: () = {
                     &p[0],
                     &mut force[0],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
-            >(&mut force[0], step.size, ::symplectic::Coefficient::exact(0.5));
+            >(&mut force[0], step.size, ::symplectic::emitted::Coefficient::exact(0.5));
             system
                 .force(
                     step
                         .at(
-                            ::symplectic::Coefficient::new(
+                            ::symplectic::emitted::Coefficient::new(
                                 0.7886751345948129,
                                 1.6725140369678172e-17,
                                 0.7886751,
@@ -346,11 +350,11 @@ const _: () = {
                     &p[1],
                     &mut force[1],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
-            >(&mut force[1], step.size, ::symplectic::Coefficient::exact(0.5));
-            ::symplectic::relax::<
+            >(&mut force[1], step.size, ::symplectic::emitted::Coefficient::exact(0.5));
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -358,14 +362,14 @@ const _: () = {
                 &mut p[0],
                 step.p,
                 step.p_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.07735026918962573),
                             (-3.3450280739356345e-17),
                             (-0.07735026),
@@ -376,7 +380,7 @@ const _: () = {
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -384,18 +388,18 @@ const _: () = {
                 &mut p[1],
                 step.p,
                 step.p_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             1.0773502691896257,
                             3.3450280739356345e-17,
                             1.0773503,
                         ),
-                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
                     ],
                     [force_weights[0], force_weights[1]],
                 ),
@@ -406,7 +410,7 @@ const _: () = {
                 .velocity(
                     step
                         .at(
-                            ::symplectic::Coefficient::new(
+                            ::symplectic::emitted::Coefficient::new(
                                 0.2113248654051871,
                                 1.1030435245950743e-17,
                                 0.21132487,
@@ -416,15 +420,19 @@ const _: () = {
                     &p[0],
                     &mut velocity[0],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
-            >(&mut velocity[0], step.size, ::symplectic::Coefficient::exact(0.5));
+            >(
+                &mut velocity[0],
+                step.size,
+                ::symplectic::emitted::Coefficient::exact(0.5),
+            );
             system
                 .velocity(
                     step
                         .at(
-                            ::symplectic::Coefficient::new(
+                            ::symplectic::emitted::Coefficient::new(
                                 0.7886751345948129,
                                 1.6725140369678172e-17,
                                 0.7886751,
@@ -434,11 +442,15 @@ const _: () = {
                     &p[1],
                     &mut velocity[1],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
-            >(&mut velocity[1], step.size, ::symplectic::Coefficient::exact(0.5));
-            ::symplectic::relax::<
+            >(
+                &mut velocity[1],
+                step.size,
+                ::symplectic::emitted::Coefficient::exact(0.5),
+            );
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -446,14 +458,14 @@ const _: () = {
                 &mut q[0],
                 step.q,
                 step.q_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.07735026918962573),
                             (-3.3450280739356345e-17),
                             (-0.07735026),
@@ -464,7 +476,7 @@ const _: () = {
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -472,18 +484,18 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.q_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             1.0773502691896257,
                             3.3450280739356345e-17,
                             1.0773503,
                         ),
-                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
                     ],
                     [velocity_weights[0], velocity_weights[1]],
                 ),
@@ -493,65 +505,70 @@ const _: () = {
             change
         }
         #[inline]
-        fn increments<V: ::symplectic::Vector>(
-            step: &::symplectic::Step<'_, V>,
+        fn increments<V: ::symplectic::emitted::Vector>(
+            step: &::symplectic::emitted::Step<'_, V>,
             stages: &mut Self::Stages<V>,
         ) {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::scale(
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            ::symplectic::emitted::scale(
                 &mut force[0],
                 step.size,
-                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut force[1],
                 step.size,
-                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut velocity[0],
                 step.size,
-                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut velocity[1],
                 step.size,
-                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             );
         }
         #[inline]
         fn finish<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
-            W: ::symplectic::Witness,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            W: ::symplectic::emitted::Witness,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::Kept,
-            outcome: ::symplectic::Outcome<'_, V>,
+            kept: ::symplectic::emitted::Kept,
+            outcome: ::symplectic::emitted::Outcome<'_, V>,
             witness: &mut W,
         ) {
-            let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::total::<
+            let ::symplectic::emitted::Outcome {
+                q: q1,
+                q_low: q1_low,
+                p: p1,
+                p_low: p1_low,
+            } = outcome;
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            ::symplectic::emitted::total::<
                 R,
                 V,
                 _,
             >(q1, q1_low, step.q, step.q_low, [&velocity[0], &velocity[1]]);
-            ::symplectic::total::<
+            ::symplectic::emitted::total::<
                 R,
                 V,
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
         }
     }
-    impl ::symplectic::StageTableau for Gauss2General {
-        type Lanes = ::symplectic::F64x2;
+    impl ::symplectic::emitted::StageTableau for Gauss2General {
+        type Lanes = ::symplectic::emitted::F64x2;
         type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
-        const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+        const POSITIONS: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
             count: 2,
             columns: &[&[0.5, 1.0773502691896257], &[(-0.07735026918962573), 0.5]],
             times: &[0.2113248654051871, 0.7886751345948129],
@@ -560,14 +577,16 @@ const _: () = {
                 &[(-0.7320508075688773), (-1.7320508075688772)],
                 &[1.7320508075688772, 2.732050807568877],
             ],
-            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
+            polynomial: ::core::option::Option::Some(::symplectic::emitted::StagePolynomial {
                 legendre: &[&[(-1.7320508075688772), 1.7320508075688772]],
                 order: 3,
             }),
         };
-        const MOMENTA: ::symplectic::HalfTableau = <Gauss2General as ::symplectic::StageTableau>::POSITIONS;
-        const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
-        const DECOUPLING: ::core::option::Option<::symplectic::Decoupling> = ::core::option::Option::Some(::symplectic::Decoupling {
+        const MOMENTA: ::symplectic::emitted::HalfTableau = <Gauss2General as ::symplectic::emitted::StageTableau>::POSITIONS;
+        const SECOND_ORDER: ::core::option::Option<
+            ::symplectic::emitted::SecondOrderTableau,
+        > = ::core::option::Option::None;
+        const DECOUPLING: ::core::option::Option<::symplectic::emitted::Decoupling> = ::core::option::Option::Some(::symplectic::emitted::Decoupling {
             blocks: &[(0.25, 0.14433756729740643)],
             to_stages: &[&[0.0, (-0.2679491924311227)], &[1.0, 0.0]],
             from_stages: &[&[0.0, 1.0], &[(-3.732050807568877), 0.0]],
@@ -579,15 +598,15 @@ const _: () = {
             [make(0)]
         }
         #[inline(always)]
-        fn stored<V: ::symplectic::Vector>(
+        fn stored<V: ::symplectic::emitted::Vector>(
             stages: &Self::Stages<V>,
-        ) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+        ) -> [::symplectic::emitted::StoredEvaluations<'_, V>; 2] {
             [
-                ::symplectic::StoredEvaluations {
+                ::symplectic::emitted::StoredEvaluations {
                     values: &stages.velocity,
                     carried: &[],
                 },
-                ::symplectic::StoredEvaluations {
+                ::symplectic::emitted::StoredEvaluations {
                     values: &stages.force,
                     carried: &[],
                 },
@@ -596,10 +615,14 @@ const _: () = {
     }
     pub struct Gauss2Separable;
     #[allow(unused_variables)]
-    impl ::symplectic::StagePlan for Gauss2Separable {
-        type Class = ::symplectic::Separable;
-        type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;
-        const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
+    impl ::symplectic::emitted::StagePlan for Gauss2Separable {
+        type Class = ::symplectic::emitted::Separable;
+        type Stages<V: ::symplectic::emitted::Vector> = ::symplectic::emitted::Stages<
+            V,
+            2,
+            2,
+        >;
+        const EVALUATIONS: ::symplectic::emitted::EvaluationCounts = ::symplectic::emitted::EvaluationCounts {
             begin: 0,
             start: 1,
             sweep: 4,
@@ -608,18 +631,18 @@ const _: () = {
         };
         #[inline]
         fn begin<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::Kept,
+            kept: ::symplectic::emitted::Kept,
         ) {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
             if kept.stages {
-                ::symplectic::transform(
+                ::symplectic::emitted::transform(
                     velocity,
                     [0, 1],
                     [
@@ -627,7 +650,7 @@ const _: () = {
                         [(-1.7320508075688772), 2.732050807568877],
                     ],
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -635,9 +658,9 @@ const _: () = {
                     &mut q[0],
                     step.q,
                     step.q_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.07735026918962573),
                             (-3.3450280739356345e-17),
                             (-0.07735026),
@@ -645,7 +668,7 @@ const _: () = {
                     ]),
                     [&velocity[0], &velocity[1]],
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -653,24 +676,24 @@ const _: () = {
                     &mut q[1],
                     step.q,
                     step.q_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::new(
                             1.0773502691896257,
                             3.3450280739356345e-17,
                             1.0773503,
                         ),
-                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
                     ]),
                     [&velocity[0], &velocity[1]],
                 );
             } else {
-                ::symplectic::copy(&mut p[0], step.p);
-                ::symplectic::copy(&mut p[1], step.p);
+                ::symplectic::emitted::copy(&mut p[0], step.p);
+                ::symplectic::emitted::copy(&mut p[1], step.p);
                 system
                     .velocity(
                         step
                             .at(
-                                ::symplectic::Coefficient::new(
+                                ::symplectic::emitted::Coefficient::new(
                                     0.2113248654051871,
                                     1.1030435245950743e-17,
                                     0.21132487,
@@ -680,18 +703,18 @@ const _: () = {
                         step.p,
                         &mut velocity[0],
                     );
-                ::symplectic::copy_to(velocity, 0, [1]);
-                ::symplectic::scale(
+                ::symplectic::emitted::copy_to(velocity, 0, [1]);
+                ::symplectic::emitted::scale(
                     &mut velocity[0],
                     step.size,
-                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
                 );
-                ::symplectic::scale(
+                ::symplectic::emitted::scale(
                     &mut velocity[1],
                     step.size,
-                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -699,9 +722,9 @@ const _: () = {
                     &mut q[0],
                     step.q,
                     step.q_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.07735026918962573),
                             (-3.3450280739356345e-17),
                             (-0.07735026),
@@ -709,7 +732,7 @@ const _: () = {
                     ]),
                     [&velocity[0], &velocity[1]],
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -717,13 +740,13 @@ const _: () = {
                     &mut q[1],
                     step.q,
                     step.q_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::new(
                             1.0773502691896257,
                             3.3450280739356345e-17,
                             1.0773503,
                         ),
-                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
                     ]),
                     [&velocity[0], &velocity[1]],
                 );
@@ -731,41 +754,41 @@ const _: () = {
         }
         #[inline]
         fn sweep<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::Change {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::Change::default();
-            let force_weights = ::symplectic::weights::<
+        ) -> ::symplectic::emitted::Change {
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            let mut change = ::symplectic::emitted::Change::default();
+            let force_weights = ::symplectic::emitted::weights::<
                 V::Scalar,
                 _,
             >(
                 step.size,
                 [
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
                 ],
             );
-            let velocity_weights = ::symplectic::weights::<
+            let velocity_weights = ::symplectic::emitted::weights::<
                 V::Scalar,
                 _,
             >(
                 step.size,
                 [
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
                 ],
             );
             system
                 .force(
                     step
                         .at(
-                            ::symplectic::Coefficient::new(
+                            ::symplectic::emitted::Coefficient::new(
                                 0.2113248654051871,
                                 1.1030435245950743e-17,
                                 0.21132487,
@@ -775,15 +798,15 @@ const _: () = {
                     step.p,
                     &mut force[0],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
-            >(&mut force[0], step.size, ::symplectic::Coefficient::exact(0.5));
+            >(&mut force[0], step.size, ::symplectic::emitted::Coefficient::exact(0.5));
             system
                 .force(
                     step
                         .at(
-                            ::symplectic::Coefficient::new(
+                            ::symplectic::emitted::Coefficient::new(
                                 0.7886751345948129,
                                 1.6725140369678172e-17,
                                 0.7886751,
@@ -793,11 +816,11 @@ const _: () = {
                     step.p,
                     &mut force[1],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
-            >(&mut force[1], step.size, ::symplectic::Coefficient::exact(0.5));
-            ::symplectic::relax::<
+            >(&mut force[1], step.size, ::symplectic::emitted::Coefficient::exact(0.5));
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -805,14 +828,14 @@ const _: () = {
                 &mut p[0],
                 step.p,
                 step.p_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.07735026918962573),
                             (-3.3450280739356345e-17),
                             (-0.07735026),
@@ -823,7 +846,7 @@ const _: () = {
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -831,18 +854,18 @@ const _: () = {
                 &mut p[1],
                 step.p,
                 step.p_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             1.0773502691896257,
                             3.3450280739356345e-17,
                             1.0773503,
                         ),
-                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
                     ],
                     [force_weights[0], force_weights[1]],
                 ),
@@ -853,7 +876,7 @@ const _: () = {
                 .velocity(
                     step
                         .at(
-                            ::symplectic::Coefficient::new(
+                            ::symplectic::emitted::Coefficient::new(
                                 0.2113248654051871,
                                 1.1030435245950743e-17,
                                 0.21132487,
@@ -863,15 +886,19 @@ const _: () = {
                     &p[0],
                     &mut velocity[0],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
-            >(&mut velocity[0], step.size, ::symplectic::Coefficient::exact(0.5));
+            >(
+                &mut velocity[0],
+                step.size,
+                ::symplectic::emitted::Coefficient::exact(0.5),
+            );
             system
                 .velocity(
                     step
                         .at(
-                            ::symplectic::Coefficient::new(
+                            ::symplectic::emitted::Coefficient::new(
                                 0.7886751345948129,
                                 1.6725140369678172e-17,
                                 0.7886751,
@@ -881,11 +908,15 @@ const _: () = {
                     &p[1],
                     &mut velocity[1],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
-            >(&mut velocity[1], step.size, ::symplectic::Coefficient::exact(0.5));
-            ::symplectic::relax::<
+            >(
+                &mut velocity[1],
+                step.size,
+                ::symplectic::emitted::Coefficient::exact(0.5),
+            );
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -893,14 +924,14 @@ const _: () = {
                 &mut q[0],
                 step.q,
                 step.q_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::new(
                             (-0.07735026918962573),
                             (-3.3450280739356345e-17),
                             (-0.07735026),
@@ -911,7 +942,7 @@ const _: () = {
                 [&velocity[0], &velocity[1]],
                 &mut change.q,
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -919,18 +950,18 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.q_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::new(
+                        ::symplectic::emitted::Coefficient::new(
                             1.0773502691896257,
                             3.3450280739356345e-17,
                             1.0773503,
                         ),
-                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
                     ],
                     [velocity_weights[0], velocity_weights[1]],
                 ),
@@ -940,67 +971,74 @@ const _: () = {
             change
         }
         #[inline]
-        fn increments<V: ::symplectic::Vector>(
-            step: &::symplectic::Step<'_, V>,
+        fn increments<V: ::symplectic::emitted::Vector>(
+            step: &::symplectic::emitted::Step<'_, V>,
             stages: &mut Self::Stages<V>,
         ) {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::scale(
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            ::symplectic::emitted::scale(
                 &mut force[0],
                 step.size,
-                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut force[1],
                 step.size,
-                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut velocity[0],
                 step.size,
-                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut velocity[1],
                 step.size,
-                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             );
         }
         #[inline]
         fn finish<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
-            W: ::symplectic::Witness,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            W: ::symplectic::emitted::Witness,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::Kept,
-            outcome: ::symplectic::Outcome<'_, V>,
+            kept: ::symplectic::emitted::Kept,
+            outcome: ::symplectic::emitted::Outcome<'_, V>,
             witness: &mut W,
         ) {
-            let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::total::<
+            let ::symplectic::emitted::Outcome {
+                q: q1,
+                q_low: q1_low,
+                p: p1,
+                p_low: p1_low,
+            } = outcome;
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            ::symplectic::emitted::total::<
                 R,
                 V,
                 _,
             >(q1, q1_low, step.q, step.q_low, [&velocity[0], &velocity[1]]);
-            ::symplectic::total::<
+            ::symplectic::emitted::total::<
                 R,
                 V,
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
         }
     }
-    impl ::symplectic::StageTableau for Gauss2Separable {
-        type Lanes = ::symplectic::F64x2;
+    impl ::symplectic::emitted::StageTableau for Gauss2Separable {
+        type Lanes = ::symplectic::emitted::F64x2;
         type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
-        const POSITIONS: ::symplectic::HalfTableau = <Gauss2General as ::symplectic::StageTableau>::POSITIONS;
-        const MOMENTA: ::symplectic::HalfTableau = <Gauss2General as ::symplectic::StageTableau>::POSITIONS;
-        const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::Some(::symplectic::SecondOrderTableau {
+        const POSITIONS: ::symplectic::emitted::HalfTableau = <Gauss2General as ::symplectic::emitted::StageTableau>::POSITIONS;
+        const MOMENTA: ::symplectic::emitted::HalfTableau = <Gauss2General as ::symplectic::emitted::StageTableau>::POSITIONS;
+        const SECOND_ORDER: ::core::option::Option<
+            ::symplectic::emitted::SecondOrderTableau,
+        > = ::core::option::Option::Some(::symplectic::emitted::SecondOrderTableau {
             nodes: &[0.21132486540518713, 0.7886751345948129],
             columns: &[
                 &[0.08333333333333326, 0.5386751345948129],
@@ -1012,7 +1050,7 @@ const _: () = {
             ],
             rest: &[0.7886751345948129, 0.21132486540518713],
         });
-        const DECOUPLING: ::core::option::Option<::symplectic::Decoupling> = ::core::option::Option::Some(::symplectic::Decoupling {
+        const DECOUPLING: ::core::option::Option<::symplectic::emitted::Decoupling> = ::core::option::Option::Some(::symplectic::emitted::Decoupling {
             blocks: &[(0.041666666666666664, 0.07216878364870322)],
             to_stages: &[&[0.0, (-0.2679491924311227)], &[1.0, 0.0]],
             from_stages: &[&[0.0, 1.0], &[(-3.732050807568877), 0.0]],
@@ -1024,15 +1062,15 @@ const _: () = {
             [make(0)]
         }
         #[inline(always)]
-        fn stored<V: ::symplectic::Vector>(
+        fn stored<V: ::symplectic::emitted::Vector>(
             stages: &Self::Stages<V>,
-        ) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+        ) -> [::symplectic::emitted::StoredEvaluations<'_, V>; 2] {
             [
-                ::symplectic::StoredEvaluations {
+                ::symplectic::emitted::StoredEvaluations {
                     values: &stages.velocity,
                     carried: &[],
                 },
-                ::symplectic::StoredEvaluations {
+                ::symplectic::emitted::StoredEvaluations {
                     values: &stages.force,
                     carried: &[],
                 },

@@ -54,121 +54,121 @@ impl Lobatto3 {
 }
 #[allow(clippy::approx_constant)]
 const _: () = {
-    impl ::symplectic::Method for Lobatto3 {
+    impl ::symplectic::emitted::Method for Lobatto3 {
         const NAME: &'static str = "Lobatto3";
         const STAGES: usize = 3;
         const DEFINITION: &'static str = "basis: polynomial(3), nodes: lobatto(3)";
-        const COEFFICIENTS: ::symplectic::Coefficients = {
-            const A: &[&[::symplectic::Coefficient]] = &[
+        const COEFFICIENTS: ::symplectic::emitted::Coefficients = {
+            const A: &[&[::symplectic::emitted::Coefficient]] = &[
                 &[
-                    ::symplectic::Coefficient::exact(0.0),
-                    ::symplectic::Coefficient::exact(0.0),
-                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
                 ],
                 &[
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.20833333333333334,
                         (-9.25185853854297e-18),
                         0.20833333,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.3333333333333333,
                         1.850371707708594e-17,
                         0.33333334,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         (-0.041666666666666664),
                         (-2.3129646346357427e-18),
                         (-0.041666668),
                     ),
                 ],
                 &[
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.6666666666666666,
                         3.700743415417188e-17,
                         0.6666667,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
                 ],
             ];
-            const B: &[::symplectic::Coefficient] = &[
-                ::symplectic::Coefficient::new(
+            const B: &[::symplectic::emitted::Coefficient] = &[
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
                 ),
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.6666666666666666,
                     3.700743415417188e-17,
                     0.6666667,
                 ),
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
                 ),
             ];
-            const C: &[::symplectic::Coefficient] = &[
-                ::symplectic::Coefficient::exact(0.0),
-                ::symplectic::Coefficient::exact(0.5),
-                ::symplectic::Coefficient::exact(1.0),
+            const C: &[::symplectic::emitted::Coefficient] = &[
+                ::symplectic::emitted::Coefficient::exact(0.0),
+                ::symplectic::emitted::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(1.0),
             ];
-            const A_TILDE: &[&[::symplectic::Coefficient]] = &[
+            const A_TILDE: &[&[::symplectic::emitted::Coefficient]] = &[
                 &[
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         (-0.16666666666666666),
                         (-9.25185853854297e-18),
                         (-0.16666667),
                     ),
-                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
                 ],
                 &[
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.3333333333333333,
                         1.850371707708594e-17,
                         0.33333334,
                     ),
-                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
                 ],
                 &[
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.8333333333333334,
                         (-3.700743415417188e-17),
                         0.8333333,
                     ),
-                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
                 ],
             ];
-            const C_TILDE: &[::symplectic::Coefficient] = &[
-                ::symplectic::Coefficient::exact(0.0),
-                ::symplectic::Coefficient::exact(0.5),
-                ::symplectic::Coefficient::exact(1.0),
+            const C_TILDE: &[::symplectic::emitted::Coefficient] = &[
+                ::symplectic::emitted::Coefficient::exact(0.0),
+                ::symplectic::emitted::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(1.0),
             ];
-            ::symplectic::Coefficients {
+            ::symplectic::emitted::Coefficients {
                 a: A,
                 a_tilde: A_TILDE,
                 b: B,
@@ -177,21 +177,25 @@ const _: () = {
                 c_tilde: C_TILDE,
             }
         };
-        const ORDERS: ::symplectic::Orders = ::symplectic::Orders {
+        const ORDERS: ::symplectic::emitted::Orders = ::symplectic::emitted::Orders {
             general: 4,
             separable: 4,
             nystrom: 4,
         };
-        type General = ::symplectic::Coupled<Lobatto3General>;
-        type Separable = ::symplectic::Coupled<Lobatto3Separable>;
+        type General = ::symplectic::emitted::Coupled<Lobatto3General>;
+        type Separable = ::symplectic::emitted::Coupled<Lobatto3Separable>;
     }
-    impl<C> ::symplectic::ProvedFor<C> for Lobatto3 {}
+    impl<C> ::symplectic::emitted::ProvedFor<C> for Lobatto3 {}
     pub struct Lobatto3General;
     #[allow(unused_variables)]
-    impl ::symplectic::StagePlan for Lobatto3General {
-        type Class = ::symplectic::General;
-        type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 3, 3>;
-        const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
+    impl ::symplectic::emitted::StagePlan for Lobatto3General {
+        type Class = ::symplectic::emitted::General;
+        type Stages<V: ::symplectic::emitted::Vector> = ::symplectic::emitted::Stages<
+            V,
+            3,
+            3,
+        >;
+        const EVALUATIONS: ::symplectic::emitted::EvaluationCounts = ::symplectic::emitted::EvaluationCounts {
             begin: 0,
             start: 1,
             sweep: 5,
@@ -200,23 +204,23 @@ const _: () = {
         };
         #[inline]
         fn begin<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::Kept,
+            kept: ::symplectic::emitted::Kept,
         ) {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
             if kept.stages {
-                ::symplectic::transform(
+                ::symplectic::emitted::transform(
                     velocity,
                     [0, 1, 2],
                     [[0.0, 0.0, 1.0], [4.0, (-3.0), 12.0], [3.0, (-2.0), 6.0]],
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -224,14 +228,14 @@ const _: () = {
                     &mut q[1],
                     step.q,
                     step.q_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::exact(1.25),
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::exact((-0.25)),
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::exact(1.25),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact((-0.25)),
                     ]),
                     [&velocity[0], &velocity[1], &velocity[2]],
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -239,15 +243,19 @@ const _: () = {
                     &mut q[2],
                     step.q,
                     step.q_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
                     ]),
                     [&velocity[0], &velocity[1], &velocity[2]],
                 );
-                ::symplectic::transform(force, [0, 1], [[(-1.0), 0.5], [(-8.0), 3.0]]);
-                ::symplectic::combine::<
+                ::symplectic::emitted::transform(
+                    force,
+                    [0, 1],
+                    [[(-1.0), 0.5], [(-8.0), 3.0]],
+                );
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -255,13 +263,13 @@ const _: () = {
                     &mut p[0],
                     step.p,
                     step.p_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact((-0.25)),
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact((-0.25)),
                     ]),
                     [&force[0], &force[1]],
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -269,13 +277,13 @@ const _: () = {
                     &mut p[1],
                     step.p,
                     step.p_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
                     ]),
                     [&force[0], &force[1]],
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -283,52 +291,52 @@ const _: () = {
                     &mut p[2],
                     step.p,
                     step.p_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact(1.25),
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.25),
                     ]),
                     [&force[0], &force[1]],
                 );
             } else {
-                ::symplectic::copy(&mut p[0], step.p);
-                ::symplectic::copy(&mut p[1], step.p);
-                ::symplectic::copy(&mut p[2], step.p);
+                ::symplectic::emitted::copy(&mut p[0], step.p);
+                ::symplectic::emitted::copy(&mut p[1], step.p);
+                ::symplectic::emitted::copy(&mut p[2], step.p);
                 system
                     .velocity(
-                        step.at(::symplectic::Coefficient::exact(0.0)),
+                        step.at(::symplectic::emitted::Coefficient::exact(0.0)),
                         step.q,
                         step.p,
                         &mut velocity[0],
                     );
-                ::symplectic::copy_to(velocity, 0, [1, 2]);
-                ::symplectic::scale(
+                ::symplectic::emitted::copy_to(velocity, 0, [1, 2]);
+                ::symplectic::emitted::scale(
                     &mut velocity[0],
                     step.size,
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
                 );
-                ::symplectic::scale(
+                ::symplectic::emitted::scale(
                     &mut velocity[1],
                     step.size,
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.6666666666666666,
                         3.700743415417188e-17,
                         0.6666667,
                     ),
                 );
-                ::symplectic::scale(
+                ::symplectic::emitted::scale(
                     &mut velocity[2],
                     step.size,
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -336,14 +344,14 @@ const _: () = {
                     &mut q[1],
                     step.q,
                     step.q_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::exact(1.25),
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::exact((-0.25)),
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::exact(1.25),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact((-0.25)),
                     ]),
                     [&velocity[0], &velocity[1], &velocity[2]],
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -351,10 +359,10 @@ const _: () = {
                     &mut q[2],
                     step.q,
                     step.q_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact(1.0),
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
                     ]),
                     [&velocity[0], &velocity[1], &velocity[2]],
                 );
@@ -362,56 +370,56 @@ const _: () = {
         }
         #[inline]
         fn sweep<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::Change {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::Change::default();
-            let force_weights = ::symplectic::weights::<
+        ) -> ::symplectic::emitted::Change {
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            let mut change = ::symplectic::emitted::Change::default();
+            let force_weights = ::symplectic::emitted::weights::<
                 V::Scalar,
                 _,
             >(
                 step.size,
                 [
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.6666666666666666,
                         3.700743415417188e-17,
                         0.6666667,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
                 ],
             );
-            let velocity_weights = ::symplectic::weights::<
+            let velocity_weights = ::symplectic::emitted::weights::<
                 V::Scalar,
                 _,
             >(
                 step.size,
                 [
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.6666666666666666,
                         3.700743415417188e-17,
                         0.6666667,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
@@ -420,18 +428,18 @@ const _: () = {
             );
             system
                 .force(
-                    step.at(::symplectic::Coefficient::exact(0.0)),
+                    step.at(::symplectic::emitted::Coefficient::exact(0.0)),
                     step.q,
                     &p[0],
                     &mut force[0],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
             >(
                 &mut force[0],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
@@ -439,24 +447,24 @@ const _: () = {
             );
             system
                 .force(
-                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
                     &q[1],
                     &p[1],
                     &mut force[1],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
             >(
                 &mut force[1],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.6666666666666666,
                     3.700743415417188e-17,
                     0.6666667,
                 ),
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -464,21 +472,21 @@ const _: () = {
                 &mut p[0],
                 step.p,
                 step.p_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact((-0.25)),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact((-0.25)),
                     ],
                     [force_weights[0], force_weights[1]],
                 ),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -486,21 +494,21 @@ const _: () = {
                 &mut p[1],
                 step.p,
                 step.p_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
                     ],
                     [force_weights[0], force_weights[1]],
                 ),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -508,14 +516,14 @@ const _: () = {
                 &mut p[2],
                 step.p,
                 step.p_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact(1.25),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.25),
                     ],
                     [force_weights[0], force_weights[1]],
                 ),
@@ -524,18 +532,18 @@ const _: () = {
             );
             system
                 .velocity(
-                    step.at(::symplectic::Coefficient::exact(0.0)),
+                    step.at(::symplectic::emitted::Coefficient::exact(0.0)),
                     step.q,
                     &p[0],
                     &mut velocity[0],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
             >(
                 &mut velocity[0],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
@@ -543,18 +551,18 @@ const _: () = {
             );
             system
                 .velocity(
-                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
                     &q[1],
                     &p[1],
                     &mut velocity[1],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
             >(
                 &mut velocity[1],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.6666666666666666,
                     3.700743415417188e-17,
                     0.6666667,
@@ -562,24 +570,24 @@ const _: () = {
             );
             system
                 .velocity(
-                    step.at(::symplectic::Coefficient::exact(1.0)),
+                    step.at(::symplectic::emitted::Coefficient::exact(1.0)),
                     &q[2],
                     &p[2],
                     &mut velocity[2],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
             >(
                 &mut velocity[2],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
                 ),
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -587,22 +595,22 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.q_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::exact(1.25),
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::exact((-0.25)),
+                        ::symplectic::emitted::Coefficient::exact(1.25),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact((-0.25)),
                     ],
                     [velocity_weights[0], velocity_weights[1], velocity_weights[2]],
                 ),
                 [&velocity[0], &velocity[1], &velocity[2]],
                 &mut change.q,
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -610,15 +618,15 @@ const _: () = {
                 &mut q[2],
                 step.q,
                 step.q_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
                     ],
                     [velocity_weights[0], velocity_weights[1], velocity_weights[2]],
                 ),
@@ -628,51 +636,51 @@ const _: () = {
             change
         }
         #[inline]
-        fn increments<V: ::symplectic::Vector>(
-            step: &::symplectic::Step<'_, V>,
+        fn increments<V: ::symplectic::emitted::Vector>(
+            step: &::symplectic::emitted::Step<'_, V>,
             stages: &mut Self::Stages<V>,
         ) {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::scale(
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            ::symplectic::emitted::scale(
                 &mut force[0],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
                 ),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut force[1],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.6666666666666666,
                     3.700743415417188e-17,
                     0.6666667,
                 ),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut velocity[0],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
                 ),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut velocity[1],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.6666666666666666,
                     3.700743415417188e-17,
                     0.6666667,
                 ),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut velocity[2],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
@@ -681,37 +689,42 @@ const _: () = {
         }
         #[inline]
         fn finish<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
-            W: ::symplectic::Witness,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            W: ::symplectic::emitted::Witness,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::Kept,
-            outcome: ::symplectic::Outcome<'_, V>,
+            kept: ::symplectic::emitted::Kept,
+            outcome: ::symplectic::emitted::Outcome<'_, V>,
             witness: &mut W,
         ) {
-            let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            let ::symplectic::emitted::Outcome {
+                q: q1,
+                q_low: q1_low,
+                p: p1,
+                p_low: p1_low,
+            } = outcome;
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
             system
                 .force(
-                    step.at(::symplectic::Coefficient::exact(1.0)),
+                    step.at(::symplectic::emitted::Coefficient::exact(1.0)),
                     &q[2],
                     &p[2],
                     &mut force[2],
                 );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut force[2],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
                 ),
             );
-            ::symplectic::total::<
+            ::symplectic::emitted::total::<
                 R,
                 V,
                 _,
@@ -722,18 +735,18 @@ const _: () = {
                 step.q_low,
                 [&velocity[0], &velocity[1], &velocity[2]],
             );
-            ::symplectic::total::<
+            ::symplectic::emitted::total::<
                 R,
                 V,
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1], &force[2]]);
         }
     }
-    impl ::symplectic::StageTableau for Lobatto3General {
-        type Lanes = ::symplectic::F64x4;
+    impl ::symplectic::emitted::StageTableau for Lobatto3General {
+        type Lanes = ::symplectic::emitted::F64x4;
         type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
-        const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+        const POSITIONS: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
             count: 3,
             columns: &[
                 &[0.0, 1.25, 1.0, 1.0],
@@ -752,12 +765,12 @@ const _: () = {
                 &[0.0, (-3.0), (-2.0), (-2.0)],
                 &[1.0, 12.0, 6.0, 6.0],
             ],
-            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
+            polynomial: ::core::option::Option::Some(::symplectic::emitted::StagePolynomial {
                 legendre: &[&[(-3.0), 0.0, 3.0], &[2.0, (-1.0), 2.0]],
                 order: 3,
             }),
         };
-        const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+        const MOMENTA: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
             count: 3,
             columns: &[
                 &[1.0, 1.0, 1.0, 1.0],
@@ -776,12 +789,14 @@ const _: () = {
                 &[0.0, (-3.0), (-2.0), (-2.0)],
                 &[1.0, 12.0, 6.0, 6.0],
             ],
-            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
+            polynomial: ::core::option::Option::Some(::symplectic::emitted::StagePolynomial {
                 legendre: &[&[(-3.0), 0.0, 3.0], &[2.0, (-1.0), 2.0]],
                 order: 3,
             }),
         };
-        const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
+        const SECOND_ORDER: ::core::option::Option<
+            ::symplectic::emitted::SecondOrderTableau,
+        > = ::core::option::Option::None;
         #[inline(always)]
         fn groups<T: ::core::fmt::Debug>(
             mut make: impl ::core::ops::FnMut(usize) -> T,
@@ -789,15 +804,15 @@ const _: () = {
             [make(0)]
         }
         #[inline(always)]
-        fn stored<V: ::symplectic::Vector>(
+        fn stored<V: ::symplectic::emitted::Vector>(
             stages: &Self::Stages<V>,
-        ) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+        ) -> [::symplectic::emitted::StoredEvaluations<'_, V>; 2] {
             [
-                ::symplectic::StoredEvaluations {
+                ::symplectic::emitted::StoredEvaluations {
                     values: &stages.velocity,
                     carried: &[],
                 },
-                ::symplectic::StoredEvaluations {
+                ::symplectic::emitted::StoredEvaluations {
                     values: &stages.force,
                     carried: &[],
                 },
@@ -806,10 +821,14 @@ const _: () = {
     }
     pub struct Lobatto3Separable;
     #[allow(unused_variables)]
-    impl ::symplectic::StagePlan for Lobatto3Separable {
-        type Class = ::symplectic::Separable;
-        type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 3, 3>;
-        const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
+    impl ::symplectic::emitted::StagePlan for Lobatto3Separable {
+        type Class = ::symplectic::emitted::Separable;
+        type Stages<V: ::symplectic::emitted::Vector> = ::symplectic::emitted::Stages<
+            V,
+            3,
+            3,
+        >;
+        const EVALUATIONS: ::symplectic::emitted::EvaluationCounts = ::symplectic::emitted::EvaluationCounts {
             begin: 1,
             start: 1,
             sweep: 4,
@@ -818,42 +837,42 @@ const _: () = {
         };
         #[inline]
         fn begin<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::Kept,
+            kept: ::symplectic::emitted::Kept,
         ) {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
             if !kept.evaluation {
                 system
                     .force(
-                        step.at(::symplectic::Coefficient::exact(0.0)),
+                        step.at(::symplectic::emitted::Coefficient::exact(0.0)),
                         step.q,
                         step.p,
                         &mut force[2],
                     );
             }
-            ::symplectic::copy_to(force, 2, [0]);
-            ::symplectic::scale(
+            ::symplectic::emitted::copy_to(force, 2, [0]);
+            ::symplectic::emitted::scale(
                 &mut force[0],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
                 ),
             );
             if kept.stages {
-                ::symplectic::transform(
+                ::symplectic::emitted::transform(
                     velocity,
                     [0, 1, 2],
                     [[0.0, 0.0, 1.0], [4.0, (-3.0), 12.0], [3.0, (-2.0), 6.0]],
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -861,53 +880,53 @@ const _: () = {
                     &mut q[1],
                     step.q,
                     step.q_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::exact(1.25),
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::exact((-0.25)),
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::exact(1.25),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact((-0.25)),
                     ]),
                     [&velocity[0], &velocity[1], &velocity[2]],
                 );
             } else {
-                ::symplectic::copy(&mut p[0], step.p);
-                ::symplectic::copy(&mut p[1], step.p);
-                ::symplectic::copy(&mut p[2], step.p);
+                ::symplectic::emitted::copy(&mut p[0], step.p);
+                ::symplectic::emitted::copy(&mut p[1], step.p);
+                ::symplectic::emitted::copy(&mut p[2], step.p);
                 system
                     .velocity(
-                        step.at(::symplectic::Coefficient::exact(0.0)),
+                        step.at(::symplectic::emitted::Coefficient::exact(0.0)),
                         step.q,
                         step.p,
                         &mut velocity[0],
                     );
-                ::symplectic::copy_to(velocity, 0, [1, 2]);
-                ::symplectic::scale(
+                ::symplectic::emitted::copy_to(velocity, 0, [1, 2]);
+                ::symplectic::emitted::scale(
                     &mut velocity[0],
                     step.size,
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
                 );
-                ::symplectic::scale(
+                ::symplectic::emitted::scale(
                     &mut velocity[1],
                     step.size,
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.6666666666666666,
                         3.700743415417188e-17,
                         0.6666667,
                     ),
                 );
-                ::symplectic::scale(
+                ::symplectic::emitted::scale(
                     &mut velocity[2],
                     step.size,
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
                 );
-                ::symplectic::combine::<
+                ::symplectic::emitted::combine::<
                     R,
                     V,
                     _,
@@ -915,10 +934,10 @@ const _: () = {
                     &mut q[1],
                     step.q,
                     step.q_low,
-                    ::symplectic::factors([
-                        ::symplectic::Coefficient::exact(1.25),
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::exact((-0.25)),
+                    ::symplectic::emitted::factors([
+                        ::symplectic::emitted::Coefficient::exact(1.25),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact((-0.25)),
                     ]),
                     [&velocity[0], &velocity[1], &velocity[2]],
                 );
@@ -926,56 +945,56 @@ const _: () = {
         }
         #[inline]
         fn sweep<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::Change {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::Change::default();
-            let force_weights = ::symplectic::weights::<
+        ) -> ::symplectic::emitted::Change {
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            let mut change = ::symplectic::emitted::Change::default();
+            let force_weights = ::symplectic::emitted::weights::<
                 V::Scalar,
                 _,
             >(
                 step.size,
                 [
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.6666666666666666,
                         3.700743415417188e-17,
                         0.6666667,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
                 ],
             );
-            let velocity_weights = ::symplectic::weights::<
+            let velocity_weights = ::symplectic::emitted::weights::<
                 V::Scalar,
                 _,
             >(
                 step.size,
                 [
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.6666666666666666,
                         3.700743415417188e-17,
                         0.6666667,
                     ),
-                    ::symplectic::Coefficient::new(
+                    ::symplectic::emitted::Coefficient::new(
                         0.16666666666666666,
                         9.25185853854297e-18,
                         0.16666667,
@@ -984,24 +1003,24 @@ const _: () = {
             );
             system
                 .force(
-                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
                     &q[1],
                     step.p,
                     &mut force[1],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
             >(
                 &mut force[1],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.6666666666666666,
                     3.700743415417188e-17,
                     0.6666667,
                 ),
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -1009,24 +1028,24 @@ const _: () = {
                 &mut p[0],
                 step.p,
                 step.p_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact((-0.25)),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact((-0.25)),
                     ],
                     [
-                        <V::Scalar as ::symplectic::Scalar>::from_f64(1.0),
+                        <V::Scalar as ::symplectic::emitted::Scalar>::from_f64(1.0),
                         force_weights[1],
                     ],
                 ),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -1034,24 +1053,24 @@ const _: () = {
                 &mut p[1],
                 step.p,
                 step.p_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
                     ],
                     [
-                        <V::Scalar as ::symplectic::Scalar>::from_f64(1.0),
+                        <V::Scalar as ::symplectic::emitted::Scalar>::from_f64(1.0),
                         force_weights[1],
                     ],
                 ),
                 [&force[0], &force[1]],
                 &mut change.p,
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -1059,17 +1078,17 @@ const _: () = {
                 &mut p[2],
                 step.p,
                 step.p_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact(1.25),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.25),
                     ],
                     [
-                        <V::Scalar as ::symplectic::Scalar>::from_f64(1.0),
+                        <V::Scalar as ::symplectic::emitted::Scalar>::from_f64(1.0),
                         force_weights[1],
                     ],
                 ),
@@ -1078,18 +1097,18 @@ const _: () = {
             );
             system
                 .velocity(
-                    step.at(::symplectic::Coefficient::exact(0.0)),
+                    step.at(::symplectic::emitted::Coefficient::exact(0.0)),
                     step.q,
                     &p[0],
                     &mut velocity[0],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
             >(
                 &mut velocity[0],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
@@ -1097,18 +1116,18 @@ const _: () = {
             );
             system
                 .velocity(
-                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
                     step.q,
                     &p[1],
                     &mut velocity[1],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
             >(
                 &mut velocity[1],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.6666666666666666,
                     3.700743415417188e-17,
                     0.6666667,
@@ -1116,24 +1135,24 @@ const _: () = {
             );
             system
                 .velocity(
-                    step.at(::symplectic::Coefficient::exact(1.0)),
+                    step.at(::symplectic::emitted::Coefficient::exact(1.0)),
                     step.q,
                     &p[2],
                     &mut velocity[2],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
             >(
                 &mut velocity[2],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
                 ),
             );
-            ::symplectic::relax::<
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -1141,15 +1160,15 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.q_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::exact(1.25),
-                        ::symplectic::Coefficient::exact(0.5),
-                        ::symplectic::Coefficient::exact((-0.25)),
+                        ::symplectic::emitted::Coefficient::exact(1.25),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact((-0.25)),
                     ],
                     [velocity_weights[0], velocity_weights[1], velocity_weights[2]],
                 ),
@@ -1159,42 +1178,42 @@ const _: () = {
             change
         }
         #[inline]
-        fn increments<V: ::symplectic::Vector>(
-            step: &::symplectic::Step<'_, V>,
+        fn increments<V: ::symplectic::emitted::Vector>(
+            step: &::symplectic::emitted::Step<'_, V>,
             stages: &mut Self::Stages<V>,
         ) {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::scale(
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            ::symplectic::emitted::scale(
                 &mut force[1],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.6666666666666666,
                     3.700743415417188e-17,
                     0.6666667,
                 ),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut velocity[0],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
                 ),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut velocity[1],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.6666666666666666,
                     3.700743415417188e-17,
                     0.6666667,
                 ),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut velocity[2],
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
@@ -1203,21 +1222,26 @@ const _: () = {
         }
         #[inline]
         fn finish<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
-            W: ::symplectic::Witness,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            W: ::symplectic::emitted::Witness,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::Kept,
-            outcome: ::symplectic::Outcome<'_, V>,
+            kept: ::symplectic::emitted::Kept,
+            outcome: ::symplectic::emitted::Outcome<'_, V>,
             witness: &mut W,
         ) {
-            let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::total::<
+            let ::symplectic::emitted::Outcome {
+                q: q1,
+                q_low: q1_low,
+                p: p1,
+                p_low: p1_low,
+            } = outcome;
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            ::symplectic::emitted::total::<
                 R,
                 V,
                 _,
@@ -1230,24 +1254,24 @@ const _: () = {
             );
             system
                 .force(
-                    step.at(::symplectic::Coefficient::exact(1.0)),
+                    step.at(::symplectic::emitted::Coefficient::exact(1.0)),
                     &*q1,
                     step.p,
                     &mut force[2],
                 );
-            ::symplectic::total::<
+            ::symplectic::emitted::total::<
                 R,
                 V,
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
-            ::symplectic::advance::<
+            ::symplectic::emitted::advance::<
                 R,
                 V,
             >(
                 p1,
                 p1_low,
                 step.size,
-                ::symplectic::Coefficient::new(
+                ::symplectic::emitted::Coefficient::new(
                     0.16666666666666666,
                     9.25185853854297e-18,
                     0.16666667,
@@ -1256,11 +1280,11 @@ const _: () = {
             );
         }
     }
-    impl ::symplectic::StageTableau for Lobatto3Separable {
-        type Lanes = ::symplectic::F64x4;
+    impl ::symplectic::emitted::StageTableau for Lobatto3Separable {
+        type Lanes = ::symplectic::emitted::F64x4;
         type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
-        const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+        const POSITIONS: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
             count: 3,
             columns: &[
                 &[0.0, 1.25, 1.0, 1.0],
@@ -1279,13 +1303,15 @@ const _: () = {
                 &[0.0, (-3.0), (-2.0), (-2.0)],
                 &[1.0, 12.0, 6.0, 6.0],
             ],
-            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
+            polynomial: ::core::option::Option::Some(::symplectic::emitted::StagePolynomial {
                 legendre: &[&[(-3.0), 0.0, 3.0], &[2.0, (-1.0), 2.0]],
                 order: 4,
             }),
         };
-        const MOMENTA: ::symplectic::HalfTableau = <Lobatto3General as ::symplectic::StageTableau>::MOMENTA;
-        const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::Some(::symplectic::SecondOrderTableau {
+        const MOMENTA: ::symplectic::emitted::HalfTableau = <Lobatto3General as ::symplectic::emitted::StageTableau>::MOMENTA;
+        const SECOND_ORDER: ::core::option::Option<
+            ::symplectic::emitted::SecondOrderTableau,
+        > = ::core::option::Option::Some(::symplectic::emitted::SecondOrderTableau {
             nodes: &[0.0, 0.5, 1.0, 1.0],
             columns: &[
                 &[0.0, 0.5, 1.0, 1.0],
@@ -1299,7 +1325,7 @@ const _: () = {
             ],
             rest: &[1.0, 0.5, 0.0, 0.0],
         });
-        const DECOUPLING: ::core::option::Option<::symplectic::Decoupling> = ::core::option::Option::Some(::symplectic::Decoupling {
+        const DECOUPLING: ::core::option::Option<::symplectic::emitted::Decoupling> = ::core::option::Option::Some(::symplectic::emitted::Decoupling {
             blocks: &[(0.0, 0.0), (0.0, 0.0), (0.041666666666666664, 0.0)],
             to_stages: &[&[(-1.6), 0.2, (-0.2)], &[1.0, 0.0, 0.4], &[0.0, 1.0, 1.0]],
             from_stages: &[
@@ -1315,15 +1341,15 @@ const _: () = {
             [make(0)]
         }
         #[inline(always)]
-        fn stored<V: ::symplectic::Vector>(
+        fn stored<V: ::symplectic::emitted::Vector>(
             stages: &Self::Stages<V>,
-        ) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+        ) -> [::symplectic::emitted::StoredEvaluations<'_, V>; 2] {
             [
-                ::symplectic::StoredEvaluations {
+                ::symplectic::emitted::StoredEvaluations {
                     values: &stages.velocity,
                     carried: &[],
                 },
-                ::symplectic::StoredEvaluations {
+                ::symplectic::emitted::StoredEvaluations {
                     values: &stages.force,
                     carried: &[2],
                 },

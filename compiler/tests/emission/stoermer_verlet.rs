@@ -41,44 +41,44 @@ impl StoermerVerlet {
 }
 #[allow(clippy::approx_constant)]
 const _: () = {
-    impl ::symplectic::Method for StoermerVerlet {
+    impl ::symplectic::emitted::Method for StoermerVerlet {
         const NAME: &'static str = "StoermerVerlet";
         const STAGES: usize = 2;
         const DEFINITION: &'static str = "basis: polynomial(2), nodes: lobatto(2)";
-        const COEFFICIENTS: ::symplectic::Coefficients = {
-            const A: &[&[::symplectic::Coefficient]] = &[
+        const COEFFICIENTS: ::symplectic::emitted::Coefficients = {
+            const A: &[&[::symplectic::emitted::Coefficient]] = &[
                 &[
-                    ::symplectic::Coefficient::exact(0.0),
-                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
                 ],
                 &[
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
                 ],
             ];
-            const B: &[::symplectic::Coefficient] = &[
-                ::symplectic::Coefficient::exact(0.5),
-                ::symplectic::Coefficient::exact(0.5),
+            const B: &[::symplectic::emitted::Coefficient] = &[
+                ::symplectic::emitted::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             ];
-            const C: &[::symplectic::Coefficient] = &[
-                ::symplectic::Coefficient::exact(0.0),
-                ::symplectic::Coefficient::exact(1.0),
+            const C: &[::symplectic::emitted::Coefficient] = &[
+                ::symplectic::emitted::Coefficient::exact(0.0),
+                ::symplectic::emitted::Coefficient::exact(1.0),
             ];
-            const A_TILDE: &[&[::symplectic::Coefficient]] = &[
+            const A_TILDE: &[&[::symplectic::emitted::Coefficient]] = &[
                 &[
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
                 ],
                 &[
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.0),
                 ],
             ];
-            const C_TILDE: &[::symplectic::Coefficient] = &[
-                ::symplectic::Coefficient::exact(0.5),
-                ::symplectic::Coefficient::exact(0.5),
+            const C_TILDE: &[::symplectic::emitted::Coefficient] = &[
+                ::symplectic::emitted::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             ];
-            ::symplectic::Coefficients {
+            ::symplectic::emitted::Coefficients {
                 a: A,
                 a_tilde: A_TILDE,
                 b: B,
@@ -87,21 +87,25 @@ const _: () = {
                 c_tilde: C_TILDE,
             }
         };
-        const ORDERS: ::symplectic::Orders = ::symplectic::Orders {
+        const ORDERS: ::symplectic::emitted::Orders = ::symplectic::emitted::Orders {
             general: 2,
             separable: 2,
             nystrom: 2,
         };
-        type General = ::symplectic::Coupled<StoermerVerletGeneral>;
-        type Separable = ::symplectic::Splitting<StoermerVerletSeparable>;
+        type General = ::symplectic::emitted::Coupled<StoermerVerletGeneral>;
+        type Separable = ::symplectic::emitted::Splitting<StoermerVerletSeparable>;
     }
-    impl<C> ::symplectic::ProvedFor<C> for StoermerVerlet {}
+    impl<C> ::symplectic::emitted::ProvedFor<C> for StoermerVerlet {}
     pub struct StoermerVerletGeneral;
     #[allow(unused_variables)]
-    impl ::symplectic::StagePlan for StoermerVerletGeneral {
-        type Class = ::symplectic::General;
-        type Stages<V: ::symplectic::Vector> = ::symplectic::Stages<V, 2, 2>;
-        const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
+    impl ::symplectic::emitted::StagePlan for StoermerVerletGeneral {
+        type Class = ::symplectic::emitted::General;
+        type Stages<V: ::symplectic::emitted::Vector> = ::symplectic::emitted::Stages<
+            V,
+            2,
+            2,
+        >;
+        const EVALUATIONS: ::symplectic::emitted::EvaluationCounts = ::symplectic::emitted::EvaluationCounts {
             begin: 0,
             start: 1,
             sweep: 3,
@@ -110,36 +114,36 @@ const _: () = {
         };
         #[inline]
         fn begin<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::Kept,
+            kept: ::symplectic::emitted::Kept,
         ) {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::copy(&mut p[0], step.p);
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            ::symplectic::emitted::copy(&mut p[0], step.p);
             system
                 .velocity(
-                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
                     step.q,
                     step.p,
                     &mut velocity[0],
                 );
-            ::symplectic::copy_to(velocity, 0, [1]);
-            ::symplectic::scale(
+            ::symplectic::emitted::copy_to(velocity, 0, [1]);
+            ::symplectic::emitted::scale(
                 &mut velocity[0],
                 step.size,
-                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut velocity[1],
                 step.size,
-                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             );
-            ::symplectic::combine::<
+            ::symplectic::emitted::combine::<
                 R,
                 V,
                 _,
@@ -147,57 +151,57 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.q_low,
-                ::symplectic::factors([
-                    ::symplectic::Coefficient::exact(1.0),
-                    ::symplectic::Coefficient::exact(1.0),
+                ::symplectic::emitted::factors([
+                    ::symplectic::emitted::Coefficient::exact(1.0),
+                    ::symplectic::emitted::Coefficient::exact(1.0),
                 ]),
                 [&velocity[0], &velocity[1]],
             );
         }
         #[inline]
         fn sweep<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::Change {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::Change::default();
-            let force_weights = ::symplectic::weights::<
+        ) -> ::symplectic::emitted::Change {
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            let mut change = ::symplectic::emitted::Change::default();
+            let force_weights = ::symplectic::emitted::weights::<
                 V::Scalar,
                 _,
             >(
                 step.size,
                 [
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
                 ],
             );
-            let velocity_weights = ::symplectic::weights::<
+            let velocity_weights = ::symplectic::emitted::weights::<
                 V::Scalar,
                 _,
             >(
                 step.size,
                 [
-                    ::symplectic::Coefficient::exact(0.5),
-                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
                 ],
             );
             system
                 .force(
-                    step.at(::symplectic::Coefficient::exact(0.0)),
+                    step.at(::symplectic::emitted::Coefficient::exact(0.0)),
                     step.q,
                     &p[0],
                     &mut force[0],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
-            >(&mut force[0], step.size, ::symplectic::Coefficient::exact(0.5));
-            ::symplectic::relax::<
+            >(&mut force[0], step.size, ::symplectic::emitted::Coefficient::exact(0.5));
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -205,37 +209,45 @@ const _: () = {
                 &mut p[0],
                 step.p,
                 step.p_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
-                >([::symplectic::Coefficient::exact(1.0)], [force_weights[0]]),
+                >([::symplectic::emitted::Coefficient::exact(1.0)], [force_weights[0]]),
                 [&force[0]],
                 &mut change.p,
             );
             system
                 .velocity(
-                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
                     step.q,
                     &p[0],
                     &mut velocity[0],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
-            >(&mut velocity[0], step.size, ::symplectic::Coefficient::exact(0.5));
+            >(
+                &mut velocity[0],
+                step.size,
+                ::symplectic::emitted::Coefficient::exact(0.5),
+            );
             system
                 .velocity(
-                    step.at(::symplectic::Coefficient::exact(0.5)),
+                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
                     &q[1],
                     &p[0],
                     &mut velocity[1],
                 );
-            ::symplectic::increment::<
+            ::symplectic::emitted::increment::<
                 R,
                 V,
-            >(&mut velocity[1], step.size, ::symplectic::Coefficient::exact(0.5));
-            ::symplectic::relax::<
+            >(
+                &mut velocity[1],
+                step.size,
+                ::symplectic::emitted::Coefficient::exact(0.5),
+            );
+            ::symplectic::emitted::relax::<
                 R,
                 V,
                 _,
@@ -243,14 +255,14 @@ const _: () = {
                 &mut q[1],
                 step.q,
                 step.q_low,
-                ::symplectic::relative::<
+                ::symplectic::emitted::relative::<
                     R,
                     _,
                     _,
                 >(
                     [
-                        ::symplectic::Coefficient::exact(1.0),
-                        ::symplectic::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
                     ],
                     [velocity_weights[0], velocity_weights[1]],
                 ),
@@ -260,94 +272,101 @@ const _: () = {
             change
         }
         #[inline]
-        fn increments<V: ::symplectic::Vector>(
-            step: &::symplectic::Step<'_, V>,
+        fn increments<V: ::symplectic::emitted::Vector>(
+            step: &::symplectic::emitted::Step<'_, V>,
             stages: &mut Self::Stages<V>,
         ) {
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
-            ::symplectic::scale(
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            ::symplectic::emitted::scale(
                 &mut force[0],
                 step.size,
-                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut velocity[0],
                 step.size,
-                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut velocity[1],
                 step.size,
-                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             );
         }
         #[inline]
         fn finish<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
-            W: ::symplectic::Witness,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            W: ::symplectic::emitted::Witness,
         >(
-            step: &::symplectic::Step<'_, V>,
+            step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::Kept,
-            outcome: ::symplectic::Outcome<'_, V>,
+            kept: ::symplectic::emitted::Kept,
+            outcome: ::symplectic::emitted::Outcome<'_, V>,
             witness: &mut W,
         ) {
-            let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
-            let ::symplectic::Stages { q, p, velocity, force } = stages;
+            let ::symplectic::emitted::Outcome {
+                q: q1,
+                q_low: q1_low,
+                p: p1,
+                p_low: p1_low,
+            } = outcome;
+            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
             system
                 .force(
-                    step.at(::symplectic::Coefficient::exact(1.0)),
+                    step.at(::symplectic::emitted::Coefficient::exact(1.0)),
                     &q[1],
                     &p[0],
                     &mut force[1],
                 );
-            ::symplectic::scale(
+            ::symplectic::emitted::scale(
                 &mut force[1],
                 step.size,
-                ::symplectic::Coefficient::exact(0.5),
+                ::symplectic::emitted::Coefficient::exact(0.5),
             );
-            ::symplectic::total::<
+            ::symplectic::emitted::total::<
                 R,
                 V,
                 _,
             >(q1, q1_low, step.q, step.q_low, [&velocity[0], &velocity[1]]);
-            ::symplectic::total::<
+            ::symplectic::emitted::total::<
                 R,
                 V,
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
         }
     }
-    impl ::symplectic::StageTableau for StoermerVerletGeneral {
-        type Lanes = ::symplectic::F64x2;
+    impl ::symplectic::emitted::StageTableau for StoermerVerletGeneral {
+        type Lanes = ::symplectic::emitted::F64x2;
         type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
-        const POSITIONS: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+        const POSITIONS: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
             count: 2,
             columns: &[&[0.0, 1.0], &[0.0, 1.0]],
             times: &[0.0, 1.0],
             weights: &[0.5, 0.5],
             extrapolation: &[&[0.0, (-1.0)], &[1.0, 2.0]],
-            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
+            polynomial: ::core::option::Option::Some(::symplectic::emitted::StagePolynomial {
                 legendre: &[&[(-1.0), 1.0]],
                 order: 2,
             }),
         };
-        const MOMENTA: ::symplectic::HalfTableau = ::symplectic::HalfTableau {
+        const MOMENTA: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
             count: 2,
             columns: &[&[1.0, 1.0], &[0.0, 0.0]],
             times: &[0.5, 0.5],
             weights: &[0.5, 0.5],
             extrapolation: &[],
-            polynomial: ::core::option::Option::Some(::symplectic::StagePolynomial {
+            polynomial: ::core::option::Option::Some(::symplectic::emitted::StagePolynomial {
                 legendre: &[&[(-1.0), 1.0]],
                 order: 2,
             }),
         };
-        const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = ::core::option::Option::None;
+        const SECOND_ORDER: ::core::option::Option<
+            ::symplectic::emitted::SecondOrderTableau,
+        > = ::core::option::Option::None;
         #[inline(always)]
         fn groups<T: ::core::fmt::Debug>(
             mut make: impl ::core::ops::FnMut(usize) -> T,
@@ -355,15 +374,15 @@ const _: () = {
             [make(0)]
         }
         #[inline(always)]
-        fn stored<V: ::symplectic::Vector>(
+        fn stored<V: ::symplectic::emitted::Vector>(
             stages: &Self::Stages<V>,
-        ) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+        ) -> [::symplectic::emitted::StoredEvaluations<'_, V>; 2] {
             [
-                ::symplectic::StoredEvaluations {
+                ::symplectic::emitted::StoredEvaluations {
                     values: &stages.velocity,
                     carried: &[],
                 },
-                ::symplectic::StoredEvaluations {
+                ::symplectic::emitted::StoredEvaluations {
                     values: &stages.force,
                     carried: &[],
                 },
@@ -372,28 +391,28 @@ const _: () = {
     }
     pub struct StoermerVerletSeparable;
     #[allow(unused_variables)]
-    impl ::symplectic::SplittingPlan for StoermerVerletSeparable {
-        type Class = ::symplectic::Separable;
+    impl ::symplectic::emitted::SplittingPlan for StoermerVerletSeparable {
+        type Class = ::symplectic::emitted::Separable;
         const EVALUATIONS: u32 = 3;
         const CARRIED: u32 = 1;
         #[inline(always)]
         fn apply<
-            R: ::symplectic::Summation,
-            V: ::symplectic::Vector,
-            S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
-            K: ::symplectic::Moves,
-            W: ::symplectic::Witness,
+            R: ::symplectic::emitted::Summation,
+            V: ::symplectic::emitted::Vector,
+            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            K: ::symplectic::emitted::Moves,
+            W: ::symplectic::emitted::Witness,
         >(
-            span: ::symplectic::Span,
+            span: ::symplectic::emitted::Span,
             system: &S,
-            evaluations: &mut ::symplectic::Evaluations<V>,
-            kept: ::symplectic::Kept,
-            state: ::symplectic::Outcome<'_, V>,
+            evaluations: &mut ::symplectic::emitted::Evaluations<V>,
+            kept: ::symplectic::emitted::Kept,
+            state: ::symplectic::emitted::Outcome<'_, V>,
             moves: &mut K,
             witness: &mut W,
         ) {
-            let ::symplectic::Evaluations { velocity, force } = evaluations;
-            let ::symplectic::Outcome { q, q_low, p, p_low } = state;
+            let ::symplectic::emitted::Evaluations { velocity, force } = evaluations;
+            let ::symplectic::emitted::Outcome { q, q_low, p, p_low } = state;
             if !kept.evaluation {
                 moves
                     .force::<
@@ -402,10 +421,10 @@ const _: () = {
                         S,
                         W,
                     >(
-                        ::symplectic::Force {
+                        ::symplectic::emitted::Force {
                             span,
                             stage: 1,
-                            time: ::symplectic::Coefficient::exact(0.0),
+                            time: ::symplectic::emitted::Coefficient::exact(0.0),
                         },
                         system,
                         &mut *force,
@@ -421,7 +440,7 @@ const _: () = {
                     S,
                 >(
                     span.size,
-                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
                     system,
                     &mut *force,
                     &mut *q,
@@ -434,11 +453,11 @@ const _: () = {
                     S,
                     W,
                 >(
-                    ::symplectic::Drift {
+                    ::symplectic::emitted::Drift {
                         span,
                         stage: 1,
-                        time: ::symplectic::Coefficient::exact(0.5),
-                        weight: ::symplectic::Coefficient::exact(1.0),
+                        time: ::symplectic::emitted::Coefficient::exact(0.5),
+                        weight: ::symplectic::emitted::Coefficient::exact(1.0),
                         known: false,
                     },
                     system,
@@ -454,10 +473,10 @@ const _: () = {
                     S,
                     W,
                 >(
-                    ::symplectic::Force {
+                    ::symplectic::emitted::Force {
                         span,
                         stage: 2,
-                        time: ::symplectic::Coefficient::exact(1.0),
+                        time: ::symplectic::emitted::Coefficient::exact(1.0),
                     },
                     system,
                     &mut *force,
@@ -472,7 +491,7 @@ const _: () = {
                     S,
                 >(
                     span.size,
-                    ::symplectic::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
                     system,
                     &mut *force,
                     &mut *q,

@@ -5,9 +5,8 @@ use core::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::{Kind, Ladder, MethodRecord};
-use symplectic::{
-    Error, Hamiltonian, Integrator, Method, Solver, State, Statistics, Summation, Vector,
-};
+use symplectic::solver::Solver;
+use symplectic::{Error, Hamiltonian, Integrator, Method, State, Statistics, Summation, Vector};
 
 /// Who is shown the states of a run.
 pub type Observe<'a, V> = &'a mut dyn FnMut(&State<V>);

@@ -3,9 +3,8 @@
 use super::contestant::{Contestant, Finish, Observe};
 use super::text;
 use super::{Ladder, Measured};
-use symplectic::{
-    Error, Hamiltonian, Integrator, Method, ProvedFor, Solver, State, Summation, Vector,
-};
+use symplectic::solver::Solver;
+use symplectic::{Error, Hamiltonian, Integrator, Method, ProvedFor, State, Summation, Vector};
 
 /// A system with a start, the state at the end, and the methods that are run on it.
 ///

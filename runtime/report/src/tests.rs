@@ -170,7 +170,7 @@ fn a_study_of_an_oscillator() {
         .method(Verlet)
         .run("Gauss", |system, start, h| {
             Ok(symplectic::Integrator::plain(Gauss4, system, start, h)?
-                .with_solver(symplectic::FixedPoint))
+                .with_solver(symplectic::solver::FixedPoint))
         });
     let study = Study::new("Oscillator").problem(problem.conserving("twice the energy", |state| {
         state.q[0] * state.q[0] + state.p[0] * state.p[0]

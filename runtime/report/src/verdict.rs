@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::observer::Deviation;
 use super::text;
 use super::{Fact, Measured};
-use symplectic::{Error, Hamiltonian, Integrator, Method, Solver, State, Summation, Vector};
+use symplectic::solver::Solver;
+use symplectic::{Error, Hamiltonian, Integrator, Method, State, Summation, Vector};
 
 /// What became of a run of equal steps.
 ///

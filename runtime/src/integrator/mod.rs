@@ -191,7 +191,8 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     /// ```
     /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
     /// # use symplectic::nalgebra::Vector1;
-    /// # use symplectic::{Error, Integrator, Hamiltonian, Interpolation, Method, acceleration};
+    /// # use symplectic::{Error, Integrator, Hamiltonian, Method, acceleration};
+    /// # use symplectic::output::Interpolation;
     /// fn order<M: Method, S: Hamiltonian<Vector1<f64>>>(_method: M, _system: S) -> u32 {
     ///     Integrator::<M, S, Vector1<f64>>::INTERPOLATION.order()
     /// }

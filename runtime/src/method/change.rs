@@ -16,7 +16,7 @@ impl Change {
     /// The larger of the two [relative changes](PartChange::relative); NaN if either is.
     ///
     /// ```
-    /// use symplectic::Change;
+    /// use symplectic::solver::Change;
     ///
     /// let mut change = Change::default();
     /// assert_eq!(change.residual(), 0.0);

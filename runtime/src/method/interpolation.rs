@@ -38,7 +38,7 @@ impl Interpolation {
     /// The order for positions and momenta together.
     ///
     /// ```
-    /// use symplectic::Interpolation;
+    /// use symplectic::output::Interpolation;
     ///
     /// assert_eq!(Interpolation::Stages { positions: 3, momenta: 4 }.order(), 3);
     /// assert_eq!(Interpolation::Hermite.order(), 4);

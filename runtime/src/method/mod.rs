@@ -95,10 +95,10 @@ pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static 
 /// in their order, [`Explicit`], by stages that a [`Solver`] finds, [`Coupled`], or by steps of other methods,
 /// [`Composition`].
 ///
-/// [`Splitting`]: crate::Splitting
-/// [`Explicit`]: crate::Explicit
-/// [`Coupled`]: crate::Coupled
-/// [`Composition`]: crate::Composition
+/// [`Splitting`]: crate::emitted::Splitting
+/// [`Explicit`]: crate::emitted::Explicit
+/// [`Coupled`]: crate::emitted::Coupled
+/// [`Composition`]: crate::emitted::Composition
 pub trait Plan {
     /// The class of systems that it steps.
     type Class: Class;
@@ -189,7 +189,7 @@ pub trait Plan {
 
 /// How the stages of a [`Method`] are found for systems of one [`Class`].
 ///
-/// A step is `begin`, then `sweep` until the stages no longer change (never in an [`Explicit`](crate::Explicit) plan), with plain sums
+/// A step is `begin`, then `sweep` until the stages no longer change (never in an [`Explicit`](crate::emitted::Explicit) plan), with plain sums
 /// `increments`, then `finish`.
 ///
 /// Stage `i` evaluates the force at `t0 + c_i h` and the velocity at `t0 + c̃_i h`: see
@@ -222,7 +222,7 @@ pub trait StagePlan {
     /// positions that follow from those. Returns how much the stage values changed.
     ///
     /// For a separable system one half comes after the other and uses its new evaluations: the stopping rule of
-    /// [`FixedPoint`](crate::FixedPoint) relies on it.
+    /// [`FixedPoint`](crate::solver::FixedPoint) relies on it.
     fn sweep<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
         step: &Step<'_, V>,
         system: &S,

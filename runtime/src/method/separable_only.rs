@@ -10,7 +10,7 @@ use crate::system::{General, Hamiltonian};
 /// elsewhere: `a` and `ã` of a splitting.
 ///
 /// ```
-/// const A: [[f64; 3]; 3] = symplectic::staircase([0.25, 0.5, 0.25], 0.0, false);
+/// const A: [[f64; 3]; 3] = symplectic::emitted::staircase([0.25, 0.5, 0.25], 0.0, false);
 /// assert_eq!(A, [[0.0, 0.0, 0.0], [0.25, 0.0, 0.0], [0.25, 0.5, 0.0]]);
 /// ```
 pub const fn staircase<T: Copy, const N: usize>(
@@ -32,7 +32,7 @@ pub const fn staircase<T: Copy, const N: usize>(
     matrix
 }
 
-/// The rows of a matrix, as [`Coefficients`](crate::Coefficients) have them.
+/// The rows of a matrix, as [`Coefficients`](crate::solver::Coefficients) have them.
 pub const fn rows<T, const N: usize>(matrix: &[[T; N]; N]) -> [&[T]; N] {
     let mut rows: [&[T]; N] = [&[]; N];
     let mut i = 0;

@@ -8,9 +8,9 @@ use crate::method::{
 use crate::number::{Summation, Vector};
 use crate::system::Hamiltonian;
 
-/// Finds the stages of a [`Coupled`](crate::Coupled) plan, for a system `S` over the vectors `V`.
+/// Finds the stages of a [`Coupled`](crate::emitted::Coupled) plan, for a system `S` over the vectors `V`.
 ///
-/// [`FixedPoint`](crate::FixedPoint) is the one that every system has.
+/// [`FixedPoint`](crate::solver::FixedPoint) is the one that every system has.
 pub trait Solver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
     /// What it needs for one plan, made once and used for every step.
     type Memory<P: StageTableau>: StageStorage<V>;
@@ -34,6 +34,6 @@ pub trait Solver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
         S: Hamiltonian<V, Class = P::Class>;
 
     /// Adds to `q` and `p` how far they are inside the last step from the straight line between its ends, by the
-    /// [polynomials](crate::HalfTableau::polynomial) through the evaluations in `memory`.
+    /// [polynomials](crate::solver::HalfTableau::polynomial) through the evaluations in `memory`.
     fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V);
 }

@@ -120,7 +120,7 @@ pub use symplectic_macros::splitting;
 ///
 /// A composition of splittings is a splitting, with neighbouring drifts and kicks made one. Any other composition has the
 /// stages of all its steps; one of methods that are symplectic for all Hamiltonians is so too. Where stages are solved
-/// for, it is taken step by step, each from the result of the one before: see [`Composition`](crate::Composition).
+/// for, it is taken step by step, each from the result of the one before: see [`Composition`](crate::emitted::Composition).
 ///
 /// # Errors
 ///

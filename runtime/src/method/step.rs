@@ -104,7 +104,7 @@ pub struct Kept {
     /// The increments of its stages, from which those of this step can be extrapolated: the step before was taken by
     /// the same method, from a step size equal to this one.
     pub stages: bool,
-    /// How large [those stages](crate::Work::scales) were, as the step before has returned it: zero where that is not known.
+    /// How large [those stages](crate::solver::Work::scales) were, as the step before has returned it: zero where that is not known.
     pub scales: [f64; 2],
 }
 
@@ -127,7 +127,7 @@ impl Default for Kept {
     }
 }
 
-/// Evaluations that a [`StagePlan`](crate::StagePlan) makes.
+/// Evaluations that a [`StagePlan`](crate::emitted::StagePlan) makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EvaluationCounts {
     /// Before the coupled stages; all of a splitting.

@@ -2,10 +2,10 @@
 
 /// Stopping criterion of the iteration for the coupled stages of a step.
 ///
-/// The iteration stops earlier if the stages have settled: see [`FixedPoint`](crate::FixedPoint) and [`Newton`](crate::Newton).
+/// The iteration stops earlier if the stages have settled: see [`FixedPoint`](crate::solver::FixedPoint) and [`Newton`](crate::solver::Newton).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stopping {
-    /// Most sweeps of one attempt at the stages, at least one; after these it has failed. [`Newton`](crate::Newton) makes up to three
+    /// Most sweeps of one attempt at the stages, at least one; after these it has failed. [`Newton`](crate::solver::Newton) makes up to three
     /// attempts: from the stages of the step before, from the start of the step, and with the derivatives of every stage.
     pub max_iterations: u32,
     /// With [`Plain`](crate::Plain) sums: how far the last sweep may move the positions of the stages, and the momenta where they

@@ -5,7 +5,7 @@ use core::array;
 use crate::error::Quantity;
 use crate::number::{Scalar, Vector};
 
-/// Memory of one [`Plan`](crate::Plan), made once and used for every step.
+/// Memory of one [`Plan`](crate::emitted::Plan), made once and used for every step.
 pub trait StageStorage<V: Vector>: Sized {
     /// Whether single doubles are read from groups of lanes that processors read faster from memory than from a register.
     const BROADCASTS: bool = false;

@@ -7,7 +7,7 @@
 /// scalars with more digits than a double there is a second double, with which the number is known to 106 bits.
 ///
 /// ```
-/// use symplectic::Coefficient;
+/// use symplectic::solver::Coefficient;
 ///
 /// const THIRD: Coefficient = Coefficient::new(1.0 / 3.0, 1.850371707708594e-17, 0.33333334);
 /// assert_eq!(THIRD.double() as f32, THIRD.single());
@@ -66,7 +66,8 @@ impl Coefficient {
 ///
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
-/// use symplectic::{Coefficient, Method};
+/// use symplectic::Method;
+/// use symplectic::solver::Coefficient;
 ///
 /// assert_eq!(Midpoint::COEFFICIENTS.a, [[Coefficient::exact(0.5)]]);
 /// ```

@@ -16,7 +16,8 @@ use crate::number::scalar::elementary;
 /// uses all that the processor has.
 ///
 /// ```
-/// use symplectic::{F64x4, Lanes, Scalar};
+/// use symplectic::Scalar;
+/// use symplectic::simd::{F64x4, Lanes};
 ///
 /// let x = F64x4::from_fn(|lane| lane as f64);
 /// assert_eq!((x * x + F64x4::from_f64(0.5)).to_array(), [0.5, 1.5, 4.5, 9.5]);

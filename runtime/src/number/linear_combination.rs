@@ -45,7 +45,9 @@ pub fn relative<R: Summation, T: Scalar, const N: usize>(
 ///
 /// ```
 /// use symplectic::nalgebra::Vector2;
-/// use symplectic::{Coefficient, Plain, combine, weights};
+/// use symplectic::Plain;
+/// use symplectic::emitted::{combine, weights};
+/// use symplectic::solver::Coefficient;
 ///
 /// let (q, force) = (Vector2::new(1.0, 2.0), Vector2::new(4.0, 8.0));
 /// let (low, mut out) = (Vector2::zeros(), Vector2::zeros());
@@ -91,7 +93,8 @@ pub fn increment<R: Summation, V: Vector>(vector: &mut V, h: f64, coefficient: C
 ///
 /// ```
 /// use symplectic::nalgebra::Vector1;
-/// use symplectic::{Compensated, total};
+/// use symplectic::Compensated;
+/// use symplectic::emitted::total;
 ///
 /// let (one, tiny, zero) = (Vector1::new(1.0), Vector1::new(f64::EPSILON / 8.0), Vector1::new(0.0));
 /// let (mut out, mut low) = (zero, zero);

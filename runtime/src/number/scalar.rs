@@ -15,7 +15,7 @@ use crate::number::array::array;
 /// among scalars, for side by side numbers have none: code that is generic over them cannot branch on a value.
 ///
 /// Sine, cosine, exponential function and logarithm of doubles are made of the same operations on every platform and in
-/// [lanes](crate::Lanes), with an error below one unit in the last place; they are not to the last bit those of `f64`, which are
+/// [lanes](crate::simd::Lanes), with an error below one unit in the last place; they are not to the last bit those of `f64`, which are
 /// the platform's. `Scalar::sin(x)` names them where `x` is known to be an f64.
 ///
 /// ```
@@ -53,7 +53,8 @@ pub trait Scalar:
     /// A scalar with more digits than a double takes [`Coefficient::low`] too, here and in [`weight`](Self::weight).
     ///
     /// ```
-    /// use symplectic::{Coefficient, Scalar};
+    /// use symplectic::Scalar;
+    /// use symplectic::solver::Coefficient;
     ///
     /// // 1 + 2⁻²⁴ + 2⁻⁶⁰: its double is the middle of two singles, of which the lower one is even.
     /// let c = Coefficient::new(1.0 + 2_f64.powi(-24), 2_f64.powi(-60), 1.0 + f32::EPSILON);
@@ -102,7 +103,7 @@ pub trait Scalar:
         self * factor + term
     }
 
-    /// The numbers, where they are doubles: those have rows, see [`Chain`](crate::Chain).
+    /// The numbers, where they are doubles: those have rows, see [`Chain`](crate::system::Chain).
     #[doc(hidden)]
     #[inline(always)]
     fn doubles(_numbers: &[Self]) -> Option<&[f64]> {

@@ -8,6 +8,7 @@ pub(crate) mod invariant;
 pub(crate) mod progress;
 pub(crate) mod states;
 
+pub use crate::method::{Inside, Interpolation};
 pub use dense::DenseOutput;
 pub use event::{Event, Events, Moment};
 pub use invariant::Invariant;

@@ -9,6 +9,12 @@ pub(crate) mod predictor;
 pub(crate) mod relax;
 pub(crate) mod simd;
 
+pub use crate::method::{
+    Change, Decoupling, EvaluationCounts, Failure, HalfTableau, Kept, Outcome, PartChange,
+    SecondOrderTableau, Solver, Span, StagePolynomial, StageStorage, StageTableau, Step, Stopping,
+    StoredEvaluations, Work,
+};
+pub use crate::number::{Coefficient, Coefficients};
 pub use fixed_point::FixedPoint;
 #[cfg(feature = "alloc")]
 pub use newton::{

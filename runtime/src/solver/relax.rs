@@ -9,7 +9,7 @@ use crate::number::rows::{Eight, Row, splats};
 use crate::number::summation::moved;
 use crate::number::{F64x8, Lanes, Scalar, Summation, Vector};
 
-/// [`combine`](crate::combine) for a stage that is solved for: notes in `change` how far `out` moved.
+/// [`combine`](crate::emitted::combine) for a stage that is solved for: notes in `change` how far `out` moved.
 #[inline(always)]
 pub fn relax<R: Summation, V: Vector, const N: usize>(
     out: &mut V,

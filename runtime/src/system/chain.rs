@@ -81,7 +81,8 @@ enum Ends {
 ///
 /// ```
 /// use symplectic::nalgebra::DVector;
-/// use symplectic::{Bonds, Chain, Error, Integrator, Scalar, State};
+/// use symplectic::{Error, Integrator, Scalar, State};
+/// use symplectic::system::{Bonds, Chain};
 ///
 /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
 ///

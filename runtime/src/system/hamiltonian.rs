@@ -68,7 +68,7 @@ pub trait Hamiltonian<V: Vector> {
     const SHARED_SLOPES: bool = false;
 
     /// [`velocity`](Self::velocity) and [`force`](Self::force) at one time and place, with the same bits: to be written out, and
-    /// [said](Self::SHARED_SLOPES), where they have costly parts in common. [`AtOnceInLanes`](crate::AtOnceInLanes) evaluates it;
+    /// [said](Self::SHARED_SLOPES), where they have costly parts in common. [`AtOnceInLanes`](crate::solver::AtOnceInLanes) evaluates it;
     /// where other bits come out of it for the first state, making an integrator fails with
     /// [`Error::NotTheSameSlopes`](crate::Error::NotTheSameSlopes).
     ///
@@ -180,7 +180,7 @@ pub trait Hamiltonian<V: Vector> {
 /// ```
 pub trait SeparableHamiltonian<V: Vector> {
     /// Whether the velocity is the momentum to the last bit, `H = |p|²/2 + U(t, q)`. The drifts of a splitting, and the sweeps
-    /// of [`SecondOrderInLanes`](crate::SecondOrderInLanes), then take the momentum for it: long vectors are not copied. Where it is said and not so,
+    /// of [`SecondOrderInLanes`](crate::solver::SecondOrderInLanes), then take the momentum for it: long vectors are not copied. Where it is said and not so,
     /// [`Error::NotUnitMasses`](crate::Error::NotUnitMasses) is what an integrator is made of.
     ///
     /// ```
@@ -214,17 +214,19 @@ pub trait SeparableHamiltonian<V: Vector> {
     const LOCAL_FORCE: bool = false;
 
     /// The force with the same bits as by [`force`](Self::force), in one walk along the components: to be written out, and
-    /// [said](Self::LOCAL_FORCE), where the force on a component sees those beside it and few others, as in a [`Chain`](crate::Chain).
+    /// [said](Self::LOCAL_FORCE), where the force on a component sees those beside it and few others, as in a [`Chain`](crate::system::Chain).
     ///
     /// For vectors on the heap, [unit masses](Self::UNIT_MASSES) and up to eight stages at different times
-    /// [`SecondOrderInLanes`](crate::SecondOrderInLanes) then makes sums over stages, evaluates, and notes what changed in one pass. The
+    /// [`SecondOrderInLanes`](crate::solver::SecondOrderInLanes) then makes sums over stages, evaluates, and notes what changed in one pass. The
     /// positions of the stages need not go to memory, but where a step does not go on from one before it, or its iteration does not
     /// settle in the first sweeps. Making that solver fails with [`Error::NotTheSameLocalForce`](crate::Error::NotTheSameLocalForce) where
     /// other bits come out of it in doubles or in lanes, for the present state or for one near it whose components all differ.
     ///
     /// ```
     /// use symplectic::nalgebra::DVector;
-    /// use symplectic::{Components, Scalar, SeparableHamiltonian, copy};
+    /// use symplectic::{Scalar, SeparableHamiltonian};
+    /// use symplectic::emitted::copy;
+    /// use symplectic::system::Components;
     ///
     /// /// V(q_k, q_{k+1}) = q_k² q_{k+1}²/2 between neighbours of unit mass.
     /// struct Coupled;
@@ -268,9 +270,9 @@ pub trait SeparableHamiltonian<V: Vector> {
 
     /// [`local_force`](Self::local_force) of doubles, with the same bits, of all stages and of eight neighbouring components at once: to be
     /// written out beside it, and [said](Self::ROW_FORCES), where the components feel each other in the same way everywhere, as in a
-    /// [`Chain`](crate::Chain). A system that wraps another one has to pass it on to keep it.
+    /// [`Chain`](crate::system::Chain). A system that wraps another one has to pass it on to keep it.
     ///
-    /// [`SecondOrderInLanes`](crate::SecondOrderInLanes) asks for it in place of `local_force` where a method has fewer than eight stages
+    /// [`SecondOrderInLanes`](crate::solver::SecondOrderInLanes) asks for it in place of `local_force` where a method has fewer than eight stages
     /// and the number of components is a multiple of eight: then no lane is without work, and results are made row by row too.
     /// Making that solver fails with [`Error::NotTheSameLocalForce`](crate::Error::NotTheSameLocalForce) where other bits come out of it
     /// than by `force`, for as many stages as there can be, each with a time and with positions of its own near those of the present
@@ -278,7 +280,10 @@ pub trait SeparableHamiltonian<V: Vector> {
     ///
     /// ```
     /// use symplectic::nalgebra::DVector;
-    /// use symplectic::{Components, F64x8, MOST_ROW_STAGES, Scalar, SeparableHamiltonian, StageRows, copy};
+    /// use symplectic::{Scalar, SeparableHamiltonian};
+    /// use symplectic::emitted::copy;
+    /// use symplectic::simd::F64x8;
+    /// use symplectic::system::{Components, MOST_ROW_STAGES, StageRows};
     ///
     /// /// H = Σ p_k²/2 + q_k⁴/4
     /// struct Quartic;
@@ -335,7 +340,7 @@ pub trait SeparableHamiltonian<V: Vector> {
     #[inline(always)]
     fn row_forces(&self, _rows: &mut impl StageRows) {}
 
-    /// For a system of [unit masses](Self::UNIT_MASSES) that can do it in one pass over its components, as a [`Chain`](crate::Chain)
+    /// For a system of [unit masses](Self::UNIT_MASSES) that can do it in one pass over its components, as a [`Chain`](crate::system::Chain)
     /// can: kicks of the momenta by one force, one after the other, and a drift of the positions,
     ///
     /// ```text

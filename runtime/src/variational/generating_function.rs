@@ -44,7 +44,7 @@ pub struct GeneratingFunction<V: Vector> {
 /// Q_i = q0 + h Σ_j a_ij velocity_j      P_i = p1 − h Σ_j (b̃_j − ã_ij) force_j
 /// ```
 ///
-/// by the iteration of [`FixedPoint`](crate::FixedPoint), with its stopping rule. `p0` and `q1` come from these stages; that they are
+/// by the iteration of [`FixedPoint`](crate::solver::FixedPoint), with its stopping rule. `p0` and `q1` come from these stages; that they are
 /// the derivatives is what symplecticity says. **It holds for symplectic methods only**, `b = b̃` and
 /// `b_i ã_ij + b̃_j a_ji = b_i b̃_j`, which is every method that the macro derives; for another one that is written by
 /// hand the value means nothing.
@@ -73,7 +73,8 @@ pub struct GeneratingFunction<V: Vector> {
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
 /// use symplectic::nalgebra::Vector1;
-/// use symplectic::{Error, generating_function, hamiltonian};
+/// use symplectic::{Error, hamiltonian};
+/// use symplectic::variational::generating_function;
 ///
 /// # fn main() -> Result<(), Error> {
 /// // H = q·p, which has no Lagrangian. The midpoint rule multiplies q by (1 + h/2)/(1 − h/2), that is 5/3, and
@@ -117,7 +118,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     /// `p0` and `q1` of which are the momentum before and the position after it, up to rounding.
     ///
     /// The stages are solved for once more, and memory is allocated: see
-    /// [`generating_function`](crate::generating_function).
+    /// [`generating_function`](crate::variational::generating_function).
     ///
     /// # Errors
     ///

@@ -88,7 +88,7 @@ impl<V: Vector> SeparableHamiltonian<V> for Oscillators {
 
     #[inline(always)]
     fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
-        symplectic::copy(velocity, p);
+        symplectic::emitted::copy(velocity, p);
     }
 
     #[inline(always)]

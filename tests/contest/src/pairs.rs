@@ -3,9 +3,8 @@
 mod few;
 mod many;
 
-use symplectic::{
-    Error, Hamiltonian, Integrator, Method, ProvedFor, Solver, State, Summation, Vector,
-};
+use symplectic::solver::Solver;
+use symplectic::{Error, Hamiltonian, Integrator, Method, ProvedFor, State, Summation, Vector};
 
 use crate::baseline::systems;
 use symplectic_tests::measure::largest;

@@ -8,9 +8,8 @@
 use core::ops::ControlFlow;
 
 use symplectic::nalgebra::{SVector, Vector1};
-use symplectic::{
-    Bonds, Chain, Error, Event, Integrator, Method, Moment, Scalar, SeparableHamiltonian, State,
-};
+use symplectic::system::{Bonds, Chain};
+use symplectic::{Error, Event, Integrator, Method, Moment, Scalar, SeparableHamiltonian, State};
 
 symplectic::tableau! {
     /// Explicit for separable systems, order 2.

@@ -8,7 +8,8 @@
 //! *Reference:* recorded for few particles, [`recorded`]; for many a finer run.
 
 use symplectic::nalgebra::DVector;
-use symplectic::{Bonds, Chain, Scalar, State};
+use symplectic::system::{Bonds, Chain};
+use symplectic::{Scalar, State};
 
 use super::Needs;
 use crate::references;

@@ -8,7 +8,8 @@
 //! *Reference:* recorded, [`recorded`].
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Bonds, Chain, Scalar, State};
+use symplectic::system::{Bonds, Chain};
+use symplectic::{Scalar, State};
 
 use super::Needs;
 use crate::references;

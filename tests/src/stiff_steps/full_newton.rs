@@ -11,10 +11,11 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use symplectic::nalgebra::SVector;
-use symplectic::{
-    Class, Failure, HalfTableau, Hamiltonian, Inside, Kept, Outcome, Quantity, Scalar,
-    SeparableHamiltonian, Solver, StageStorage, StageTableau, Step, Stopping, Summation, Work,
+use symplectic::output::Inside;
+use symplectic::solver::{
+    Failure, HalfTableau, Kept, Outcome, Solver, StageStorage, StageTableau, Step, Stopping, Work,
 };
+use symplectic::{Class, Hamiltonian, Quantity, Scalar, SeparableHamiltonian, Summation};
 
 use super::systems::{Steps, Stiff};
 

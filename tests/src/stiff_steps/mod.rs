@@ -11,10 +11,8 @@ mod systems;
 use std::rc::Rc;
 
 use symplectic::nalgebra::SVector;
-use symplectic::{
-    Analytic, Compensated, Dense, Differences, Error, Integrator, LinearSolver, Method, Newton,
-    Plain, Scalar, State, Summation,
-};
+use symplectic::solver::{Analytic, Dense, Differences, LinearSolver, Newton};
+use symplectic::{Compensated, Error, Integrator, Method, Plain, Scalar, State, Summation};
 
 use crate::methods::{Gauss2, Gauss3, Gauss4, Lobatto3, Midpoint, RadauRight2};
 use crate::references::Wide;

@@ -6,7 +6,8 @@
 )]
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Jacobian, Linearized, Scalar, SeparableHamiltonian};
+use symplectic::solver::{Jacobian, Linearized};
+use symplectic::{Scalar, SeparableHamiltonian};
 
 /// A separable system with unit masses, of `N` components.
 pub trait Stiff<const N: usize>: Copy {

@@ -32,36 +32,36 @@ impl<'g, 'a> Chain<'g, 'a> {
             pub struct #name;
 
             #[allow(unused_variables)]
-            impl ::symplectic::SplittingPlan for #name {
-                type Class = ::symplectic::#class;
+            impl ::symplectic::emitted::SplittingPlan for #name {
+                type Class = ::symplectic::emitted::#class;
 
                 const EVALUATIONS: u32 = #count;
                 const CARRIED: u32 = #carried;
 
                 #[inline(always)]
                 fn apply<
-                    R: ::symplectic::Summation,
-                    V: ::symplectic::Vector,
-                    S: ::symplectic::Hamiltonian<V, Class = Self::Class>,
-                    K: ::symplectic::Moves,
-                    W: ::symplectic::Witness,
+                    R: ::symplectic::emitted::Summation,
+                    V: ::symplectic::emitted::Vector,
+                    S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+                    K: ::symplectic::emitted::Moves,
+                    W: ::symplectic::emitted::Witness,
                 >(
-                    span: ::symplectic::Span,
+                    span: ::symplectic::emitted::Span,
                     system: &S,
-                    evaluations: &mut ::symplectic::Evaluations<V>,
-                    kept: ::symplectic::Kept,
-                    state: ::symplectic::Outcome<'_, V>,
+                    evaluations: &mut ::symplectic::emitted::Evaluations<V>,
+                    kept: ::symplectic::emitted::Kept,
+                    state: ::symplectic::emitted::Outcome<'_, V>,
                     moves: &mut K,
                     witness: &mut W,
                 ) {
-                    let ::symplectic::Evaluations { velocity, force } = evaluations;
-                    let ::symplectic::Outcome { q, q_low, p, p_low } = state;
+                    let ::symplectic::emitted::Evaluations { velocity, force } = evaluations;
+                    let ::symplectic::emitted::Outcome { q, q_low, p, p_low } = state;
                     #(#lines)*
                 }
             }
         };
         Plan {
-            name: quote!(::symplectic::Splitting<#name>),
+            name: quote!(::symplectic::emitted::Splitting<#name>),
             code,
         }
     }
@@ -79,14 +79,14 @@ impl<'g, 'a> Chain<'g, 'a> {
         if !matches!(node, Node::Force(_)) {
             return quote! {
                 moves.drift::<R, V, S, W>(
-                    ::symplectic::Drift { span, stage: #stage, time: #time, weight: #weight, known: #known },
+                    ::symplectic::emitted::Drift { span, stage: #stage, time: #time, weight: #weight, known: #known },
                     system, (&mut *velocity, &mut *force), (&mut *q, &mut *q_low), (&mut *p, &mut *p_low), witness,
                 );
             };
         }
         let evaluate = quote! {
             moves.force::<R, V, S, W>(
-                ::symplectic::Force { span, stage: #stage, time: #time },
+                ::symplectic::emitted::Force { span, stage: #stage, time: #time },
                 system, &mut *force, &mut *q, (&mut *p, &mut *p_low), witness,
             );
         };

@@ -36,7 +36,7 @@ impl Composed<'_> {
         let class = class_name(self.class);
         // Pairs of memories of pairs.
         let memory = names.iter().rev().fold(TokenStream::new(), |rest, plan| {
-            let own = quote!(<#plan as ::symplectic::Plan>::Memory<V, S, N>);
+            let own = quote!(<#plan as ::symplectic::emitted::Plan>::Memory<V, S, N>);
             if rest.is_empty() {
                 own
             } else {
@@ -75,48 +75,48 @@ impl Composed<'_> {
         };
         let take = arms(&|plan, place| {
             let place = borrowed(place);
-            quote!(<#plan as ::symplectic::Plan>::take::<R, V, S, N>(step, system, #place, kept, stopping, outcome))
+            quote!(<#plan as ::symplectic::emitted::Plan>::take::<R, V, S, N>(step, system, #place, kept, stopping, outcome))
         });
         let observe = arms(&|plan, place| {
             let place = borrowed(place);
-            quote!(<#plan as ::symplectic::Plan>::observe::<R, V, S, N, W>(step, system, #place, outcome, witness))
+            quote!(<#plan as ::symplectic::emitted::Plan>::observe::<R, V, S, N, W>(step, system, #place, outcome, witness))
         });
         let substeps = self.list();
-        let vector = quote!(V: ::symplectic::Vector);
-        let solver = quote!(N: ::symplectic::Solver<V, S>);
+        let vector = quote!(V: ::symplectic::emitted::Vector);
+        let solver = quote!(N: ::symplectic::emitted::Solver<V, S>);
         let arguments = quote! {
-            R: ::symplectic::Summation, #vector, S: ::symplectic::Hamiltonian<V, Class = Self::Class>, #solver
+            R: ::symplectic::emitted::Summation, #vector, S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>, #solver
         };
         quote! {
             #(#codes)*
 
             pub struct #name;
 
-            impl ::symplectic::Substeps for #name {
-                type Class = ::symplectic::#class;
-                type Memory<#vector, S: ::symplectic::Hamiltonian<V>, #solver> = #memory;
+            impl ::symplectic::emitted::Substeps for #name {
+                type Class = ::symplectic::emitted::#class;
+                type Memory<#vector, S: ::symplectic::emitted::Hamiltonian<V>, #solver> = #memory;
 
-                const SUBSTEPS: &'static [::symplectic::Substep] = &[#(#substeps),*];
+                const SUBSTEPS: &'static [::symplectic::emitted::Substep] = &[#(#substeps),*];
 
                 #[inline]
                 fn take<#arguments>(
                     number: usize,
-                    step: &::symplectic::Step<'_, V>,
+                    step: &::symplectic::emitted::Step<'_, V>,
                     system: &S,
                     memory: &mut Self::Memory<V, S, N>,
-                    kept: ::symplectic::Kept,
-                    stopping: ::symplectic::Stopping,
-                    outcome: ::symplectic::Outcome<'_, V>,
-                ) -> ::core::result::Result<::symplectic::Work, ::symplectic::Failure> {
+                    kept: ::symplectic::emitted::Kept,
+                    stopping: ::symplectic::emitted::Stopping,
+                    outcome: ::symplectic::emitted::Outcome<'_, V>,
+                ) -> ::core::result::Result<::symplectic::emitted::Work, ::symplectic::emitted::Failure> {
                     #take
                 }
 
-                fn observe<#arguments, W: ::symplectic::Witness>(
+                fn observe<#arguments, W: ::symplectic::emitted::Witness>(
                     number: usize,
-                    step: &::symplectic::Step<'_, V>,
+                    step: &::symplectic::emitted::Step<'_, V>,
                     system: &S,
                     memory: &mut Self::Memory<V, S, N>,
-                    outcome: ::symplectic::Outcome<'_, V>,
+                    outcome: ::symplectic::emitted::Outcome<'_, V>,
                     witness: &mut W,
                 ) {
                     #observe
@@ -140,10 +140,10 @@ impl Composed<'_> {
             let (at, size) = (coefficient(&start), coefficient(&fraction));
             let count = literal::count(stages);
             list.push(quote! {
-                ::symplectic::Substep {
+                ::symplectic::emitted::Substep {
                     start: #at,
                     fraction: #size,
-                    kept: ::symplectic::Kept::new(#follows, #equal),
+                    kept: ::symplectic::emitted::Kept::new(#follows, #equal),
                     stages: #count,
                 }
             });

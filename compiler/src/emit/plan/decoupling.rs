@@ -33,8 +33,8 @@ pub(super) fn code(graph: &StepGraph<'_>, known: &Known) -> TokenStream {
     };
     let (to_stages, from_stages) = (rows(&blocks.vectors), rows(&blocks.inverse));
     quote! {
-        const DECOUPLING: ::core::option::Option<::symplectic::Decoupling> =
-            ::core::option::Option::Some(::symplectic::Decoupling {
+        const DECOUPLING: ::core::option::Option<::symplectic::emitted::Decoupling> =
+            ::core::option::Option::Some(::symplectic::emitted::Decoupling {
                 blocks: &[#(#values),*],
                 to_stages: #to_stages,
                 from_stages: #from_stages,

@@ -50,11 +50,13 @@ impl Form {
                     // What came before the sweeps is an increment already.
                     let weights = nonzero.iter().map(|&j| match evaluated(term(j)) {
                         true => weight_slot(term(j)),
-                        false => quote!(<V::Scalar as ::symplectic::Scalar>::from_f64(1.0)),
+                        false => {
+                            quote!(<V::Scalar as ::symplectic::emitted::Scalar>::from_f64(1.0))
+                        }
                     });
-                    quote!(::symplectic::relative::<R, _, _>([#(#row),*], [#(#weights),*]))
+                    quote!(::symplectic::emitted::relative::<R, _, _>([#(#row),*], [#(#weights),*]))
                 } else {
-                    quote!(::symplectic::factors([#(#row),*]))
+                    quote!(::symplectic::emitted::factors([#(#row),*]))
                 }
             }
             Form::Weighted => weights(nonzero.iter().map(|&j| &coefficients[j])),
@@ -64,7 +66,7 @@ impl Form {
 
     /// What makes an increment of an evaluation that has just been written into its place; nothing in the other form.
     pub(super) fn increment(&self, evaluation: &Evaluation<'_>, node: Node) -> TokenStream {
-        self.scaled(evaluation, node, &quote!(::symplectic::scale))
+        self.scaled(evaluation, node, &quote!(::symplectic::emitted::scale))
     }
 
     /// [`increment`](Self::increment) in a sweep, where it may be left for later.
@@ -73,7 +75,11 @@ impl Form {
         evaluation: &Evaluation<'_>,
         node: Node,
     ) -> TokenStream {
-        self.scaled(evaluation, node, &quote!(::symplectic::increment::<R, V>))
+        self.scaled(
+            evaluation,
+            node,
+            &quote!(::symplectic::emitted::increment::<R, V>),
+        )
     }
 
     fn scaled(
@@ -101,7 +107,7 @@ impl Form {
                 let weights = evaluations
                     .iter()
                     .map(|evaluation| literal::coefficient(&evaluation.weight));
-                quote!(let #name = ::symplectic::weights::<V::Scalar, _>(step.size, [#(#weights),*]);)
+                quote!(let #name = ::symplectic::emitted::weights::<V::Scalar, _>(step.size, [#(#weights),*]);)
             }
         }
     }
@@ -124,11 +130,11 @@ impl Form {
         let slots = nonzero.iter().map(|&j| slot(term(j)));
         match self {
             Form::Increments(_) => {
-                quote!(::symplectic::total::<R, V, _>(#out, #base, [#(&#slots),*]);)
+                quote!(::symplectic::emitted::total::<R, V, _>(#out, #base, [#(&#slots),*]);)
             }
             Form::Weighted => {
                 let weights = weights(nonzero.iter().map(|&j| &evaluations[j].weight));
-                quote!(::symplectic::weighted_total::<R, V, _>(#out, #base, #weights, [#(&#slots),*]);)
+                quote!(::symplectic::emitted::weighted_total::<R, V, _>(#out, #base, #weights, [#(&#slots),*]);)
             }
         }
     }
@@ -140,13 +146,13 @@ impl Form {
             _ => quote!(q1, q1_low),
         };
         let (slot, weight) = (slot(node), literal::coefficient(&evaluation.weight));
-        quote!(::symplectic::advance::<R, V>(#out, step.size, #weight, &#slot);)
+        quote!(::symplectic::emitted::advance::<R, V>(#out, step.size, #weight, &#slot);)
     }
 
     /// Sets a stage value to the start of the step.
     pub(super) fn reset(node: Node) -> TokenStream {
         let (stage, start) = (slot(node), start(node));
-        quote!(::symplectic::copy(&mut #stage, #start);)
+        quote!(::symplectic::emitted::copy(&mut #stage, #start);)
     }
 }
 
@@ -167,5 +173,5 @@ fn weight_slot(node: Node) -> TokenStream {
 /// Factors of evaluations, times the step size.
 fn weights<'n, 'a: 'n>(values: impl Iterator<Item = &'n Number<'a>>) -> TokenStream {
     let values = values.map(literal::coefficient);
-    quote!(::symplectic::weights(step.size, [#(#values),*]))
+    quote!(::symplectic::emitted::weights(step.size, [#(#values),*]))
 }

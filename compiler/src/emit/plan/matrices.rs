@@ -68,12 +68,12 @@ impl HalfTableau {
             Some(Extension { rows, order }) => {
                 let legendre = arrays(rows);
                 let order = Literal::usize_unsuffixed(*order);
-                quote!(::core::option::Option::Some(::symplectic::StagePolynomial { legendre: #legendre, order: #order }))
+                quote!(::core::option::Option::Some(::symplectic::emitted::StagePolynomial { legendre: #legendre, order: #order }))
             }
             None => quote!(::core::option::Option::None),
         };
         quote! {
-            ::symplectic::HalfTableau {
+            ::symplectic::emitted::HalfTableau {
                 count: #count,
                 columns: #columns,
                 times: &#times,
@@ -101,7 +101,7 @@ impl Matrices<'_, '_, '_, '_> {
         let [positions, momenta] = self.halves(&lanes);
         let place = |half: &str| {
             let half = literal::identifier(half);
-            quote!(<#name as ::symplectic::StageTableau>::#half)
+            quote!(<#name as ::symplectic::emitted::StageTableau>::#half)
         };
         let positions = self
             .known
@@ -125,14 +125,14 @@ impl Matrices<'_, '_, '_, '_> {
         let lanes = literal::identifier(lanes.name);
         let increments = self.increments();
         quote! {
-            impl ::symplectic::StageTableau for #name {
-                type Lanes = ::symplectic::#lanes;
+            impl ::symplectic::emitted::StageTableau for #name {
+                type Lanes = ::symplectic::emitted::#lanes;
                 type Groups<T: ::core::fmt::Debug> = [T; #groups];
 
                 const INCREMENTS: bool = #increments;
-                const POSITIONS: ::symplectic::HalfTableau = #positions;
-                const MOMENTA: ::symplectic::HalfTableau = #momenta;
-                const SECOND_ORDER: ::core::option::Option<::symplectic::SecondOrderTableau> = #second_order;
+                const POSITIONS: ::symplectic::emitted::HalfTableau = #positions;
+                const MOMENTA: ::symplectic::emitted::HalfTableau = #momenta;
+                const SECOND_ORDER: ::core::option::Option<::symplectic::emitted::SecondOrderTableau> = #second_order;
                 #decoupling
 
                 #[inline(always)]
@@ -143,10 +143,10 @@ impl Matrices<'_, '_, '_, '_> {
                 }
 
                 #[inline(always)]
-                fn stored<V: ::symplectic::Vector>(stages: &Self::Stages<V>) -> [::symplectic::StoredEvaluations<'_, V>; 2] {
+                fn stored<V: ::symplectic::emitted::Vector>(stages: &Self::Stages<V>) -> [::symplectic::emitted::StoredEvaluations<'_, V>; 2] {
                     [
-                        ::symplectic::StoredEvaluations { values: &stages.velocity, carried: #carried_velocities },
-                        ::symplectic::StoredEvaluations { values: &stages.force, carried: #carried_forces },
+                        ::symplectic::emitted::StoredEvaluations { values: &stages.velocity, carried: #carried_velocities },
+                        ::symplectic::emitted::StoredEvaluations { values: &stages.force, carried: #carried_forces },
                     ]
                 }
             }
@@ -237,7 +237,7 @@ impl Matrices<'_, '_, '_, '_> {
         });
         let (times, rest) = (fill(&|i| nodes[i]), fill(&|i| 1.0 - nodes[i]));
         quote! {
-            ::core::option::Option::Some(::symplectic::SecondOrderTableau {
+            ::core::option::Option::Some(::symplectic::emitted::SecondOrderTableau {
                 nodes: &#times,
                 columns: &[#(&#columns),*],
                 of_forces: &[#(&#of_forces),*],

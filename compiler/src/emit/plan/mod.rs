@@ -69,7 +69,7 @@ pub(super) fn plans(
     Ok(names.map(|(class, name)| {
         if long && class == Class::General {
             return Plan {
-                name: quote!(::symplectic::SeparableOnly),
+                name: quote!(::symplectic::emitted::SeparableOnly),
                 code: TokenStream::new(),
             };
         }
@@ -85,7 +85,7 @@ pub(super) fn plans(
             substeps: &substeps,
         };
         Plan {
-            name: quote!(::symplectic::Composition<#name>),
+            name: quote!(::symplectic::emitted::Composition<#name>),
             code: composed.code(name),
         }
     }))
@@ -122,7 +122,7 @@ fn of_stages(
     let increments = increments.map(|increments| {
         quote! {
             #[inline]
-            fn increments<V: ::symplectic::Vector>(step: &::symplectic::Step<'_, V>, stages: &mut Self::Stages<V>) {
+            fn increments<V: ::symplectic::emitted::Vector>(step: &::symplectic::emitted::Step<'_, V>, stages: &mut Self::Stages<V>) {
                 #increments
             }
         }
@@ -131,19 +131,19 @@ fn of_stages(
     let coupling = identifier(bodies.coupling);
     let [at_begin, at_start, in_sweep, at_finish] = bodies.counts.map(Literal::usize_unsuffixed);
     let carried = Literal::usize_unsuffixed(bodies.carried);
-    let system = quote!(S: ::symplectic::Hamiltonian<V, Class = Self::Class>);
+    let system = quote!(S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>);
     let arguments = quote! {
-        step: &::symplectic::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>
+        step: &::symplectic::emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>
     };
     let code = quote! {
         pub struct #name;
 
         #[allow(unused_variables)]
-        impl ::symplectic::StagePlan for #name {
-            type Class = ::symplectic::#class;
-            type Stages<V: ::symplectic::Vector> = #stages;
+        impl ::symplectic::emitted::StagePlan for #name {
+            type Class = ::symplectic::emitted::#class;
+            type Stages<V: ::symplectic::emitted::Vector> = #stages;
 
-            const EVALUATIONS: ::symplectic::EvaluationCounts = ::symplectic::EvaluationCounts {
+            const EVALUATIONS: ::symplectic::emitted::EvaluationCounts = ::symplectic::emitted::EvaluationCounts {
                 begin: #at_begin,
                 start: #at_start,
                 sweep: #in_sweep,
@@ -152,25 +152,25 @@ fn of_stages(
             };
 
             #[inline]
-            fn begin<R: ::symplectic::Summation, V: ::symplectic::Vector, #system>(#arguments, kept: ::symplectic::Kept) {
+            fn begin<R: ::symplectic::emitted::Summation, V: ::symplectic::emitted::Vector, #system>(#arguments, kept: ::symplectic::emitted::Kept) {
                 #begin
             }
 
             #[inline]
-            fn sweep<R: ::symplectic::Summation, V: ::symplectic::Vector, #system>(#arguments) -> ::symplectic::Change {
+            fn sweep<R: ::symplectic::emitted::Summation, V: ::symplectic::emitted::Vector, #system>(#arguments) -> ::symplectic::emitted::Change {
                 #sweep
             }
 
             #increments
 
             #[inline]
-            fn finish<R: ::symplectic::Summation, V: ::symplectic::Vector, #system, W: ::symplectic::Witness>(
+            fn finish<R: ::symplectic::emitted::Summation, V: ::symplectic::emitted::Vector, #system, W: ::symplectic::emitted::Witness>(
                 #arguments,
-                kept: ::symplectic::Kept,
-                outcome: ::symplectic::Outcome<'_, V>,
+                kept: ::symplectic::emitted::Kept,
+                outcome: ::symplectic::emitted::Outcome<'_, V>,
                 witness: &mut W,
             ) {
-                let ::symplectic::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
+                let ::symplectic::emitted::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
                 #finish
             }
         }
@@ -178,7 +178,7 @@ fn of_stages(
         #matrices
     };
     Plan {
-        name: quote!(::symplectic::#coupling<#name>),
+        name: quote!(::symplectic::emitted::#coupling<#name>),
         code,
     }
 }

@@ -36,7 +36,7 @@ impl<'g, 'a> Stored<'g, 'a> {
     pub(super) fn bodies(&self) -> Bodies {
         let forces = literal::count(self.graph.forces.len());
         let velocities = literal::count(self.graph.velocities.len());
-        let slots = quote!(let ::symplectic::Stages { q, p, velocity, force } = stages;);
+        let slots = quote!(let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;);
         let [begin, sweep] = [self.begin(), self.sweep()];
         let [increments, finish] = [self.increments(), self.finish()];
         let evaluations = |nodes: &[Node]| {
@@ -52,7 +52,7 @@ impl<'g, 'a> Stored<'g, 'a> {
             } else {
                 "Coupled"
             },
-            stages: quote!(::symplectic::Stages<V, #forces, #velocities>),
+            stages: quote!(::symplectic::emitted::Stages<V, #forces, #velocities>),
             begin: quote!(#slots #begin),
             sweep: quote!(#slots #sweep),
             increments: (!increments.is_empty()).then(|| quote!(#slots #increments)),
@@ -119,7 +119,7 @@ impl<'g, 'a> Stored<'g, 'a> {
         let copies = (!others.is_empty()).then(|| {
             let first = literal::count(index(first));
             let others = others.iter().map(|&node| literal::count(index(node)));
-            quote!(::symplectic::copy_to(velocity, #first, [#(#others),*]);)
+            quote!(::symplectic::emitted::copy_to(velocity, #first, [#(#others),*]);)
         });
         let increments = velocities.iter().map(|&node| self.increment(node));
         let positions = self.stages_of_kind(Node::Position(0));
@@ -163,12 +163,12 @@ impl<'g, 'a> Stored<'g, 'a> {
         let rows = matrix.iter().map(|row| literal::array(row));
         let indices = nodes.iter().map(|&node| literal::count(index(node)));
         let array = evaluation_name(kind);
-        Some(quote!(::symplectic::transform(#array, [#(#indices),*], [#(#rows),*]);))
+        Some(quote!(::symplectic::emitted::transform(#array, [#(#indices),*], [#(#rows),*]);))
     }
 
     fn sweep(&self) -> TokenStream {
         if self.phases.coupled.is_empty() {
-            return quote!(::symplectic::Change::default());
+            return quote!(::symplectic::emitted::Change::default());
         }
         // Each kind sees the newest of the kind before it, which converges in fewer sweeps than all
         // stage values from all old evaluations. The positions come last: how much they change says what
@@ -196,7 +196,7 @@ impl<'g, 'a> Stored<'g, 'a> {
                     Node::Position(_) => "q",
                     _ => "p",
                 });
-                quote!(::symplectic::relax::<R, V, _>(&mut #stage, #base, #sum, &mut change.#change);)
+                quote!(::symplectic::emitted::relax::<R, V, _>(&mut #stage, #base, #sum, &mut change.#change);)
             }
             Some(_) => TokenStream::new(),
             None => {
@@ -206,7 +206,7 @@ impl<'g, 'a> Stored<'g, 'a> {
             }
         });
         quote! {
-            let mut change = ::symplectic::Change::default();
+            let mut change = ::symplectic::emitted::Change::default();
             #(#weights)*
             #(#lines)*
             change
@@ -270,7 +270,7 @@ impl<'g, 'a> Stored<'g, 'a> {
             Some(_) => {
                 let (stage, base) = (slot(node), base(node));
                 let sum = self.form.sum(self.graph, node, |_| false);
-                quote!(::symplectic::combine::<R, V, _>(&mut #stage, #base, #sum);)
+                quote!(::symplectic::emitted::combine::<R, V, _>(&mut #stage, #base, #sum);)
             }
             None => self.evaluation(node, &self.increment(node)),
         }
@@ -293,7 +293,7 @@ impl<'g, 'a> Stored<'g, 'a> {
             let [from, to] = [last, node].map(|node| literal::count(index(node)));
             return quote! {
                 if !kept.evaluation { #evaluate }
-                ::symplectic::copy_to(#array, #from, [#to]);
+                ::symplectic::emitted::copy_to(#array, #from, [#to]);
                 #increment
             };
         }

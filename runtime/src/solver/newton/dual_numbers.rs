@@ -64,7 +64,8 @@ impl<V: Vector, S> HamiltonianInDuals<V> for S where S: Hamiltonian<V> + Hamilto
 /// ```
 /// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
 /// use symplectic::nalgebra::SVector;
-/// use symplectic::{Dense, DualNumbers, Error, Integrator, Newton, Scalar, SeparableHamiltonian, State};
+/// use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, State};
+/// use symplectic::solver::{Dense, DualNumbers, Newton};
 ///
 /// /// H = p²/2 + 10⁸ (1 − cos q)
 /// struct Stiff;

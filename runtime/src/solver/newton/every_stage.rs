@@ -9,7 +9,7 @@ use crate::error::Quantity;
 use crate::method::Failure;
 use crate::number::Scalar;
 
-/// All stages of a step, for a [`LinearSolver`](crate::LinearSolver) that takes the derivatives at each of them.
+/// All stages of a step, for a [`LinearSolver`](crate::solver::LinearSolver) that takes the derivatives at each of them.
 #[derive(Clone, Copy, Debug)]
 pub struct EveryStage<'a, V> {
     /// Positions of the stages, where the forces are.

@@ -16,7 +16,7 @@ use crate::system::Hamiltonian;
 /// Steps that are left to Newton's iteration after one that the fixed-point iteration has failed at.
 const PATIENCE: u32 = 16;
 
-/// [`FixedPoint`](crate::FixedPoint), and [`Newton`] where that fails: for systems that are stiff for a while.
+/// [`FixedPoint`](crate::solver::FixedPoint), and [`Newton`] where that fails: for systems that are stiff for a while.
 ///
 /// A step that the fixed-point iteration fails at is counted as [rejected](crate::Statistics::rejected); the next 16 go to
 /// Newton's at once. Where it fails too, the error is that of Newton's iteration.
@@ -24,7 +24,8 @@ const PATIENCE: u32 = 16;
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
 /// use symplectic::nalgebra::Vector1;
-/// use symplectic::{Dense, Differences, Error, FixedPointThenNewton, Integrator, State, separable};
+/// use symplectic::{Error, Integrator, State, separable};
+/// use symplectic::solver::{Dense, Differences, FixedPointThenNewton};
 ///
 /// # fn main() -> Result<(), Error> {
 /// // An oscillator that is stiff for a while: ω² = 1 + 10⁸ exp(−(t − 5)²).

@@ -20,7 +20,7 @@ impl<T: Scalar> BandMatrix<T> {
     /// A zero matrix.
     ///
     /// ```
-    /// use symplectic::BandMatrix;
+    /// use symplectic::solver::BandMatrix;
     ///
     /// let mut tridiagonal = BandMatrix::new(3, 1);
     /// tridiagonal.set(0, 1, 2.0);
@@ -138,13 +138,12 @@ impl<T: Scalar> Jacobian<T> {
     }
 }
 
-/// A system that knows its second derivatives, for [`Newton`](crate::Newton) with [`Analytic`].
+/// A system that knows its second derivatives, for [`Newton`](crate::solver::Newton) with [`Analytic`].
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
-/// use symplectic::{
-///     Analytic, Dense, Error, Integrator, Jacobian, Linearized, Newton, Scalar, SeparableHamiltonian, State,
-/// };
+/// use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, State};
+/// use symplectic::solver::{Analytic, Dense, Jacobian, Linearized, Newton};
 ///
 /// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
 ///

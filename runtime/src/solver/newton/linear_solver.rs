@@ -55,7 +55,7 @@ impl Parts {
     }
 }
 
-/// Solves the linear systems of a [`Newton`](crate::Newton) iteration for a system `S` over the vectors `V`.
+/// Solves the linear systems of a [`Newton`](crate::solver::Newton) iteration for a system `S` over the vectors `V`.
 ///
 /// [`Dense`] and [`Banded`] hold matrices. One that holds none, such as a Krylov method, notes the point in
 /// [`linearize`](Self::linearize), has nothing or a preconditioner to do in [`factor`](Self::factor), and applies the
@@ -100,7 +100,7 @@ pub trait LinearSolver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
     /// Full Newton: takes the derivatives at every stage, and makes corrections of the residuals `x` of `h velocity` and `y` of
     /// `h force`, stage by stage; of a general system both are in `x`, component by component by turns.
     ///
-    /// [`Newton`](crate::Newton) asks for it where derivatives at one point do not contract well.
+    /// [`Newton`](crate::solver::Newton) asks for it where derivatives at one point do not contract well.
     ///
     /// # Errors
     ///

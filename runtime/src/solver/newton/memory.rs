@@ -14,7 +14,7 @@ use crate::method::{StageStorage, StageTableau};
 use crate::number::Vector;
 use crate::system::{Class, Hamiltonian};
 
-/// The memory of a [`Newton`](crate::Newton) iteration for the plan `P`.
+/// The memory of a [`Newton`](crate::solver::Newton) iteration for the plan `P`.
 pub struct NewtonMemory<V: Vector, P, S: Hamiltonian<V>, L: LinearSolver<V, S>> {
     /// Stage values.
     pub(super) q: Vec<V>,

@@ -42,7 +42,7 @@ use sweep::ByIncrements;
 /// ```
 ///
 /// and that of a general one `(1 − h A ⊗ J) (x, y) = (ρ_v, ρ_f)`, where the columns of `y` have `Ã`. The stages are
-/// decoupled by the [`Decoupling`](crate::Decoupling) of the method, so that in place of one matrix with sn rows there are
+/// decoupled by the [`Decoupling`](crate::solver::Decoupling) of the method, so that in place of one matrix with sn rows there are
 /// s/2 complex ones with n, as in Hairer & Wanner, *Solving ODEs II*, IV.8.
 ///
 /// # Derivatives
@@ -64,7 +64,7 @@ use sweep::ByIncrements;
 ///   all evaluations move by one unit, and a change up to 16 times the response is noise. A stiff spring `k (r − 1)` is evaluated with an
 ///   error of `k` units; momenta then are uncertain by `1/h` units of the positions.
 ///
-/// With [`Plain`](crate::Plain) sums it stops earlier, as [`FixedPoint`](crate::FixedPoint) does. The change that was left is
+/// With [`Plain`](crate::Plain) sums it stops earlier, as [`FixedPoint`](crate::solver::FixedPoint) does. The change that was left is
 /// [`Statistics::largest_residual`](crate::Statistics::largest_residual).
 ///
 /// A step fails with [`Error::NoConvergence`](crate::Error::NoConvergence) if full Newton does not converge either, and with
@@ -73,7 +73,8 @@ use sweep::ByIncrements;
 /// ```
 /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
 /// use symplectic::nalgebra::Vector2;
-/// use symplectic::{Dense, Differences, Error, Integrator, Newton, State, separable};
+/// use symplectic::{Error, Integrator, State, separable};
+/// use symplectic::solver::{Dense, Differences, Newton};
 ///
 /// # fn main() -> Result<(), Error> {
 /// // A pendulum on a stiff spring: H = |p|²/2 + 10⁸ (|q| − 1)²/2 + q₂.

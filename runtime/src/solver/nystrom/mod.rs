@@ -40,7 +40,7 @@ use crate::system::{Class, Hamiltonian};
 /// Methods that have no such coefficients, and systems that are not separable, are taken as by [`InLanes`].
 ///
 /// For vectors on the heap and up to eight stages at different times a system of unit masses whose force is
-/// [local](crate::SeparableHamiltonian::LOCAL_FORCE), a [`Chain`](crate::Chain), is gone through once in a sweep, as long as a step goes
+/// [local](crate::SeparableHamiltonian::LOCAL_FORCE), a [`Chain`](crate::system::Chain), is gone through once in a sweep, as long as a step goes
 /// on from the one before and settles in its first sweeps: the positions of the stages are made, and used, component by component. What
 /// is then compared with a tolerance is by how much the next positions can differ, at most but for rounding, from those of the sweep.
 /// Of the first sweeps of a step it is not asked how far they move the stages: as many as there were in the step before, but for three. So

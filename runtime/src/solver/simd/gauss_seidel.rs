@@ -23,7 +23,7 @@ use crate::system::HamiltonianInLanes;
 use crate::system::SystemLanes;
 use crate::system::{Class, Hamiltonian};
 
-/// The iteration of [`FixedPoint`](crate::FixedPoint) with the stages side by side in [`Lanes`]: one evaluation of the
+/// The iteration of [`FixedPoint`](crate::solver::FixedPoint) with the stages side by side in [`Lanes`]: one evaluation of the
 /// system is that of two, four or eight stages.
 ///
 /// It needs a system that is generic over its scalar. Vectors may be long: without it the lanes run along their components,

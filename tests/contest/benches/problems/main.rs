@@ -12,9 +12,11 @@ use std::hint::black_box;
 use divan::Bencher;
 use peers::{End, Equations};
 use symplectic::nalgebra::SVector;
+use symplectic::solver::Solver;
+use symplectic::system::HamiltonianInLanes;
 use symplectic::{
-    Compensated, Error, Hamiltonian, HamiltonianInLanes, Integrator, Method, Plain, ProvedFor,
-    Separable, Solver, State, Summation, Vector,
+    Compensated, Error, Hamiltonian, Integrator, Method, Plain, ProvedFor, Separable, State,
+    Summation, Vector,
 };
 use symplectic_contest::baseline::gauss::{FirstOrder, Rule, SecondOrder};
 use symplectic_contest::baseline::no_drift::{Double, NoDrift, NoDriftGeneral};

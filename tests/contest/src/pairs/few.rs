@@ -1,9 +1,10 @@
 //! Problems with few components: the stages in lanes.
 
 use symplectic::nalgebra::SVector;
+use symplectic::system::HamiltonianInLanes;
 use symplectic::{
-    Compensated, Error, General, Hamiltonian, HamiltonianInLanes, Integrator, Method, Plain,
-    ProvedFor, Separable, State, Summation,
+    Compensated, Error, General, Hamiltonian, Integrator, Method, Plain, ProvedFor, Separable,
+    State, Summation,
 };
 use wide::{f64x2, f64x4, f64x8};
 

@@ -5,7 +5,8 @@
 use std::f64::consts::TAU;
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Error, Hamiltonian, HamiltonianInLanes, Integrator, Separable, State, Vector};
+use symplectic::system::HamiltonianInLanes;
+use symplectic::{Error, Hamiltonian, Integrator, Separable, State, Vector};
 use symplectic_report::{Ladder, Problem, Reference, Study};
 use symplectic_tests::methods::{Gauss8, Midpoint, VelocityVerlet};
 use symplectic_tests::scenes::{

@@ -3,7 +3,8 @@
 //! Every method is generic over the system once, here: a scene chooses a set and says its numbers.
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Hamiltonian, HamiltonianInLanes, Integrator, Separable, Vector};
+use symplectic::system::HamiltonianInLanes;
+use symplectic::{Hamiltonian, Integrator, Separable, Vector};
 use symplectic_report::Problem;
 use symplectic_tests::methods::{
     BlanesMoanS6, BlanesMoanS10, BlanesMoanSrkn11b, BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4,
