@@ -3,12 +3,13 @@
 
 use crate::algebra::{Number, StageAlgebra, ZERO_BITS};
 use crate::coefficients::Coefficients;
+use crate::evidence::Evidence;
+use crate::exact::over_algebra;
 use crate::order::{HamiltonianClass, OrderOptions, OrderReport, order};
 use crate::pair::Pair;
-use crate::properties::{Evidence, Properties};
+use crate::properties::Properties;
 use crate::schedule::{Class, StepGraph};
 use crate::stability::Stability;
-use crate::tableau::over_algebra;
 use crate::{Definition, Limits, Tableau};
 
 #[path = "../tests/extreme/seeds.rs"]

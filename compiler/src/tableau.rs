@@ -2,14 +2,20 @@
 
 use std::sync::OnceLock;
 
-use crate::algebra::{Constants, Dense, NodeAlgebra, Number, Reals, StageAlgebra};
+use crate::algebra::{Number, StageAlgebra};
 use crate::coefficients::Coefficients;
 use crate::definition::Definition;
 use crate::error::Error;
+use crate::evidence::Evidence;
+use crate::exact::{Exact, Tier, over_algebra};
 use crate::order::{GivenOrder, OrderOptions, OrderReport, PerturbedOrder};
-use crate::pair::Pair;
-use crate::properties::{Evidence, Properties, SeparableProperties};
+use crate::pair::Staircase;
+use crate::properties::{Properties, SeparableProperties};
 use crate::stability::{Stability, StabilityInterval};
+
+/// The matrices of splittings with more stages are left out of files and of code: they have nothing but the weights, again
+/// and again.
+const LARGEST_MATRICES: usize = 36;
 
 /// Where a tableau comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -58,83 +64,6 @@ impl PartialEq for Tableau {
             && (expressions || self.exact == other.exact)
     }
 }
-
-/// The coefficients in the algebra that holds them.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Exact {
-    /// Functions of the nodes.
-    Nodes(Pair<NodeAlgebra>),
-    /// Numbers in a constant field.
-    Field(Pair<Dense<Constants>>),
-    /// Expressions.
-    Reals(Pair<Dense<Reals>>),
-}
-
-/// How the coefficients of a tableau are known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Tier {
-    /// As functions of the nodes, which are all roots of one rational polynomial: all equations are
-    /// decided.
-    NodeAlgebra,
-    /// As elements of a field of algebraic numbers, or of rational functions of one transcendental number
-    /// over it: all equations are decided.
-    ConstantField,
-    /// As expressions that are enclosed as narrowly as needed: equations are refuted, or verified to
-    /// [`ZERO_BITS`](crate::algebra::ZERO_BITS) binary places.
-    Enclosure,
-}
-
-impl Tier {
-    /// The name in exports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Tier::NodeAlgebra => "node algebra",
-            Tier::ConstantField => "constant field",
-            Tier::Enclosure => "enclosure",
-        }
-    }
-}
-
-impl Exact {
-    /// The pair with positions and momenta exchanged.
-    pub fn exchanged(self) -> Self {
-        match self {
-            Exact::Nodes(pair) => Exact::Nodes(pair.exchanged()),
-            Exact::Field(pair) => Exact::Field(pair.exchanged()),
-            Exact::Reals(pair) => Exact::Reals(pair.exchanged()),
-        }
-    }
-
-    /// The coefficients for momenta, for positions too.
-    pub fn partner_alone(&self) -> Self {
-        match self {
-            Exact::Nodes(pair) => Exact::Nodes(pair.partner_alone()),
-            Exact::Field(pair) => Exact::Field(pair.partner_alone()),
-            Exact::Reals(pair) => Exact::Reals(pair.partner_alone()),
-        }
-    }
-
-    /// The adjoint method.
-    pub fn adjoint(&self) -> Self {
-        match self {
-            Exact::Nodes(pair) => Exact::Nodes(pair.adjoint()),
-            Exact::Field(pair) => Exact::Field(pair.adjoint()),
-            Exact::Reals(pair) => Exact::Reals(pair.adjoint()),
-        }
-    }
-}
-
-/// An expression over the coefficients, whichever algebra holds them.
-macro_rules! over_algebra {
-    ($tableau:expr, $pair:ident => $body:expr) => {
-        match &$tableau.exact {
-            crate::tableau::Exact::Nodes($pair) => $body,
-            crate::tableau::Exact::Field($pair) => $body,
-            crate::tableau::Exact::Reals($pair) => $body,
-        }
-    };
-}
-pub(crate) use over_algebra;
 
 impl Tableau {
     pub(crate) fn new(definition: Definition, exact: Exact) -> Self {
@@ -368,4 +297,10 @@ impl Tableau {
     pub fn to_f64(&self) -> Coefficients<f64> {
         self.numbers().map(Number::to_f64)
     }
+}
+
+/// How the weights make the matrices of a splitting that are left out; `None` where they are not.
+pub(crate) fn left_out(tableau: &Tableau) -> Option<Staircase> {
+    let long = tableau.stages() > LARGEST_MATRICES;
+    long.then(|| over_algebra!(tableau, pair => pair.staircase()))?
 }

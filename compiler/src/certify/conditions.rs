@@ -42,8 +42,8 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use super::CertifyError;
+use super::lyndon::{Alphabet, Word, split_lyndon};
 use super::nystrom::{Combination, Quotient};
-use super::words::{Alphabet, Word, split_lyndon};
 use crate::order::HamiltonianClass;
 
 /// The highest order that can be claimed.

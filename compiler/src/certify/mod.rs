@@ -37,6 +37,7 @@ mod conditions;
 mod digits;
 mod error;
 mod linear;
+mod lyndon;
 mod minimax;
 mod newton;
 mod nystrom;
@@ -48,7 +49,6 @@ mod settle;
 mod splitting;
 mod structure;
 mod system;
-mod words;
 
 pub(crate) use certificate::Enclosed;
 pub use certificate::{Certificate, Fixed};
@@ -56,6 +56,8 @@ pub use conditions::{Claim, Condition, Conditions, MAX_ORDER, MAX_PERTURBED_ORDE
 pub use digits::Digits;
 pub use error::CertifyError;
 pub(crate) use linear::middle;
+pub use lyndon::{Alphabet, Word};
+pub(crate) use lyndon::{DRIFT, KICK, split_lyndon};
 pub(crate) use minimax::{Row, minimax};
 pub(crate) use newton::{Equations, Square};
 pub use printed::{MAX_DIGITS, Printed};
@@ -67,8 +69,6 @@ pub(crate) use settle::{Settled, settle};
 pub use splitting::{MAX_STAGES, Splitting};
 pub use structure::{Coefficient, Structure};
 pub(crate) use structure::{Target, Unknown};
-pub use words::{Alphabet, Word};
-pub(crate) use words::{DRIFT, KICK, split_lyndon};
 
 #[cfg(test)]
 mod tests;

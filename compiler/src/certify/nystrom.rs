@@ -24,7 +24,7 @@ use std::collections::BTreeMap;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::words::{DRIFT, KICK, Word, split_words};
+use super::lyndon::{DRIFT, KICK, Word, split_words};
 
 /// A linear form on words, or an element of the free associative algebra.
 pub type Combination = BTreeMap<Word, BigRational>;
@@ -196,7 +196,7 @@ fn insert(basis: &mut Vec<Combination>, mut vector: Combination) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certify::words::Alphabet;
+    use crate::certify::lyndon::Alphabet;
 
     /// Blanes & Moan 2002, table 1: the order conditions of Runge–Kutta–Nyström splittings.
     #[test]

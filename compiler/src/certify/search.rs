@@ -7,6 +7,7 @@ use super::certificate::{Certificate, Enclosed, Facts, Fixed, Solution, Uniquene
 use super::conditions::{Claim, Conditions};
 use super::digits::{Digits, distances};
 use super::error::CertifyError;
+use super::lyndon::{DRIFT, KICK};
 use super::newton::Square;
 use super::printed::Printed;
 use super::proof::Proof;
@@ -15,7 +16,6 @@ use super::settle::{Settled, settle};
 use super::splitting::{Splitting, check, tolerance, wrong_sum};
 use super::structure::{Coefficient, Reading, Target, composition_readings, readings};
 use super::system::{Kind, Step, System};
-use super::words::{DRIFT, KICK};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::simplest_between;
 use crate::arithmetic::rounding::Decimal;

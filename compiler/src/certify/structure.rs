@@ -5,10 +5,10 @@ use std::fmt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
+use super::lyndon::{DRIFT, KICK};
 use super::printed::Printed;
 use super::splitting::Splitting;
 use super::system::{Kind, Step};
-use super::words::{DRIFT, KICK};
 use crate::arithmetic::rational::ratio;
 
 /// Which coefficient of a method, counted from 0.

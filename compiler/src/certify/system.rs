@@ -324,7 +324,7 @@ mod tests {
     use super::*;
     use crate::arithmetic::rational::ratio;
     use crate::certify::conditions::Claim;
-    use crate::certify::words::{DRIFT, KICK};
+    use crate::certify::lyndon::{DRIFT, KICK};
 
     /// Three steps, kick, drift, kick, of which the first and the last have different arguments.
     fn system(claim: Claim, kinds: &[Kind]) -> System {

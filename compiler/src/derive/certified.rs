@@ -1,7 +1,7 @@
 //! Splittings from printed digits: what is derived is the exact method that is proved to be near them.
 
 use super::claim;
-use super::problem::{Errors, misfit};
+use super::reading::{Errors, misfit};
 use super::sequence::{Factor, Sequence, Substep};
 use super::splitting::{Flow, Lists};
 use crate::algebra::Real;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::composition::separated;
-use super::problem::misfit_at;
+use super::reading::misfit_at;
 use crate::certify::{Certificate, CertifyError, Claim, Coefficient, Digits, Printed};
 use crate::definition::{Definition, Key, trimmed};
 use crate::error::{Error, ErrorKind};

@@ -6,20 +6,21 @@
 //! its fractions. What [operations](crate::Tableau::concatenate) on tableaux give
 //! is derived from the definitions of the operands by the same operations.
 
-mod based;
+mod base_method;
 mod certified;
 mod claim;
 mod composition;
+mod construction_kind;
 mod dense;
-mod kind;
+mod fractions;
 mod linear;
+mod named_compositions;
 mod node;
 mod problem;
-mod scheme;
+mod reading;
 mod sequence;
 mod splitting;
 mod substeps;
-mod sum;
 mod tiers;
 
 pub(crate) use self::composition::check_depth;
@@ -28,9 +29,10 @@ pub(crate) use self::substeps::{Substep, substeps};
 use crate::basis::Basis;
 use crate::definition::{Definition, Key, trimmed};
 use crate::error::{Error, ErrorKind, Place};
+use crate::exact::Exact;
 use crate::limits::Limits;
 use crate::quadrature::{Nodes, QuadratureRule};
-use crate::tableau::{Exact, Tableau};
+use crate::tableau::Tableau;
 
 /// Derives the tableau of a basis at nodes, both given as text, within the default [`Limits`].
 ///

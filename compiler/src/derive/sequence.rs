@@ -4,13 +4,13 @@ use std::collections::HashMap;
 
 use num_rational::BigRational;
 
+use super::reading::outside;
 use super::splitting::Flow;
-use super::tiers::outside;
 use crate::algebra::{Constants, Dense, Field, Real, Reals, Zero};
 use crate::error::ErrorKind;
+use crate::exact::Exact;
 use crate::pair::{Pair, Staircase};
 use crate::symbolic::Constant;
-use crate::tableau::Exact;
 
 /// A fraction of one of the two flows.
 #[derive(Debug, Clone)]

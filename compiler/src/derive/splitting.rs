@@ -8,9 +8,9 @@
 //! drift   q += drift_i h ∂T/∂p(p)
 //! ```
 
-use super::problem::{Errors, misfit, misfit_at, read_vector, switch};
+use super::fractions::off_one;
+use super::reading::{Errors, misfit, misfit_at, read_vector, switch};
 use super::sequence::{Sequence, Substep};
-use super::sum::off_one;
 use crate::definition::{Definition, Key};
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Input, shown};

@@ -8,9 +8,9 @@ use crate::algebra::NodeAlgebra;
 use crate::arithmetic::matrix;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::ratio;
+use crate::exact::Exact;
 use crate::pair::Pair;
 use crate::symbolic::Function;
-use crate::tableau::Exact;
 
 fn basis_of(polynomials: &[Polynomial]) -> Result<Basis, ErrorKind> {
     let functions = polynomials.iter().map(Function::polynomial);

@@ -9,16 +9,18 @@ use num_traits::Zero;
 use super::dense::{self, Samples};
 use super::node;
 use super::problem::{Construction, Momenta, Problem};
+use super::reading::outside;
 use crate::algebra::{self, Constants, Dense, Field, NodeAlgebra, Reals};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::basis::{Basis, Coefficient, combination};
 use crate::error::ErrorKind;
+use crate::exact::{Exact, over_algebra};
 use crate::operations::concatenate;
 use crate::order::GivenOrder;
 use crate::pair::Pair;
 use crate::quadrature::{Nodes, node_text};
 use crate::symbolic::{Constant, Function};
-use crate::tableau::{Exact, Tableau, over_algebra};
+use crate::tableau::Tableau;
 
 impl Problem {
     /// Derives the tableau.
@@ -238,13 +240,6 @@ fn elements<F: Field>(
     field: &F,
 ) -> Result<Samples<F::Element>, ErrorKind> {
     samples.in_field(field).ok_or_else(outside)
-}
-
-/// A constant that the field that was made for it does not hold; there are none.
-pub(super) fn outside() -> ErrorKind {
-    ErrorKind::Definition {
-        message: "a constant lies outside the field of the coefficients".to_owned(),
-    }
 }
 
 fn in_node_algebra(

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
-use super::relative::Rounded;
+use super::symplectic_rounding::Rounded;
 use crate::algebra::Number;
 
 /// A name of the generated code.

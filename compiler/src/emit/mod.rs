@@ -7,13 +7,13 @@
 //! stage is a line of its own: no product with zero, equal stages computed once, stages
 //! in order where they are explicit, no evaluation that the previous step has made already.
 
-mod extension;
-mod extrapolation;
-mod known;
+mod dense_output;
+mod facts;
 mod literal;
+mod nystrom;
 mod plan;
-mod relative;
-mod second_order;
+mod predictor;
+mod symplectic_rounding;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -21,10 +21,10 @@ use quote::{format_ident, quote};
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
 use crate::error::ErrorKind;
-use crate::export::left_out;
 use crate::pair::Staircase;
 use crate::schedule::Class;
 use crate::tableau::Tableau;
+use crate::tableau::left_out;
 
 /// What the user writes before the braces: attributes, visibility and the name of the type.
 #[derive(Debug, Clone)]

@@ -7,15 +7,14 @@
 //! | TOML | [`toml::write`] | [`toml::read`] | all exact data, decimals, the properties |
 
 use crate::coefficients::Coefficients;
-use crate::pair::Staircase;
-use crate::tableau::{Tableau, over_algebra};
+use crate::tableau::{Tableau, left_out};
 
+mod columns;
 mod encoding;
 mod entries;
 mod facts;
 pub mod json;
-mod layout;
-mod origin;
+mod provenance;
 pub mod text;
 pub mod toml;
 
@@ -28,16 +27,6 @@ pub const DEFAULT_DIGITS: usize = 40;
 pub const TEXT_DIGITS: usize = 16;
 /// The most significant digits of a decimal that can be asked for.
 pub const MAX_DIGITS: usize = 10_000;
-
-/// The matrices of splittings with more stages are left out of files and of code: they have nothing but the weights, again
-/// and again.
-const LARGEST_MATRICES: usize = 36;
-
-/// How the weights make the matrices of a splitting that are left out; `None` where they are not.
-pub(crate) fn left_out(tableau: &Tableau) -> Option<Staircase> {
-    let long = tableau.stages() > LARGEST_MATRICES;
-    long.then(|| over_algebra!(tableau, pair => pair.staircase()))?
-}
 
 /// The coefficients without the matrices that are left out.
 fn written<T>(tableau: &Tableau, mut coefficients: Coefficients<T>) -> Coefficients<T> {

@@ -1,13 +1,14 @@
 //! The table for people: the partitioned Butcher tableau of LZ §4.4 and the properties.
 
+use super::columns::{left, right, width, widths};
 use super::facts::separable_only;
-use super::layout::{left, right, width, widths};
-use super::{left_out, written};
+use super::written;
 use crate::coefficients::Coefficients;
+use crate::evidence::Evidence;
 use crate::pair::Staircase;
-use crate::properties::Evidence;
 use crate::stability::evidence_text;
 use crate::tableau::Tableau;
+use crate::tableau::left_out;
 
 /// Exact forms that are longer than this give way to decimals.
 const LONGEST_EXACT: usize = 28;

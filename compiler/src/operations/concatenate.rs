@@ -7,9 +7,9 @@ use num_rational::BigRational;
 use crate::algebra::{Constants, Dense, Field, NodeAlgebra, Real, Reals, StageAlgebra};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::error::ErrorKind;
+use crate::exact::Exact;
 use crate::pair::Pair;
 use crate::symbolic::Constant;
-use crate::tableau::Exact;
 
 /// The coefficients of `Φ^m_{γ_m h} ∘ … ∘ Φ^1_{γ_1 h}`, the first step first.
 ///

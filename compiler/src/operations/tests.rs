@@ -5,10 +5,10 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::algebra::{Constants, Field};
+use crate::evidence::Evidence;
 use crate::export::toml;
 use crate::expression::{Input, parse_list};
 use crate::order::OrderOptions;
-use crate::properties::Evidence;
 use crate::{Definition, Limits, Tier, check};
 
 fn constant(text: &str) -> Constant {

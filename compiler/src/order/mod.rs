@@ -28,9 +28,8 @@
 mod class;
 mod enumeration;
 mod error_constant;
-mod given;
-#[cfg(test)]
-mod methods;
+mod exponential_words;
+mod inherited;
 mod modified;
 mod perturbed;
 mod plan;
@@ -40,11 +39,10 @@ mod symplecticity;
 mod tree;
 mod unrooted;
 mod weights;
-mod words;
 
 pub use class::HamiltonianClass;
 pub use enumeration::{TreeRule, Trees};
-pub(crate) use given::GivenOrder;
+pub(crate) use inherited::GivenOrder;
 pub use modified::ModifiedTerm;
 pub(crate) use perturbed::listed;
 pub use perturbed::{PerturbedOrder, PowerOrder, ViolatedWord};
@@ -62,9 +60,11 @@ use self::simplifying::simplifying_assumptions;
 use self::symplecticity::{Symplecticity, symplecticity_order};
 use self::weights::{MAX_ORDER, Weights};
 use crate::algebra::{Balls, Dense, Field, Number, StageAlgebra, Zero};
+use crate::evidence::Evidence;
+use crate::exact::over_algebra;
 use crate::pair::Pair;
-use crate::properties::{Evidence, shown};
-use crate::tableau::{Tableau, over_algebra};
+use crate::properties::shown;
+use crate::tableau::Tableau;
 
 /// How orders are decided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

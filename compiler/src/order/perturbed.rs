@@ -24,17 +24,18 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
 
+use super::exponential_words::Product;
 use super::weights::most_products;
-use super::words::Product;
 use super::{GivenOrder, SHORT, short};
 use crate::algebra::{Dense, Field, Rationals, Zero};
 use crate::certify::{DRIFT, KICK, MAX_ORDER, MAX_PERTURBED_ORDER, Word, split_lyndon};
+use crate::evidence::Evidence;
+use crate::exact::Exact;
 use crate::pair::Pair;
-use crate::properties::Evidence;
 use crate::schedule::{Class, Node, StepGraph};
 use crate::stability::evidence_text;
 use crate::stability::superscript;
-use crate::tableau::{Exact, Tableau};
+use crate::tableau::Tableau;
 
 /// The order `(s₁, s₂, …)` of a splitting for `H = H_A + εH_B` with drifts for `H_A` and kicks for `εH_B`.
 #[derive(Debug, Clone, PartialEq, Eq)]

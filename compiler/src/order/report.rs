@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use super::class::HamiltonianClass;
 use super::tree::BicolouredTree;
 use crate::arithmetic::rounding::Decimal;
-use crate::properties::Evidence;
+use crate::evidence::Evidence;
 use crate::stability::evidence_text;
 
 /// The order of a method for each class of Hamiltonians.

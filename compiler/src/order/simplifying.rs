@@ -37,8 +37,9 @@ use num_rational::BigRational;
 use num_traits::One;
 
 use crate::algebra::{StageAlgebra, Zero};
+use crate::evidence::Evidence;
 use crate::pair::Pair;
-use crate::properties::{Evidence, vanishing_vector};
+use crate::properties::vanishing_vector;
 
 /// The largest numbers for which the simplifying assumptions hold, none counted beyond `B`.
 ///

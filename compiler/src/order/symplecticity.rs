@@ -7,8 +7,9 @@ use super::enumeration::TreeRule;
 use super::tree::{BicolouredTree, Colour};
 use super::weights::{MAX_ORDER, Weights};
 use crate::algebra::{StageAlgebra, Zero};
+use crate::evidence::Evidence;
 use crate::pair::Pair;
-use crate::properties::{Evidence, vanishing_matrix, vanishing_vector};
+use crate::properties::{vanishing_matrix, vanishing_vector};
 
 /// The order of symplecticity of a method that is not symplectic (pseudo-symplecticity, Aubry & Chartier
 /// 1998): the step changes the symplectic form by `O(hᵖ⁺¹)`.
@@ -200,9 +201,9 @@ pub(super) fn symplecticity_order<A: StageAlgebra>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::methods::{decimal, explicit_runge_kutta, rational, splitting};
     use super::*;
-    use crate::tableau::Exact;
+    use crate::exact::Exact;
+    use crate::order::tests::methods::{decimal, explicit_runge_kutta, rational, splitting};
     use num_rational::BigRational;
 
     #[test]
@@ -273,7 +274,7 @@ mod tests {
         let pair = explicit_runge_kutta("rk4");
         let weights = |text: &str| {
             let tree: BicolouredTree = text.parse().expect(text);
-            super::super::methods::weight(&pair, &tree)
+            crate::order::tests::methods::weight(&pair, &tree)
         };
         // For RK4 u = q[q] and v = p[p[p]]: φ(u∘v) + φ(v∘u) − φ(u) φ(v).
         let defect = weights("q[q,p[p[p]]]") + weights("p[p[p],q[q]]")

@@ -5,7 +5,7 @@ use num_traits::One;
 
 use super::{Examined, Property, Zero, shown};
 use crate::algebra::StageAlgebra;
-use crate::properties::Evidence;
+use crate::evidence::Evidence;
 
 /// Decides `Σ_i b_i = Σ_i b̃_i = 1`.
 pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {

@@ -8,9 +8,10 @@ use num_rational::BigRational;
 use num_traits::Signed;
 
 use crate::error::{Error, ErrorKind};
+use crate::evidence::Evidence;
 use crate::expression::{ExpressionKind, Input, parse_list, shown};
 use crate::order::{HamiltonianClass, OrderOptions, listed};
-use crate::properties::{Evidence, Properties, SeparableProperties};
+use crate::properties::{Properties, SeparableProperties};
 use crate::stability::StableSteps;
 use crate::tableau::Tableau;
 

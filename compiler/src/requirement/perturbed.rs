@@ -2,9 +2,9 @@
 
 use super::Requirement;
 use crate::error::ErrorKind;
+use crate::evidence::Evidence;
 use crate::expression::shown;
 use crate::order::{PowerOrder, listed};
-use crate::properties::Evidence;
 use crate::tableau::Tableau;
 
 /// Whether what stands before the sign asks for it.

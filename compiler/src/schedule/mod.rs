@@ -12,8 +12,9 @@ pub use phases::{Evaluations, Phases};
 use crate::algebra::{Number, StageAlgebra, group_by};
 use crate::arithmetic::roots::compare;
 use crate::coefficients::Coefficients;
+use crate::exact::over_algebra;
 use crate::pair::Pair;
-use crate::tableau::{Tableau, over_algebra};
+use crate::tableau::Tableau;
 
 /// What the derivatives of a Hamiltonian depend on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -37,8 +37,8 @@ use self::oscillator::{Parts, Step};
 use self::polynomial::RealPolynomial;
 use crate::algebra::{Field, Number, Scalar, StageAlgebra, ZERO_BITS};
 use crate::arithmetic::polynomial::Polynomial;
+use crate::evidence::Evidence;
 use crate::pair::Pair;
-use crate::properties::Evidence;
 
 pub use dispersion::Dispersion;
 pub use end_point::EndPoint;

@@ -1,7 +1,7 @@
 //! What is found of the stable steps of a method, in bounded time.
 
 use super::{Stability, StabilityInterval, evidence_text};
-use crate::properties::Evidence;
+use crate::evidence::Evidence;
 use crate::tableau::Tableau;
 
 /// Up to so many stages all stable steps are looked for: the real roots of polynomials of twice that degree take a second

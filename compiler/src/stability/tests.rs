@@ -8,8 +8,8 @@ use crate::arithmetic::rational::{parse, ratio};
 use crate::arithmetic::rounding::to_f64;
 use crate::catalogue;
 use crate::coefficients::Coefficients;
+use crate::exact::over_algebra;
 use crate::symbolic::Constant;
-use crate::tableau::over_algebra;
 
 fn derived(basis: &str, nodes: &str) -> Stability {
     crate::derive(basis, nodes).expect("derived").stability()

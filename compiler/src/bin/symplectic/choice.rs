@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::{Error, ErrorKind, Evidence, Tableau, catalogue};
 
-use crate::list::aligned;
+use crate::output::aligned;
 
 /// Which methods are listed, and in what order.
 #[derive(Args)]

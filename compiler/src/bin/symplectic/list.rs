@@ -51,11 +51,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         ]
     }));
     let mut text = String::from("Methods, for `symplectic show NAME`\n\n");
-    text.push_str(&aligned(&methods));
+    text.push_str(&output::aligned(&methods));
     text.push_str(
         "\nNodes, for `symplectic derive --nodes`; also any list of distinct numbers in [0, 1]\n\n",
     );
-    text.push_str(&aligned(&rules));
+    text.push_str(&output::aligned(&rules));
     output::print(&text)
 }
 
@@ -124,26 +124,4 @@ fn first_interval(tableau: &Tableau) -> String {
         .map_or("∅".to_owned(), ToString::to_string);
     let more = if intervals.len() > 1 { " ∪ …" } else { "" };
     format!("{first}{more}")
-}
-
-/// A table with its columns aligned.
-pub(crate) fn aligned<const N: usize>(rows: &[[String; N]]) -> String {
-    let length = |cell: &String| cell.chars().count();
-    let mut widths = [0; N];
-    for row in rows {
-        for (width, cell) in widths.iter_mut().zip(row) {
-            *width = length(cell).max(*width);
-        }
-    }
-    let mut text = String::new();
-    for row in rows {
-        let cells = row.iter().zip(widths);
-        let cells: Vec<String> = cells
-            .map(|(cell, width)| format!("{cell:width$}"))
-            .collect();
-        text.push_str("  ");
-        text.push_str(cells.join("  ").trim_end());
-        text.push('\n');
-    }
-    text
 }

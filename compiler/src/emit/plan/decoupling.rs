@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::super::known::Known;
+use super::super::facts::Known;
 use super::literal;
 use crate::algebra::Number;
 use crate::arithmetic::eigen::{Blocks, Rows, diagonalise, product};

@@ -3,11 +3,11 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::super::extension::{Extension, StagePolynomials};
-use super::super::known::Known;
-use super::form::Form;
-use super::second_order::SecondOrder;
-use super::{decoupling, extrapolation, index, literal};
+use super::super::dense_output::{Extension, StagePolynomials};
+use super::super::facts::Known;
+use super::increments::Form;
+use super::nystrom::SecondOrder;
+use super::{decoupling, index, literal, predictor};
 use crate::schedule::{Evaluation, Node, StepGraph};
 
 /// How many stages go side by side.
@@ -203,7 +203,7 @@ impl Matrices<'_, '_, '_, '_> {
         let count = evaluations.len();
         let matrix = self.increments().then(|| {
             let evaluations: Vec<_> = evaluations.iter().collect();
-            extrapolation::matrix(self.graph, kind, &evaluations, self.known)
+            predictor::matrix(self.graph, kind, &evaluations, self.known)
         });
         let extrapolation = matrix.flatten().map(|rows| {
             let column = |j: usize| lanes.fill(count, |i| rows[i][j]);

@@ -1,30 +1,30 @@
 //! The plan of a step for one class of Hamiltonians, as code.
 
-mod chain;
-mod composed;
+mod composition;
 mod decoupling;
-mod form;
+mod increments;
 mod matrices;
-mod stored;
+mod splitting;
+mod stages;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::extension::StagePolynomials;
-use super::known::Known;
-use super::{extrapolation, literal, literal::identifier, relative, second_order};
+use super::dense_output::StagePolynomials;
+use super::facts::Known;
+use super::{literal, literal::identifier, nystrom, predictor, symplectic_rounding};
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
 use crate::derive::substeps;
 use crate::error::ErrorKind;
-use crate::export::left_out;
 use crate::schedule::{Class, Node, Phases, StepGraph};
 use crate::tableau::Tableau;
-use chain::Chain;
-use composed::Composed;
-use form::Form;
+use crate::tableau::left_out;
+use composition::Composed;
+use increments::Form;
 pub(super) use matrices::HalfTableau;
-use stored::Stored;
+use splitting::Chain;
+use stages::Stored;
 
 /// What the functions of a plan consist of.
 struct Bodies {

@@ -15,7 +15,7 @@ use crate::definition::{Definition, Key};
 use crate::error::{Error, ErrorKind};
 use crate::export::MAX_DIGITS;
 use crate::export::entries::{Entry, compare, of_json, offset};
-use crate::export::origin::{Origin, Part};
+use crate::export::provenance::{Origin, Part};
 use crate::expression::Input;
 use crate::limits::Limits;
 use crate::properties::Properties;

@@ -2,8 +2,9 @@
 
 use crate::arithmetic::rounding::{shortest, shortest_single};
 use crate::definition::Key;
+use crate::evidence::Evidence;
 use crate::export::{facts, written};
-use crate::properties::{Evidence, Property};
+use crate::properties::Property;
 use crate::tableau::Tableau;
 
 /// The forms of a coefficient.

@@ -11,7 +11,7 @@ use crate::definition::Key;
 use crate::error::{Error, ErrorKind};
 use crate::export::MAX_DIGITS;
 use crate::export::entries::{Entry, first_line, of_toml};
-use crate::export::origin::{Origin, Part};
+use crate::export::provenance::{Origin, Part};
 use crate::expression::Input;
 use crate::limits::Limits;
 use crate::properties::Properties;

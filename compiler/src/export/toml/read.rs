@@ -11,11 +11,12 @@ use crate::algebra::{NodeAlgebra, Tensor};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational;
 use crate::error::{Error, ErrorKind};
+use crate::exact::Exact;
 use crate::expression::{Input, MAX_BITS};
 use crate::limits::Limits;
 use crate::pair::Pair;
 use crate::quadrature::{first_outside, node_text};
-use crate::tableau::{Exact, Tableau};
+use crate::tableau::Tableau;
 
 /// Reads a tableau from the exact data of a TOML file.
 ///

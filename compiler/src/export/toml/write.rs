@@ -2,13 +2,15 @@
 
 use crate::algebra::{NodeAlgebra, Tensor};
 use crate::arithmetic::polynomial::Polynomial;
+use crate::exact::Exact;
+use crate::export::columns::{right, widths};
 use crate::export::facts::{self, Fact};
 use crate::export::json::evidence;
-use crate::export::layout::{right, widths};
-use crate::export::{left_out, written};
+use crate::export::written;
 use crate::pair::{Pair, Staircase};
 use crate::properties::Property;
-use crate::tableau::{Exact, Tableau};
+use crate::tableau::Tableau;
+use crate::tableau::left_out;
 
 /// Rows that are wider than this have one entry a line.
 const WIDEST: usize = 110;
@@ -196,7 +198,7 @@ fn string(text: &str) -> String {
 
 fn write_vector(text: &mut String, key: &str, entries: &[String]) {
     let line = format!("{key} = [{}]\n", entries.join(", "));
-    if crate::export::layout::width(&line) <= WIDEST {
+    if crate::export::columns::width(&line) <= WIDEST {
         text.push_str(&line);
         return;
     }

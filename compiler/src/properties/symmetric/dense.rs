@@ -3,8 +3,9 @@
 use super::{SEARCH_BITS, Symmetry, search};
 use crate::algebra::{Dense, Field, Number, StageAlgebra, Zero};
 use crate::coefficients::Coefficients;
+use crate::evidence::Evidence;
 use crate::pair::Pair;
-use crate::properties::{Evidence, Property};
+use crate::properties::Property;
 
 impl<F: Field> Symmetry for Dense<F> {
     /// Enclosures find the permutation, the field decides the equations for it.

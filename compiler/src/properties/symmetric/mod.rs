@@ -126,8 +126,9 @@ mod tests {
     use super::*;
     use crate::arithmetic::polynomial::Polynomial;
     use crate::arithmetic::rational::ratio;
-    use crate::properties::Evidence;
-    use crate::tableau::{Exact, Tableau};
+    use crate::evidence::Evidence;
+    use crate::exact::Exact;
+    use crate::tableau::Tableau;
 
     /// Two stages that nothing tells apart: all entries of both matrices are the same number.
     fn twins(entry: BigRational) -> Tableau {

@@ -8,8 +8,9 @@ use crate::arithmetic::matrix;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::ratio;
 use crate::coefficients::Coefficients;
+use crate::evidence::Evidence;
 use crate::pair::Pair;
-use crate::properties::{Entry, Evidence, Property, vanishing_matrix, vanishing_vector};
+use crate::properties::{Entry, Property, vanishing_matrix, vanishing_vector};
 
 type NodePair = Pair<NodeAlgebra>;
 

@@ -7,9 +7,9 @@ use super::{Array, Cell, Exact, RefinedTable};
 use crate::certify::Printed;
 use crate::definition::{Definition, Key};
 use crate::error::Error;
+use crate::evidence::Evidence;
 use crate::expression::Input;
 use crate::limits::Limits;
-use crate::properties::Evidence;
 use crate::tableau::Tableau;
 
 /// The table of which the digits are the roundings; `None` if they are not those of fractions and surds with one root.

@@ -15,9 +15,9 @@ use crate::certify::{Row, middle, minimax};
 use crate::definition::{Definition, Key};
 use crate::derive::derive_from;
 use crate::error::Error;
+use crate::evidence::Evidence;
 use crate::expression::Input;
 use crate::order::HamiltonianClass;
-use crate::properties::Evidence;
 use crate::quadrature::QuadratureRule;
 use crate::tableau::Tableau;
 

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use proc_macro2::TokenStream;
 
 use super::plan::HalfTableau;
-use super::relative::Rounded;
+use super::symplectic_rounding::Rounded;
 use crate::arithmetic::eigen::{Blocks, Rows};
 use crate::tableau::Tableau;
 

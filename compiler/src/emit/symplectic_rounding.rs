@@ -8,7 +8,7 @@
 
 use num_rational::BigRational;
 
-use super::known::Known;
+use super::facts::Known;
 use crate::algebra::{Number, ROUNDING_BITS, ZERO_BITS};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;

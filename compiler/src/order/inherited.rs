@@ -2,7 +2,7 @@
 
 use super::class::HamiltonianClass;
 use crate::certify::Claim;
-use crate::properties::Evidence;
+use crate::evidence::Evidence;
 
 /// An order, at least, that is known before any condition is looked at.
 ///

@@ -1,17 +1,19 @@
 //! Orders of known methods.
 
+pub(super) mod methods;
+
 use std::sync::Arc;
 
 use num_traits::{Signed, ToPrimitive};
 use proptest::prelude::*;
 
-use super::methods::{
+use super::*;
+use crate::catalogue;
+use crate::exact::Exact;
+use methods::{
     RationalPair, decimal, drift_first, explicit_runge_kutta, rational, runge_kutta, splitting,
     weight,
 };
-use super::*;
-use crate::catalogue;
-use crate::tableau::Exact;
 
 fn order<A: StageAlgebra>(pair: &Pair<A>, options: &OrderOptions) -> OrderReport {
     super::order(pair, options, None)
@@ -163,7 +165,7 @@ fn approximate_order(pair: &RationalPair, class: HamiltonianClass) -> usize {
 
 #[test]
 fn explicit_methods_have_the_orders_of_their_papers() {
-    let text = include_str!("../../tests/data/explicit-methods.json");
+    let text = include_str!("../../../tests/data/explicit-methods.json");
     let data: serde_json::Value = serde_json::from_str(text).expect("valid");
     let methods = data["methods"].as_array().expect("a list");
     assert_eq!(methods.len(), 31);

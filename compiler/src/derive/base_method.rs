@@ -5,23 +5,25 @@ use std::ops::Range;
 use super::certified::Factors;
 use super::claim;
 use super::composition::{Step, check_depth, in_text, inner, separated};
-use super::problem::{Construction, Errors, Problem, misfit, misfit_at, switch};
-use super::scheme::{MAX_ORDER, Scheme};
+use super::fractions::off_one;
+use super::named_compositions::{MAX_ORDER, Scheme};
+use super::problem::{Construction, Problem};
+use super::reading::outside;
+use super::reading::{Errors, misfit, misfit_at, switch};
 use super::sequence::{Factor, Sequence};
-use super::sum::off_one;
-use super::tiers::outside;
 use crate::catalogue;
 use crate::certify::{Claim, Coefficient, Printed, certify_composition};
 use crate::definition::{Definition, Key, read_parts, trimmed};
 use crate::error::{Error, ErrorKind};
+use crate::evidence::Evidence;
+use crate::exact::Exact;
 use crate::expression::{Expression, ExpressionKind, Input, parse_list, shown};
 use crate::limits::Limits;
 use crate::operations::concatenate;
 use crate::order::{GivenOrder, OrderOptions, OrderReport};
-use crate::properties::Evidence;
 use crate::quadrature::check_stages;
 use crate::symbolic::Constant;
-use crate::tableau::{Exact, Tableau};
+use crate::tableau::Tableau;
 
 /// A base method, by itself or with the steps that are made with it.
 #[derive(Clone)]

@@ -5,8 +5,8 @@ use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::to_f64;
 use crate::schedule::{Evaluation, Node, StepGraph};
 
-use super::known::{Extrapolation, Half, Known};
-use super::relative::decide;
+use super::facts::{Extrapolation, Half, Known};
+use super::symplectic_rounding::decide;
 
 /// The matrix that takes the increments `h w_j f_j` of a step to those of the next one of the same size.
 ///

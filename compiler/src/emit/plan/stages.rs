@@ -3,11 +3,11 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::super::extension::StagePolynomials;
-use super::super::known::Known;
-use super::form::Form;
+use super::super::dense_output::StagePolynomials;
+use super::super::facts::Known;
+use super::increments::Form;
 use super::matrices::Matrices;
-use super::{Bodies, base, evaluation_name, extrapolation, index, literal, slot, start};
+use super::{Bodies, base, evaluation_name, index, literal, predictor, slot, start};
 use crate::schedule::{Class, Node, Phases, StageValue, StepGraph};
 
 /// A step that stores its stages.
@@ -159,7 +159,7 @@ impl<'g, 'a> Stored<'g, 'a> {
             .iter()
             .map(|&node| self.graph.evaluation(node))
             .collect();
-        let matrix = extrapolation::matrix(self.graph, kind, &evaluations, self.known)?;
+        let matrix = predictor::matrix(self.graph, kind, &evaluations, self.known)?;
         let rows = matrix.iter().map(|row| literal::array(row));
         let indices = nodes.iter().map(|&node| literal::count(index(node)));
         let array = evaluation_name(kind);

@@ -11,7 +11,7 @@ use crate::arithmetic::rounding::to_f64;
 use crate::coefficients::Coefficients;
 use crate::schedule::{Class, Evaluation, Node, StepGraph};
 
-use super::relative::decide;
+use super::symplectic_rounding::decide;
 
 /// The polynomials through the evaluations of a tableau at its nodes, worked out when they are asked for.
 pub(super) struct StagePolynomials<'n, 'a> {

@@ -18,7 +18,7 @@
 use num_integer::Integer;
 use num_rational::BigRational;
 
-use super::relative::decide;
+use super::symplectic_rounding::decide;
 use crate::algebra::Number;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::{dyadic, ratio};

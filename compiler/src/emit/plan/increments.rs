@@ -3,11 +3,11 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::super::known::Known;
-use super::{index, literal, relative, slot, start, terms_of};
+use super::super::facts::Known;
+use super::{index, literal, slot, start, symplectic_rounding, terms_of};
 use crate::algebra::Number;
 use crate::schedule::{Evaluation, Node, StepGraph};
-use relative::Relative;
+use symplectic_rounding::Relative;
 
 /// The form of the sums that stages are.
 #[derive(Debug)]

@@ -6,21 +6,21 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero as _};
 
-use super::tree::{BicolouredTree, Colour};
 use crate::algebra::{Dense, Rationals, StageAlgebra};
 use crate::arithmetic::rational::parse;
+use crate::order::tree::{BicolouredTree, Colour};
 use crate::pair::Pair;
 
 /// A method with rational coefficients.
-pub(super) type RationalPair = Pair<Dense<Rationals>>;
+pub(crate) type RationalPair = Pair<Dense<Rationals>>;
 
 /// Reads `-3/4`.
-pub(super) fn rational(text: &str) -> BigRational {
+pub(crate) fn rational(text: &str) -> BigRational {
     parse(text).expect(text)
 }
 
 /// Reads `-0.75`, exactly.
-pub(super) fn decimal(text: &str) -> BigRational {
+pub(crate) fn decimal(text: &str) -> BigRational {
     let places = text.split_once('.').map_or(0, |(_, places)| places.len());
     let digits: BigInt = text.replace('.', "").parse().expect(text);
     BigRational::new(digits, BigInt::from(10).pow(places as u32))
@@ -32,13 +32,13 @@ fn rows(rows: &[&str]) -> Vec<Vec<BigRational>> {
 }
 
 /// A Runge–Kutta method from the rows of `a` and `b`.
-pub(super) fn runge_kutta(a: &[&str], b: &str) -> RationalPair {
+pub(crate) fn runge_kutta(a: &[&str], b: &str) -> RationalPair {
     let (a, b) = (rows(a), rows(&[b]).remove(0));
     Pair::equal(Arc::new(Dense::new(Rationals, b.len())), a, b)
 }
 
 /// A well-known explicit Runge–Kutta method.
-pub(super) fn explicit_runge_kutta(name: &str) -> RationalPair {
+pub(crate) fn explicit_runge_kutta(name: &str) -> RationalPair {
     match name {
         "euler" => runge_kutta(&["0"], "1"),
         "midpoint" => runge_kutta(&["0 0", "1/2 0"], "0 1"),
@@ -54,7 +54,7 @@ pub(super) fn explicit_runge_kutta(name: &str) -> RationalPair {
 /// The composition, for `i = 1..n`, of the kick `p −= kick_i h ∂U/∂q` and the drift
 /// `q += drift_i h ∂T/∂p` as a partitioned Runge–Kutta method (MW 2.6.4): `Q_i` has the drifts before
 /// the stage, `P_i` the kicks up to it.
-pub(super) fn splitting(drift: &[BigRational], kick: &[BigRational]) -> RationalPair {
+pub(crate) fn splitting(drift: &[BigRational], kick: &[BigRational]) -> RationalPair {
     let stages = drift.len();
     let matrix = |entries: &[BigRational], among: fn(usize, usize) -> bool| {
         let entry = |i, j| {
@@ -78,12 +78,12 @@ pub(super) fn splitting(drift: &[BigRational], kick: &[BigRational]) -> Rational
 }
 
 /// As [`splitting`] for drifts before kicks: `for i = 1..n`, drift, then kick.
-pub(super) fn drift_first(drift: &[BigRational], kick: &[BigRational]) -> RationalPair {
+pub(crate) fn drift_first(drift: &[BigRational], kick: &[BigRational]) -> RationalPair {
     splitting(kick, drift).exchanged()
 }
 
 /// An elementary weight by the recursion over the tree itself, without an enumeration.
-pub(super) fn weight<A: StageAlgebra>(pair: &Pair<A>, tree: &BicolouredTree) -> BigRational {
+pub(crate) fn weight<A: StageAlgebra>(pair: &Pair<A>, tree: &BicolouredTree) -> BigRational {
     fn stages<A: StageAlgebra>(pair: &Pair<A>, tree: &BicolouredTree) -> A::Vector {
         let one = pair.algebra.constant(&BigRational::one());
         tree.children().iter().fold(one, |product, child| {

@@ -4,7 +4,7 @@ use num_rational::BigRational;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::known::Known;
+use super::super::facts::Known;
 use super::{Plan, class_name, literal, of_stages};
 use crate::algebra::{Field, Number, Real, Reals};
 use crate::coefficients::Coefficients;

@@ -1,0 +1,41 @@
+//! How it is known what holds.
+
+/// How it is known whether a property holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Evidence {
+    /// It holds, by exact arithmetic.
+    Proved,
+    /// It holds: the equations are solved by coefficients that are proved to exist, near given digits.
+    Certified,
+    /// It does not hold, by exact arithmetic or by an enclosure that excludes it.
+    Refuted,
+    /// Known only up to enclosures: each number that has to vanish is at most `2⁻ᵇⁱᵗˢ` in size, compared with the largest
+    /// term of the sum that it is or with 1, and all inequalities are proved. That is no proof.
+    Verified {
+        /// The width of the enclosures.
+        bits: u32,
+    },
+    /// Not known: enclosures of this many bits do not decide it.
+    Undecided {
+        /// The bits of the enclosures.
+        bits: u32,
+    },
+}
+
+impl Evidence {
+    /// The evidence for two statements that both hold.
+    pub(crate) fn and(self, other: Evidence) -> Evidence {
+        match (self, other) {
+            (undecided @ Evidence::Undecided { .. }, _)
+            | (_, undecided @ Evidence::Undecided { .. }) => undecided,
+            (Evidence::Verified { bits }, Evidence::Verified { bits: others }) => {
+                Evidence::Verified {
+                    bits: bits.min(others),
+                }
+            }
+            (Evidence::Proved, other) => other,
+            (Evidence::Certified, other @ Evidence::Verified { .. }) => other,
+            (known, _) => known,
+        }
+    }
+}

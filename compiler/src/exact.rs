@@ -1,0 +1,81 @@
+//! Exact coefficients, in the strongest algebra that holds them.
+
+use crate::algebra::{Constants, Dense, NodeAlgebra, Reals};
+use crate::pair::Pair;
+
+/// The coefficients in the algebra that holds them.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Exact {
+    /// Functions of the nodes.
+    Nodes(Pair<NodeAlgebra>),
+    /// Numbers in a constant field.
+    Field(Pair<Dense<Constants>>),
+    /// Expressions.
+    Reals(Pair<Dense<Reals>>),
+}
+
+/// How the coefficients of a tableau are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tier {
+    /// As functions of the nodes, which are all roots of one rational polynomial: all equations are
+    /// decided.
+    NodeAlgebra,
+    /// As elements of a field of algebraic numbers, or of rational functions of one transcendental number
+    /// over it: all equations are decided.
+    ConstantField,
+    /// As expressions that are enclosed as narrowly as needed: equations are refuted, or verified to
+    /// [`ZERO_BITS`](crate::algebra::ZERO_BITS) binary places.
+    Enclosure,
+}
+
+impl Tier {
+    /// The name in exports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Tier::NodeAlgebra => "node algebra",
+            Tier::ConstantField => "constant field",
+            Tier::Enclosure => "enclosure",
+        }
+    }
+}
+
+impl Exact {
+    /// The pair with positions and momenta exchanged.
+    pub fn exchanged(self) -> Self {
+        match self {
+            Exact::Nodes(pair) => Exact::Nodes(pair.exchanged()),
+            Exact::Field(pair) => Exact::Field(pair.exchanged()),
+            Exact::Reals(pair) => Exact::Reals(pair.exchanged()),
+        }
+    }
+
+    /// The coefficients for momenta, for positions too.
+    pub fn partner_alone(&self) -> Self {
+        match self {
+            Exact::Nodes(pair) => Exact::Nodes(pair.partner_alone()),
+            Exact::Field(pair) => Exact::Field(pair.partner_alone()),
+            Exact::Reals(pair) => Exact::Reals(pair.partner_alone()),
+        }
+    }
+
+    /// The adjoint method.
+    pub fn adjoint(&self) -> Self {
+        match self {
+            Exact::Nodes(pair) => Exact::Nodes(pair.adjoint()),
+            Exact::Field(pair) => Exact::Field(pair.adjoint()),
+            Exact::Reals(pair) => Exact::Reals(pair.adjoint()),
+        }
+    }
+}
+
+/// An expression over the coefficients, whichever algebra holds them.
+macro_rules! over_algebra {
+    ($tableau:expr, $pair:ident => $body:expr) => {
+        match &$tableau.exact {
+            crate::exact::Exact::Nodes($pair) => $body,
+            crate::exact::Exact::Field($pair) => $body,
+            crate::exact::Exact::Reals($pair) => $body,
+        }
+    };
+}
+pub(crate) use over_algebra;
