@@ -8,101 +8,109 @@ use crate::error::{Error, ErrorKind};
 use crate::expression::{Input, shown};
 use crate::symbolic::Constant;
 
-/// The parts of a definition.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Key {
+/// Makes [`Key`] from its one list: each with its name, what the value is called (nothing for a switch), and a help text.
+macro_rules! keys {
+    ($($(#[$doc:meta])* $key:ident = $name:literal, $value:expr, $help:literal;)*) => {
+        /// The parts of a definition.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Key {
+            $($(#[$doc])* $key,)*
+        }
+
+        impl Key {
+            /// All keys, in the order in which they are written.
+            pub const ALL: [Key; [$($name),*].len()] = [$(Key::$key),*];
+
+            /// The key as it is written in the macro and in files.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Key::$key => $name,)*
+                }
+            }
+
+            /// What the value is called in the help of the command line; `None` where it is `true` or `false`.
+            pub const fn value_name(self) -> Option<&'static str> {
+                match self {
+                    $(Key::$key => $value,)*
+                }
+            }
+
+            /// What it is, for the command line.
+            pub const fn help(self) -> &'static str {
+                match self {
+                    $(Key::$key => $help,)*
+                }
+            }
+        }
+    };
+}
+
+keys! {
     /// The functions in which velocities are approximated: `polynomial(3)`, `1, cos(pi*t), sin(pi*t)`.
-    Basis,
+    Basis = "basis", Some("BASIS"),
+        "`polynomial(s)`, `legendre(s)`, or a list of functions of t: \"1, cos(pi*t), sin(pi*t)\"";
     /// The nodes of the square construction: `lobatto(3)`, `0, 1/2, 1`.
-    Nodes,
+    Nodes = "nodes", Some("NODES"),
+        "A rule such as `gauss(3)` (`symplectic list` shows all), or a list of numbers in [0, 1]: \"0, 1/3, 1\"";
     /// The nodes of the quadrature formula of the rectangular construction, as many as there are
     /// functions or more.
-    Quadrature,
+    Quadrature = "quadrature", Some("QUADRATURE"),
+        "Nodes of the rectangular construction, at least as many as there are functions";
     /// A method on which a composition is built: a name of the [`catalogue`](crate::catalogue), or a definition in
     /// brackets. Without [`Key::Weights`] it is the method itself.
-    Base,
+    Base = "base", Some("METHOD"),
+        "A method to compose with `--weights`: a name of `symplectic list`, or a definition in brackets: \"[kick: [1/2, 1/2], drift: [1, 0]]\"";
     /// The weights of the quadrature formula, if they are not the interpolatory ones; beside a base the fractions of
     /// the steps that a composition makes with it: `1/2, adjoint(1/2)`, `triple_jump(4)`, `suzuki(4)`.
-    Weights,
+    Weights = "weights", Some("WEIGHTS"),
+        "The weights of the quadrature, if not the interpolatory ones: \"1/6, 2/3, 1/6\". Beside a base the fractions of its steps: \"1/2, adjoint(1/2)\", \"triple_jump(4)\", \"suzuki(4)\"";
     /// Given coefficients `a_ij`: `[[0, 0], [1/2, 1/2]]`.
-    A,
+    A = "a", Some("ROWS"),
+        "Given coefficients of the position stages, row by row: \"[[0, 0], [1/2, 1/2]]\"";
     /// Given weights `b_i`.
-    B,
+    B = "b", Some("LIST"),
+        "Given weights: \"1/2, 1/2\"";
     /// Given coefficients `ã_ij`, or `symplectic_partner`; `a` where they are not given.
-    ATilde,
+    ATilde = "a_tilde", Some("ROWS"),
+        "Given coefficients of the momentum stages, or `symplectic_partner` [default: those of the positions]";
     /// Given weights `b̃_i`; `b` where they are not given.
-    BTilde,
+    BTilde = "b_tilde", Some("LIST"),
+        "Given weights of the forces [default: b]";
     /// The kicks `p −= kick_i h ∂U/∂q` of a splitting: `1/2, 1/2`.
-    Kick,
+    Kick = "kick", Some("LIST"),
+        "The kicks of a splitting, p -= kick_i h dU/dq: \"1/2, 1/2\"";
     /// The drifts `q += drift_i h ∂T/∂p` of a splitting, each after the kick of the same number: `1, 0`.
-    Drift,
+    Drift = "drift", Some("LIST"),
+        "The drifts of a splitting, q += drift_i h dT/dp, each after the kick of the same number: \"1, 0\"";
     /// `drift` where each drift of a splitting comes before the kick of the same number; `kick` otherwise.
-    First,
+    First = "first", Some("FLOW"),
+        "Which of the two comes first: kick or drift [default: kick]";
     /// What printed kicks and drifts claim: `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`, or printed weights of a
     /// composition, `separable(8)`. The coefficients are then those of the exact method that is proved to be near the
     /// digits, see [`certify`](crate::certify).
-    Claim,
+    Claim = "claim", Some("CLAIM"),
+        "The order that printed kicks and drifts claim, or the printed weights of a composition: the exact method behind their digits is derived, with a proof that it exists. `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`";
     /// Steps of other methods one after another, each with its fraction of the step and its own
     /// definition: `[[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]]`.
-    Compose,
+    Compose = "compose", Some("STEPS"),
+        "Steps of other methods one after another, each with its fraction of the step: \"[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]\"";
     /// `true` where the parts of a splitting, or the weights of a composition, are the first half of a sequence that
     /// reads the same from both ends. The last one that is written stands in the middle, once.
-    Symmetric,
+    Symmetric = "symmetric", None,
+        "Mirror a splitting, or the weights of a base: what is written last stands in the middle, once";
     /// `true` where the coefficients for positions and momenta are exchanged in the end.
-    Exchange,
+    Exchange = "exchange", None,
+        "Exchange the coefficients of positions and momenta";
     /// `true` for the adjoint of the method that the other parts give. It does not matter whether it is
     /// taken before or after [`Key::Exchange`].
-    Adjoint,
+    Adjoint = "adjoint", None,
+        "Take the adjoint method";
 }
 
 impl Key {
-    /// All keys, in the order in which they are written.
-    pub const ALL: [Key; 17] = [
-        Key::Basis,
-        Key::Nodes,
-        Key::Quadrature,
-        Key::Base,
-        Key::Weights,
-        Key::A,
-        Key::B,
-        Key::ATilde,
-        Key::BTilde,
-        Key::Kick,
-        Key::Drift,
-        Key::First,
-        Key::Claim,
-        Key::Compose,
-        Key::Symmetric,
-        Key::Exchange,
-        Key::Adjoint,
-    ];
-
-    /// The key as it is written in the macro and in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Key::Basis => "basis",
-            Key::Nodes => "nodes",
-            Key::Quadrature => "quadrature",
-            Key::Base => "base",
-            Key::Weights => "weights",
-            Key::A => "a",
-            Key::B => "b",
-            Key::ATilde => "a_tilde",
-            Key::BTilde => "b_tilde",
-            Key::Kick => "kick",
-            Key::Drift => "drift",
-            Key::First => "first",
-            Key::Claim => "claim",
-            Key::Compose => "compose",
-            Key::Symmetric => "symmetric",
-            Key::Exchange => "exchange",
-            Key::Adjoint => "adjoint",
-        }
-    }
-
     /// Whether the value is `true` or `false`.
-    pub fn is_switch(self) -> bool {
-        matches!(self, Key::Symmetric | Key::Exchange | Key::Adjoint)
+    pub const fn is_switch(self) -> bool {
+        self.value_name().is_none()
     }
 
     /// The key of this name.

@@ -10,6 +10,7 @@ use crate::limits::Limits;
 use crate::tableau::Tableau;
 
 /// A part of a definition in a file.
+#[derive(Clone)]
 pub(super) struct Part {
     pub key: Key,
     /// What it says.

@@ -1,9 +1,11 @@
 //! The parts of a TOML file with their places.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::ops::Range;
 
-use serde::Deserialize;
+use serde::de::{Error as _, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
 use crate::coefficients::subscript;
@@ -52,66 +54,83 @@ pub(super) struct Derived {
     facts: Vec<Entry>,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+/// The parts of a definition, an entry for each [`Key`], and what is said of them.
+#[derive(Default)]
 struct ProvenanceTable {
-    basis: Option<Spanned<String>>,
-    nodes: Option<Spanned<String>>,
-    quadrature: Option<Spanned<String>>,
-    base: Option<Spanned<String>>,
-    weights: Option<Spanned<String>>,
-    a: Option<Spanned<String>>,
-    b: Option<Spanned<String>>,
-    a_tilde: Option<Spanned<String>>,
-    b_tilde: Option<Spanned<String>>,
-    kick: Option<Spanned<String>>,
-    drift: Option<Spanned<String>>,
-    first: Option<Spanned<String>>,
-    claim: Option<Spanned<String>>,
-    compose: Option<Spanned<String>>,
-    symmetric: Option<Spanned<bool>>,
-    exchange: Option<Spanned<bool>>,
-    adjoint: Option<Spanned<bool>>,
+    parts: Vec<Part>,
     tier: Option<Spanned<String>>,
     source: Option<String>,
 }
 
 impl ProvenanceTable {
-    fn parts(&self) -> Vec<Part> {
-        let switch = |value: &Option<Spanned<bool>>| {
-            let value = value.as_ref()?;
-            Some(Spanned::new(value.span(), value.get_ref().to_string()))
-        };
-        let symmetric = switch(&self.symmetric);
-        let (exchange, adjoint) = (switch(&self.exchange), switch(&self.adjoint));
-        let texts = [
-            (Key::Basis, &self.basis),
-            (Key::Nodes, &self.nodes),
-            (Key::Quadrature, &self.quadrature),
-            (Key::Base, &self.base),
-            (Key::Weights, &self.weights),
-            (Key::A, &self.a),
-            (Key::B, &self.b),
-            (Key::ATilde, &self.a_tilde),
-            (Key::BTilde, &self.b_tilde),
-            (Key::Kick, &self.kick),
-            (Key::Drift, &self.drift),
-            (Key::First, &self.first),
-            (Key::Claim, &self.claim),
-            (Key::Compose, &self.compose),
-            (Key::Symmetric, &symmetric),
-            (Key::Exchange, &exchange),
-            (Key::Adjoint, &adjoint),
-        ];
-        let part = |(key, text): (Key, &Option<Spanned<String>>)| {
-            let text = text.as_ref()?;
-            Some(Part {
-                key,
-                text: text.get_ref().clone(),
-                span: text.span(),
-            })
-        };
-        texts.into_iter().filter_map(part).collect()
+    const NAMES: [&str; Key::ALL.len() + 2] = {
+        let mut names = ["tier"; Key::ALL.len() + 2];
+        let mut k = 0;
+        while k < Key::ALL.len() {
+            names[k] = Key::ALL[k].name();
+            k += 1;
+        }
+        names[k + 1] = "source";
+        names
+    };
+}
+
+/// A key of [`ProvenanceTable`].
+enum ProvenanceKey {
+    Part(Key),
+    Tier,
+    Source,
+}
+
+impl<'de> Deserialize<'de> for ProvenanceKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        match name.as_str() {
+            "tier" => Ok(ProvenanceKey::Tier),
+            "source" => Ok(ProvenanceKey::Source),
+            _ => match Key::find(&name) {
+                Some(key) => Ok(ProvenanceKey::Part(key)),
+                None => Err(D::Error::unknown_field(&name, &ProvenanceTable::NAMES)),
+            },
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for ProvenanceTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(ProvenanceVisitor)
+    }
+}
+
+struct ProvenanceVisitor;
+
+impl<'de> Visitor<'de> for ProvenanceVisitor {
+    type Value = ProvenanceTable;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a table with the parts of a definition")
+    }
+
+    fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<ProvenanceTable, M::Error> {
+        let mut table = ProvenanceTable::default();
+        while let Some(key) = map.next_key()? {
+            match key {
+                ProvenanceKey::Tier => table.tier = Some(map.next_value()?),
+                ProvenanceKey::Source => table.source = Some(map.next_value()?),
+                ProvenanceKey::Part(key) => {
+                    let (span, text) = if key.is_switch() {
+                        let switch: Spanned<bool> = map.next_value()?;
+                        (switch.span(), switch.get_ref().to_string())
+                    } else {
+                        let text: Spanned<String> = map.next_value()?;
+                        (text.span(), text.into_inner())
+                    };
+                    table.parts.push(Part { key, text, span });
+                }
+            }
+        }
+        table.parts.sort_by_key(|part| part.key);
+        Ok(table)
     }
 }
 
@@ -215,7 +234,7 @@ impl Document {
         let provenance = self.provenance.get_ref();
         Origin {
             name: self.name.clone(),
-            parts: provenance.parts(),
+            parts: provenance.parts.clone(),
             source: provenance.source.clone(),
             span: self.provenance.span(),
         }
@@ -235,8 +254,8 @@ impl Document {
             return Vec::new();
         };
         let mut entries = vec![one("stages".to_owned(), &derived.stages)];
-        for Part { key, text, span } in self.provenance.get_ref().parts() {
-            entries.push(Entry::new(key.name(), text, span));
+        for Part { key, text, span } in &self.provenance.get_ref().parts {
+            entries.push(Entry::new(key.name(), text, span.clone()));
         }
         if let Some(tier) = &self.provenance.get_ref().tier {
             entries.push(one("tier".to_owned(), tier));
