@@ -473,7 +473,7 @@ enum Faulty {
     AsksBeyond,
     NotWritten,
     SetTwice,
-    InLanes,
+    SimdFixedPoint,
 }
 
 struct FaultySprings(Faulty);
@@ -512,7 +512,7 @@ impl<V: Vector> SeparableHamiltonian<V> for FaultySprings {
             let q = components.position(at);
             let in_lanes = size_of::<V::Scalar>() > size_of::<f64>();
             let force = match fault {
-                Faulty::InLanes if in_lanes => V::Scalar::from_f64(0.0),
+                Faulty::SimdFixedPoint if in_lanes => V::Scalar::from_f64(0.0),
                 Faulty::OtherBits => q * V::Scalar::from_f64(-3.0 - f64::EPSILON * 2.0),
                 _ => q * V::Scalar::from_f64(-3.0),
             };
@@ -542,7 +542,7 @@ fn another_force_component_by_component_is_refused() {
         (Faulty::AsksBeyond, Some(0)),
         (Faulty::NotWritten, Some(0)),
         (Faulty::SetTwice, Some(0)),
-        (Faulty::InLanes, Some(0)),
+        (Faulty::SimdFixedPoint, Some(0)),
     ] {
         match made(fault) {
             Err(Error::NotTheSameLocalForce { component, .. }) => {

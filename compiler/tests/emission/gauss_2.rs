@@ -128,7 +128,7 @@ const _: () = {
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::Kept,
+            kept: ::symplectic::emitted::WarmStart,
         ) {
             let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
             if kept.stages {
@@ -295,9 +295,9 @@ const _: () = {
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::emitted::Change {
+        ) -> ::symplectic::emitted::StageChange {
             let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::emitted::Change::default();
+            let mut change = ::symplectic::emitted::StageChange::default();
             let force_weights = ::symplectic::emitted::weights::<
                 V::Scalar,
                 _,
@@ -536,12 +536,12 @@ const _: () = {
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
             S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
-            W: ::symplectic::emitted::Witness,
+            W: ::symplectic::emitted::EvaluationObserver,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::Kept,
+            kept: ::symplectic::emitted::WarmStart,
             outcome: ::symplectic::emitted::Outcome<'_, V>,
             witness: &mut W,
         ) {
@@ -638,7 +638,7 @@ const _: () = {
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::Kept,
+            kept: ::symplectic::emitted::WarmStart,
         ) {
             let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
             if kept.stages {
@@ -761,9 +761,9 @@ const _: () = {
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::emitted::Change {
+        ) -> ::symplectic::emitted::StageChange {
             let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::emitted::Change::default();
+            let mut change = ::symplectic::emitted::StageChange::default();
             let force_weights = ::symplectic::emitted::weights::<
                 V::Scalar,
                 _,
@@ -1002,12 +1002,12 @@ const _: () = {
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
             S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
-            W: ::symplectic::emitted::Witness,
+            W: ::symplectic::emitted::EvaluationObserver,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::Kept,
+            kept: ::symplectic::emitted::WarmStart,
             outcome: ::symplectic::emitted::Outcome<'_, V>,
             witness: &mut W,
         ) {

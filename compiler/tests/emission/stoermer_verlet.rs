@@ -121,7 +121,7 @@ const _: () = {
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::Kept,
+            kept: ::symplectic::emitted::WarmStart,
         ) {
             let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
             ::symplectic::emitted::copy(&mut p[0], step.p);
@@ -167,9 +167,9 @@ const _: () = {
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::emitted::Change {
+        ) -> ::symplectic::emitted::StageChange {
             let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::emitted::Change::default();
+            let mut change = ::symplectic::emitted::StageChange::default();
             let force_weights = ::symplectic::emitted::weights::<
                 V::Scalar,
                 _,
@@ -298,12 +298,12 @@ const _: () = {
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
             S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
-            W: ::symplectic::emitted::Witness,
+            W: ::symplectic::emitted::EvaluationObserver,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::Kept,
+            kept: ::symplectic::emitted::WarmStart,
             outcome: ::symplectic::emitted::Outcome<'_, V>,
             witness: &mut W,
         ) {
@@ -400,13 +400,13 @@ const _: () = {
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
             S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
-            K: ::symplectic::emitted::Moves,
-            W: ::symplectic::emitted::Witness,
+            K: ::symplectic::emitted::KickDrift,
+            W: ::symplectic::emitted::EvaluationObserver,
         >(
             span: ::symplectic::emitted::Span,
             system: &S,
             evaluations: &mut ::symplectic::emitted::Evaluations<V>,
-            kept: ::symplectic::emitted::Kept,
+            kept: ::symplectic::emitted::WarmStart,
             state: ::symplectic::emitted::Outcome<'_, V>,
             moves: &mut K,
             witness: &mut W,

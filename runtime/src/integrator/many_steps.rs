@@ -2,11 +2,11 @@
 
 use core::{hint, mem};
 
-use super::{Course, Integrator, MemoryOf, PlanOf};
+use super::{Integrator, MemoryOf, PlanOf, StepMemory};
 use crate::error::Error;
 use crate::integrator::clock::Clock;
-use crate::method::kick_drift::Waiting;
-use crate::method::{Kept, Method, Moves, Outcome, Plan, Solver, Span, StageStorage};
+use crate::method::kick_drift::FusedKicks;
+use crate::method::{KickDrift, Method, Outcome, Plan, Solver, Span, StageStorage, WarmStart};
 use crate::number::vector::{LIGHT, SHORT, is_in_place};
 use crate::number::{Summation, Vector, copy};
 use crate::system::Hamiltonian;
@@ -75,7 +75,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         }
         // The state stays as it is, and nothing of what is left behind is used if the system panics.
         let before = mem::take(&mut self.course.kept);
-        let Course {
+        let StepMemory {
             state,
             low,
             next,
@@ -91,7 +91,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         let waits = !R::COMPENSATED && self.course.state.q.dimension() >= LONG;
         let alone = !R::COMPENSATED || size_of::<V>() <= FEW;
         match (size_of::<V>() <= SHORT, alone) {
-            _ if waits => self.run_here(clock, steps, size, Waiting::new(steps)),
+            _ if waits => self.run_here(clock, steps, size, FusedKicks::new(steps)),
             (true, true) => self.run_alone(clock, steps, size),
             (true, false) => self.run_apart(clock, steps, size),
             (false, _) => self.run_here(clock, steps, size, ()),
@@ -101,7 +101,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             return false;
         }
         self.course.swap::<R>();
-        self.course.kept = Kept {
+        self.course.kept = WarmStart {
             stages: false,
             ..before
         };
@@ -114,8 +114,8 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 
     /// Takes steps in the places of `next`.
     #[inline]
-    fn run_here(&mut self, clock: &Clock, steps: u64, size: f64, moves: impl Moves) {
-        let Course {
+    fn run_here(&mut self, clock: &Clock, steps: u64, size: f64, moves: impl KickDrift) {
+        let StepMemory {
             next,
             next_low,
             memory,
@@ -162,7 +162,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         size: f64,
         ((q, p), (q_low, p_low)): (&mut (V, V), &mut (V, V)),
         memory: &mut MemoryOf<M, S, V, N>,
-        mut moves: impl Moves,
+        mut moves: impl KickDrift,
     ) {
         for number in 0..steps {
             // Nothing of this remains where the system does not look at the time.
@@ -186,7 +186,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 
     /// Whether what steps change is little and all in one place: copies of it do not show beside a few steps.
     fn is_light(&self) -> bool {
-        let bytes = size_of::<Course<V, MemoryOf<M, S, V, N>>>();
+        let bytes = size_of::<StepMemory<V, MemoryOf<M, S, V, N>>>();
         is_in_place(&self.course.state.q) && bytes <= LIGHT
     }
 

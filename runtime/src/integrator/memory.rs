@@ -4,14 +4,16 @@ use core::mem;
 
 use crate::integrator::Statistics;
 use crate::method::storage::is_finite;
-use crate::method::{Failure, Kept, Outcome, Plan, Solver, StageStorage, Step, Stopping, Work};
+use crate::method::{
+    Failure, Outcome, Plan, Solver, StageStorage, Step, StepStatistics, Stopping, WarmStart,
+};
 use crate::number::vector::{SHORT, is_in_place};
 use crate::number::{Summation, Vector, copy};
 use crate::state::State;
 use crate::system::Hamiltonian;
 
 /// What steps change: the state, and what a step leaves behind for the next one.
-pub(super) struct Course<V, T> {
+pub(super) struct StepMemory<V, T> {
     pub(super) state: State<V>,
     /// What the position and the momentum of the state leave out.
     pub(super) low: (V, V),
@@ -20,10 +22,10 @@ pub(super) struct Course<V, T> {
     /// What they leave out.
     pub(super) next_low: (V, V),
     /// What that step took.
-    work: Work,
+    work: StepStatistics,
     pub(super) memory: T,
     /// What `memory` holds for the next step.
-    pub(super) kept: Kept,
+    pub(super) kept: WarmStart,
     /// Size of the step before.
     pub(super) last_size: f64,
     /// Time at the start of the step before.
@@ -31,7 +33,7 @@ pub(super) struct Course<V, T> {
     pub(super) statistics: Statistics,
 }
 
-impl<V: Vector, T: StageStorage<V>> Course<V, T> {
+impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
     /// That which begins at a state.
     pub(super) fn new(state: State<V>) -> Self {
         let zeros = || (state.q.zeros_like(), state.q.zeros_like());
@@ -39,9 +41,9 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
             low: zeros(),
             next: zeros(),
             next_low: zeros(),
-            work: Work::default(),
+            work: StepStatistics::default(),
             memory: T::like(&state.q),
-            kept: Kept::default(),
+            kept: WarmStart::default(),
             last_size: 0.0,
             last_time: state.time,
             statistics: Statistics::default(),
@@ -59,10 +61,10 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
     }
 
     /// The same with a memory of another kind.
-    pub(super) fn with_memory<U: StageStorage<V>>(self) -> Course<V, U> {
-        Course {
+    pub(super) fn with_memory<U: StageStorage<V>>(self) -> StepMemory<V, U> {
+        StepMemory {
             memory: U::like(&self.state.q),
-            kept: Kept::default(),
+            kept: WarmStart::default(),
             state: self.state,
             low: self.low,
             next: self.next,
@@ -78,7 +80,7 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
     pub(super) fn set_state(&mut self, state: State<V>) {
         self.state = state;
         self.low = (self.state.q.zeros_like(), self.state.q.zeros_like());
-        self.kept = Kept::default();
+        self.kept = WarmStart::default();
     }
 
     /// The same from another state of the same dimension, copied.
@@ -89,7 +91,7 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
         for low in [&mut self.low.0, &mut self.low.1] {
             low.as_mut_slice().fill(num_traits::Zero::zero());
         }
-        self.kept = Kept::default();
+        self.kept = WarmStart::default();
     }
 
     /// Computes a step of size `size` into `next` and checks it.
@@ -108,7 +110,7 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
     {
         // Nothing is kept until the step is accepted: the system may panic.
         let before = mem::take(&mut self.kept);
-        let kept = Kept {
+        let kept = WarmStart {
             stages: before.stages && size == self.last_size,
             ..before
         };
@@ -143,7 +145,7 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
         self.last_time = mem::replace(&mut self.state.time, time);
         self.statistics.count(self.work);
         self.last_size = size;
-        self.kept = Kept {
+        self.kept = WarmStart {
             evaluation: true,
             stages: true,
             scales: self.work.scales,
@@ -153,7 +155,7 @@ impl<V: Vector, T: StageStorage<V>> Course<V, T> {
     /// Forgets what steps have left behind.
     pub(super) fn forget(&mut self) {
         self.memory = T::like(&self.state.q);
-        self.kept = Kept::default();
+        self.kept = WarmStart::default();
     }
 
     /// A step of size `size` from the present state, places for its result, and the memory.

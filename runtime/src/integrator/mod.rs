@@ -22,7 +22,7 @@ use crate::integrator::last_step::LastStep;
 use crate::method::interpolation::Line;
 use crate::method::{Inside, Interpolation, Method, Plan, ProvedFor, Solver, Stopping};
 #[cfg(feature = "alloc")]
-use crate::method::{Kept, Step};
+use crate::method::{Step, WarmStart};
 use crate::number::{Compensated, Plain, Scalar, Summation, Vector};
 use crate::solver::FixedPoint;
 use crate::state::State;
@@ -35,7 +35,7 @@ mod retry_in_parts;
 mod solvers;
 pub(crate) mod validation;
 
-use memory::Course;
+use memory::StepMemory;
 use validation::{
     check_masses, check_pass, check_quadratic_kinetic, check_slopes, check_state, check_step_size,
 };
@@ -87,7 +87,7 @@ pub struct Integrator<
     N: Solver<V, S> = FixedPoint,
 > {
     system: S,
-    course: Course<V, MemoryOf<M, S, V, N>>,
+    course: StepMemory<V, MemoryOf<M, S, V, N>>,
     clock: Clock,
     step_size: f64,
     stopping: Stopping,
@@ -225,7 +225,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         Ok(Self {
             system,
             clock: Clock::new(state.time, step_size),
-            course: Course::new(state),
+            course: StepMemory::new(state),
             step_size,
             stopping: Stopping::DEFAULT,
             retry: Retry::default(),
@@ -304,7 +304,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             self.clock.tick();
         } else {
             // The stages are those of a step that was not taken.
-            self.course.kept = Kept::default();
+            self.course.kept = WarmStart::default();
         }
         outcome
     }

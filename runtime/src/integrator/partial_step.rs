@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::integrator::PlanOf;
 use crate::method::diagnosis::{Attempt, FirstFault};
-use crate::method::{Kept, Method, Outcome, Plan, Solver, StageStorage, Step};
+use crate::method::{Method, Outcome, Plan, Solver, StageStorage, Step, WarmStart};
 use crate::number::{Summation, Vector, copy};
 use crate::state::State;
 use crate::system::Hamiltonian;
@@ -51,7 +51,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S
             &step,
             integrator.system(),
             &mut self.memory,
-            Kept::default(),
+            WarmStart::default(),
             integrator.stopping(),
             Outcome {
                 q: &mut state.q,

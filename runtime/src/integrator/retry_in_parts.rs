@@ -7,7 +7,7 @@ use super::Integrator;
 use crate::error::Error;
 use crate::integrator::Retry;
 use crate::integrator::clock::Clock;
-use crate::method::{Kept, Method, Solver};
+use crate::method::{Method, Solver, WarmStart};
 use crate::number::{Summation, Vector};
 use crate::system::Hamiltonian;
 
@@ -26,7 +26,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         let (state, low) = (self.course.state.clone(), self.course.low.clone());
         let parts = self.take_again(size, time, error)?;
         let statistics = self.course.statistics;
-        (self.course.state, self.course.low, self.course.kept) = (state, low, Kept::default());
+        (self.course.state, self.course.low, self.course.kept) = (state, low, WarmStart::default());
         let seen = self.take_in_parts(size, time, parts, see);
         self.course.statistics = statistics;
         seen

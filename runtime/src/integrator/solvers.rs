@@ -7,9 +7,9 @@ use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
-use crate::solver::{AtOnceInLanes, InLanes, SecondOrderInLanes};
 #[cfg(feature = "alloc")]
 use crate::solver::{Dense, Differences, Newton};
+use crate::solver::{SimdFixedPoint, SimdJacobi, SimdNystrom};
 use crate::state::State;
 use crate::system::{Hamiltonian, HamiltonianInLanes};
 
@@ -55,7 +55,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
     Integrator<M, S, V, R>
 {
-    /// The same integrator with coupled stages side by side, [`InLanes`]: for a system that is generic over its
+    /// The same integrator with coupled stages side by side, [`SimdFixedPoint`]: for a system that is generic over its
     /// scalar. Vectors may be long. An explicit method stays what it is.
     ///
     /// ```
@@ -85,30 +85,28 @@ impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
     /// # Ok(())
     /// # }
     /// ```
-    pub fn in_lanes(self) -> Integrator<M, S, V, R, InLanes> {
-        self.with_solver(InLanes)
+    pub fn in_lanes(self) -> Integrator<M, S, V, R, SimdFixedPoint> {
+        self.with_solver(SimdFixedPoint)
     }
 
     /// [`in_lanes`](Self::in_lanes) for a Hamiltonian that is not separable, with positions and momenta iterated at once:
-    /// [`AtOnceInLanes`], which says where that pays.
-    pub fn at_once_in_lanes(self) -> Integrator<M, S, V, R, AtOnceInLanes> {
-        self.with_solver(AtOnceInLanes)
+    /// [`SimdJacobi`], which says where that pays.
+    pub fn at_once_in_lanes(self) -> Integrator<M, S, V, R, SimdJacobi> {
+        self.with_solver(SimdJacobi)
     }
 
     /// [`in_lanes`](Self::in_lanes) for a second-order system `q'' = M⁻¹ f(q)`, one whose velocity `M⁻¹ p` is linear in the
-    /// momentum: by [`SecondOrderInLanes`], which iterates the positions only.
+    /// momentum: by [`SimdNystrom`], which iterates the positions only.
     ///
     /// # Errors
     ///
     /// [`Error::NotSecondOrder`], where the velocity is not linear in the momentum, or depends on time;
     /// [`Error::NotTheSameLocalForce`], where the force component by component, or in rows, is another one, and [`Error::NoSuchRow`], where
     /// there is no such row.
-    pub fn in_second_order_lanes(
-        self,
-    ) -> Result<Integrator<M, S, V, R, SecondOrderInLanes>, Error> {
+    pub fn in_second_order_lanes(self) -> Result<Integrator<M, S, V, R, SimdNystrom>, Error> {
         check_local_forces(&self.system, &self.course.state, self.step_size)?;
         let State { time, q, p } = &self.course.state;
-        let solver = SecondOrderInLanes::new(&self.system, *time, q, p)?;
+        let solver = SimdNystrom::new(&self.system, *time, q, p)?;
         Ok(self.with_solver(solver))
     }
 }

@@ -1,6 +1,6 @@
 //! What an integration has taken.
 
-use crate::method::Work;
+use crate::method::StepStatistics;
 
 /// Counts over all steps taken; a step that fails changes none of them.
 ///
@@ -60,7 +60,7 @@ impl Statistics {
 
     /// Counts a step that was accepted.
     #[inline]
-    pub(crate) fn count(&mut self, work: Work) {
+    pub(crate) fn count(&mut self, work: StepStatistics) {
         self.steps += 1;
         self.iterations += u64::from(work.iterations);
         self.most_iterations = self.most_iterations.max(work.iterations);

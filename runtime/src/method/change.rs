@@ -5,26 +5,26 @@ use crate::number::Scalar;
 /// How much one fixed-point sweep changed the stage values, positions and momenta apart, for they have different
 /// units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Change {
+pub struct StageChange {
     /// Change of the positions.
-    pub q: PartChange,
+    pub q: HalfChange,
     /// Change of the momenta.
-    pub p: PartChange,
+    pub p: HalfChange,
 }
 
-impl Change {
-    /// The larger of the two [relative changes](PartChange::relative); NaN if either is.
+impl StageChange {
+    /// The larger of the two [relative changes](HalfChange::relative); NaN if either is.
     ///
     /// ```
-    /// use symplectic::solver::Change;
+    /// use symplectic::solver::StageChange;
     ///
-    /// let mut change = Change::default();
+    /// let mut change = StageChange::default();
     /// assert_eq!(change.residual(), 0.0);
     /// change.q.record(1.0, 3.0, 4.0);
     /// change.p.record(0.0, 8.0, 8.0);
     /// assert_eq!(change.residual(), 0.25);
     ///
-    /// let mut change = Change::default();
+    /// let mut change = StageChange::default();
     /// change.q.record(0.0, 3.0, 0.0);
     /// assert_eq!(change.residual(), 1.0);
     /// change.p.record(0.0, 1.0, f64::NAN);
@@ -50,12 +50,12 @@ impl Change {
 
 /// How much the positions, or the momenta, of all stages changed in one sweep.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PartChange {
+pub struct HalfChange {
     difference: f64,
     scale: f64,
 }
 
-impl PartChange {
+impl HalfChange {
     /// A change of the size `difference` of values of the size `scale`.
     pub(crate) const fn new(difference: f64, scale: f64) -> Self {
         Self { difference, scale }

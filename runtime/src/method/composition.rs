@@ -6,8 +6,8 @@ use crate::error::Quantity;
 use crate::method::diagnosis::{FirstFault, culprit};
 use crate::method::storage::is_finite;
 use crate::method::{
-    Failure, Inside, Interpolation, Kept, Outcome, Plan, Solver, StageStorage, Step, Stopping,
-    Witness, Work,
+    EvaluationObserver, Failure, Inside, Interpolation, Outcome, Plan, Solver, StageStorage, Step,
+    StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Coefficient, Summation, Vector};
 use crate::system::{Class, Hamiltonian};
@@ -20,7 +20,7 @@ pub struct Substep {
     /// The fraction γ of the whole step.
     pub fraction: Coefficient,
     /// What the memory of its plan holds from the step before it, or from the last one of the whole step before.
-    pub kept: Kept,
+    pub kept: WarmStart,
     /// The stages of the substeps before it, for error messages.
     pub stages: usize,
 }
@@ -45,10 +45,10 @@ pub trait Substeps {
         step: &Step<'_, V>,
         system: &S,
         memory: &mut Self::Memory<V, S, N>,
-        kept: Kept,
+        kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         R: Summation,
         V: Vector,
@@ -68,7 +68,7 @@ pub trait Substeps {
         V: Vector,
         S: Hamiltonian<V, Class = Self::Class>,
         N: Solver<V, S>,
-        W: Witness;
+        W: EvaluationObserver;
 }
 
 /// A composition at the level of steps: each finds its own stages, from the result of the one before.
@@ -116,10 +116,10 @@ impl<L: Substeps> Plan for Composition<L> {
         step: &Step<'_, V>,
         system: &S,
         memory: &mut Self::Memory<V, S, N>,
-        kept: Kept,
+        kept: WarmStart,
         stopping: Stopping,
         mut outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         R: Summation,
         V: Vector,
@@ -132,7 +132,7 @@ impl<L: Substeps> Plan for Composition<L> {
         } = memory;
         let mut between = Outcome { q, q_low, p, p_low };
         let mut outcome = outcome.reborrow();
-        let mut work = Work::default();
+        let mut work = StepStatistics::default();
         let count = L::SUBSTEPS.len();
         for (number, substep) in L::SUBSTEPS.iter().enumerate() {
             // Results go to one of two places in turn, the last one to where it belongs.
@@ -154,7 +154,7 @@ impl<L: Substeps> Plan for Composition<L> {
                 p,
                 p_low,
             };
-            let kept = Kept {
+            let kept = WarmStart {
                 evaluation: substep.kept.evaluation && (number > 0 || kept.evaluation),
                 stages: substep.kept.stages && (number > 0 || kept.stages),
                 scales: if number > 0 { work.scales } else { kept.scales },
@@ -202,7 +202,7 @@ impl<L: Substeps> Plan for Composition<L> {
         V: Vector,
         S: Hamiltonian<V, Class = Self::Class>,
         N: Solver<V, S>,
-        W: Witness,
+        W: EvaluationObserver,
     {
     }
 

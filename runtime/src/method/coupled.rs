@@ -3,8 +3,8 @@
 use core::marker::PhantomData;
 
 use crate::method::{
-    Failure, Inside, Interpolation, Kept, Outcome, Plan, Solver, StageTableau, Step, Stopping,
-    Witness, Work,
+    EvaluationObserver, Failure, Inside, Interpolation, Outcome, Plan, Solver, StageTableau, Step,
+    StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Summation, Vector};
 use crate::system::Hamiltonian;
@@ -22,10 +22,10 @@ impl<P: StageTableau> Plan for Coupled<P> {
         step: &Step<'_, V>,
         system: &S,
         memory: &mut N::Memory<P>,
-        kept: Kept,
+        kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         R: Summation,
         V: Vector,
@@ -47,7 +47,7 @@ impl<P: StageTableau> Plan for Coupled<P> {
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,
         N: Solver<V, S>,
-        W: Witness,
+        W: EvaluationObserver,
     {
     }
 

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Quantity};
 use crate::method::storage::is_finite;
-use crate::method::{Failure, StageStorage, Witness};
+use crate::method::{EvaluationObserver, Failure, StageStorage};
 use crate::number::Vector;
 
 /// What is wrong with an evaluation.
@@ -45,7 +45,7 @@ impl FirstFault {
     }
 }
 
-impl Witness for FirstFault {
+impl EvaluationObserver for FirstFault {
     fn evaluation<V: Vector>(&mut self, what: Quantity, stage: usize, argument: &V, value: &V) {
         let dimension = value.dimension();
         let fault = if dimension != self.dimension {

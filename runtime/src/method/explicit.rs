@@ -3,8 +3,8 @@
 use core::marker::PhantomData;
 
 use crate::method::{
-    Failure, Inside, Interpolation, Kept, Outcome, Plan, Solver, StagePlan, StageStorage, Step,
-    Stopping, Witness, Work,
+    EvaluationObserver, Failure, Inside, Interpolation, Outcome, Plan, Solver, StagePlan,
+    StageStorage, Step, StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Summation, Vector};
 use crate::system::Hamiltonian;
@@ -22,10 +22,10 @@ impl<P: StagePlan> Plan for Explicit<P> {
         step: &Step<'_, V>,
         system: &S,
         memory: &mut P::Stages<V>,
-        kept: Kept,
+        kept: WarmStart,
         _stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         R: Summation,
         V: Vector,
@@ -34,9 +34,9 @@ impl<P: StagePlan> Plan for Explicit<P> {
     {
         P::begin::<R, V, S>(step, system, memory, kept);
         P::finish::<R, V, S, ()>(step, system, memory, kept, outcome, &mut ());
-        Ok(Work {
+        Ok(StepStatistics {
             evaluations: P::EVALUATIONS.at_begin(kept) + P::EVALUATIONS.finish,
-            ..Work::default()
+            ..StepStatistics::default()
         })
     }
 
@@ -51,11 +51,11 @@ impl<P: StagePlan> Plan for Explicit<P> {
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,
         N: Solver<V, S>,
-        W: Witness,
+        W: EvaluationObserver,
     {
         *memory = P::Stages::like(step.q);
-        P::begin::<R, V, S>(step, system, memory, Kept::default());
-        P::finish::<R, V, S, W>(step, system, memory, Kept::default(), outcome, witness);
+        P::begin::<R, V, S>(step, system, memory, WarmStart::default());
+        P::finish::<R, V, S, W>(step, system, memory, WarmStart::default(), outcome, witness);
     }
 
     const INTERPOLATION: Interpolation = Interpolation::Hermite;

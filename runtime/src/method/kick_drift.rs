@@ -3,7 +3,7 @@
 use core::mem;
 
 use crate::error::Quantity;
-use crate::method::{Span, Witness};
+use crate::method::{EvaluationObserver, Span};
 use crate::number::linear_combination::{advance, kick_and_drift};
 use crate::number::{Coefficient, Scalar, Summation, Vector};
 use crate::system::{Hamiltonian, Layout};
@@ -35,9 +35,9 @@ pub struct Force {
 }
 
 /// How the kicks and drifts of a splitting are made: one by one, `()`, or so that they wait for the drift after them.
-pub trait Moves {
+pub trait KickDrift {
     /// Evaluates the force, for the kicks that come next.
-    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
+    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: EvaluationObserver>(
         &mut self,
         force: Force,
         system: &S,
@@ -59,7 +59,7 @@ pub trait Moves {
     );
 
     /// Evaluates the velocity, and adds it to the position.
-    fn drift<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
+    fn drift<R: Summation, V: Vector, S: Hamiltonian<V>, W: EvaluationObserver>(
         &mut self,
         drift: Drift,
         system: &S,
@@ -79,9 +79,9 @@ pub trait Moves {
     );
 }
 
-impl Moves for () {
+impl KickDrift for () {
     #[inline(always)]
-    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
+    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: EvaluationObserver>(
         &mut self,
         Force { span, stage, time }: Force,
         system: &S,
@@ -108,7 +108,7 @@ impl Moves for () {
     }
 
     #[inline(always)]
-    fn drift<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
+    fn drift<R: Summation, V: Vector, S: Hamiltonian<V>, W: EvaluationObserver>(
         &mut self,
         Drift {
             span,
@@ -146,7 +146,7 @@ impl Moves for () {
 ///
 /// The sums are plain, and every component has the same bits as where nothing waits.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Waiting {
+pub(crate) struct FusedKicks {
     force: Option<Force>,
     /// The step size and the weight of each kick: where two steps meet, there are two.
     kicks: [(f64, Coefficient); 2],
@@ -161,7 +161,7 @@ pub(crate) struct Waiting {
 /// Passes that are worth two changes of the layout.
 const MANY: u64 = 1 << 6;
 
-impl Waiting {
+impl FusedKicks {
     /// Nothing waits, and there will be so many passes, or more.
     pub(crate) const fn new(passes: u64) -> Self {
         Self {
@@ -234,10 +234,10 @@ impl Waiting {
     }
 }
 
-impl Moves for Waiting {
+impl KickDrift for FusedKicks {
     /// Shows no evaluation to the witness.
     #[inline(always)]
-    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
+    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: EvaluationObserver>(
         &mut self,
         force: Force,
         system: &S,
@@ -274,7 +274,7 @@ impl Moves for Waiting {
     }
 
     #[inline(always)]
-    fn drift<R: Summation, V: Vector, S: Hamiltonian<V>, W: Witness>(
+    fn drift<R: Summation, V: Vector, S: Hamiltonian<V>, W: EvaluationObserver>(
         &mut self,
         drift: Drift,
         system: &S,
@@ -386,7 +386,7 @@ mod tests {
     }
 
     impl Places {
-        fn force(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Long>) {
+        fn force(&mut self, moves: &mut impl KickDrift, system: &impl Hamiltonian<Long>) {
             let force = Force {
                 span: SPAN,
                 stage: 1,
@@ -396,13 +396,18 @@ mod tests {
             moves.force::<Plain, _, _, _>(force, system, place, &mut self.q.0, p, &mut ());
         }
 
-        fn kick(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Long>, weight: f64) {
+        fn kick(
+            &mut self,
+            moves: &mut impl KickDrift,
+            system: &impl Hamiltonian<Long>,
+            weight: f64,
+        ) {
             let (weight, p) = (Coefficient::exact(weight), (&mut self.p.0, &mut self.p.1));
             let (force, q) = (&mut self.force, &mut self.q.0);
             moves.kick::<Plain, _, _>(SPAN.size, weight, system, force, q, p);
         }
 
-        fn drift(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Long>) {
+        fn drift(&mut self, moves: &mut impl KickDrift, system: &impl Hamiltonian<Long>) {
             let drift = Drift {
                 span: SPAN,
                 stage: 1,
@@ -418,7 +423,7 @@ mod tests {
             moves.drift::<Plain, _, _, _>(drift, system, evaluations, q, p, &mut ());
         }
 
-        fn settle(&mut self, moves: &mut impl Moves, system: &impl Hamiltonian<Long>) {
+        fn settle(&mut self, moves: &mut impl KickDrift, system: &impl Hamiltonian<Long>) {
             let p = (&mut self.p.0, &mut self.p.1);
             moves.settle::<Plain, _, _>(system, &mut self.force, &mut self.q.0, p);
         }
@@ -428,7 +433,7 @@ mod tests {
     #[test]
     fn what_waits_is_made_as_what_does_not() {
         fn all(
-            mut moves: impl Moves,
+            mut moves: impl KickDrift,
             mut places: Places,
             system: &impl Hamiltonian<Long>,
         ) -> Places {
@@ -470,7 +475,7 @@ mod tests {
             };
             let expected = all((), start.clone(), system);
             for passes in [0, u64::MAX] {
-                let waiting = Waiting::new(passes);
+                let waiting = FusedKicks::new(passes);
                 assert_eq!(all(waiting, start.clone(), system), expected);
             }
             assert!(expected.q.0.iter().all(|q| q.is_finite()));

@@ -19,25 +19,25 @@ pub(crate) mod tableau;
 pub(crate) mod tableau_macro;
 pub(crate) mod work;
 
-pub use change::{Change, PartChange};
+pub use change::{HalfChange, StageChange};
 pub use composition::{Composition, CompositionMemory, Substep, Substeps};
 pub use coupled::Coupled;
 pub use explicit::Explicit;
 pub use interpolation::{Inside, Interpolation};
-pub use kick_drift::{Drift, Force, Moves};
+pub use kick_drift::{Drift, Force, KickDrift};
 pub use proved::{LowerOrder, Orders, ProvedFor};
 pub use separable_only::{SeparableOnly, rows, staircase};
 pub use solver::Solver;
 pub use splitting::{Splitting, SplittingPlan};
 pub use splitting_macros::{composition, splitting};
-pub use step::{EvaluationCounts, Kept, Outcome, Span, Step, Witness};
+pub use step::{EvaluationCounts, EvaluationObserver, Outcome, Span, Step, WarmStart};
 pub use stopping::Stopping;
 pub use storage::{Evaluations, StageStorage, Stages};
 pub use tableau::{
     Decoupling, HalfTableau, SecondOrderTableau, StagePolynomial, StageTableau, StoredEvaluations,
 };
 pub use tableau_macro::tableau;
-pub use work::{Failure, Work};
+pub use work::{Failure, StepStatistics};
 
 use core::fmt::Debug;
 
@@ -117,17 +117,17 @@ pub trait Plan {
         step: &Step<'_, V>,
         system: &S,
         memory: &mut Self::Memory<V, S, N>,
-        kept: Kept,
+        kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         R: Summation,
         V: Vector,
         S: Hamiltonian<V, Class = Self::Class>,
         N: Solver<V, S>;
 
-    /// Takes a step from `state`, in place, with the evaluations [kept](Kept::evaluation) by the step before; nothing where
+    /// Takes a step from `state`, in place, with the evaluations [kept](WarmStart::evaluation) by the step before; nothing where
     /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`. `moves` may leave a force and kicks waiting.
     #[inline(always)]
     fn take_in_place<R, V, S, N, K>(
@@ -141,7 +141,7 @@ pub trait Plan {
         V: Vector,
         S: Hamiltonian<V, Class = Self::Class>,
         N: Solver<V, S>,
-        K: Moves,
+        K: KickDrift,
     {
     }
 
@@ -157,7 +157,7 @@ pub trait Plan {
         V: Vector,
         S: Hamiltonian<V, Class = Self::Class>,
         N: Solver<V, S>,
-        K: Moves,
+        K: KickDrift,
     {
     }
 
@@ -173,7 +173,7 @@ pub trait Plan {
         V: Vector,
         S: Hamiltonian<V, Class = Self::Class>,
         N: Solver<V, S>,
-        W: Witness;
+        W: EvaluationObserver;
 
     /// What values inside a step are computed from.
     const INTERPOLATION: Interpolation;
@@ -210,12 +210,12 @@ pub trait StagePlan {
     const EVALUATIONS: EvaluationCounts;
 
     /// Evaluates what is explicit before the coupled stages, and gives these their starting values: extrapolated from
-    /// the stages of the step before where they are [kept](Kept::stages), the start of the step elsewhere.
+    /// the stages of the step before where they are [kept](WarmStart::stages), the start of the step elsewhere.
     fn begin<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Self::Stages<V>,
-        kept: Kept,
+        kept: WarmStart,
     );
 
     /// One fixed-point sweep over the coupled stages: new forces, the momenta that follow from them, new velocities, and the
@@ -227,7 +227,7 @@ pub trait StagePlan {
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Self::Stages<V>,
-    ) -> Change;
+    ) -> StageChange;
 
     /// Makes increments of the evaluations of the coupled stages, where they are to be such. With
     /// [compensated](Summation::COMPENSATED) sums every sweep does; with plain ones they stay as they are meanwhile, and the factors of
@@ -238,11 +238,16 @@ pub trait StagePlan {
     /// Evaluates what comes after the coupled stages, and writes the result of the step.
     ///
     /// A splitting makes all its evaluations here, and shows them to `witness`.
-    fn finish<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>, W: Witness>(
+    fn finish<
+        R: Summation,
+        V: Vector,
+        S: Hamiltonian<V, Class = Self::Class>,
+        W: EvaluationObserver,
+    >(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Self::Stages<V>,
-        kept: Kept,
+        kept: WarmStart,
         outcome: Outcome<'_, V>,
         witness: &mut W,
     );

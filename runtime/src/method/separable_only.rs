@@ -1,7 +1,8 @@
 //! What the macros emit of a splitting that is too long for its matrices to be written out.
 
 use crate::method::{
-    Failure, Inside, Interpolation, Kept, Outcome, Plan, Solver, Step, Stopping, Witness, Work,
+    EvaluationObserver, Failure, Inside, Interpolation, Outcome, Plan, Solver, Step,
+    StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Summation, Vector};
 use crate::system::{General, Hamiltonian};
@@ -69,10 +70,10 @@ impl Plan for SeparableOnly {
         _step: &Step<'_, V>,
         _system: &S,
         _memory: &mut crate::method::Evaluations<V>,
-        _kept: Kept,
+        _kept: WarmStart,
         _stopping: Stopping,
         _outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         R: Summation,
         V: Vector,
@@ -80,7 +81,7 @@ impl Plan for SeparableOnly {
         N: Solver<V, S>,
     {
         const { Self::refuse::<V>() };
-        Ok(Work::default())
+        Ok(StepStatistics::default())
     }
 
     fn observe<R, V, S, N, W>(
@@ -94,7 +95,7 @@ impl Plan for SeparableOnly {
         V: Vector,
         S: Hamiltonian<V, Class = General>,
         N: Solver<V, S>,
-        W: Witness,
+        W: EvaluationObserver,
     {
         const { Self::refuse::<V>() };
     }

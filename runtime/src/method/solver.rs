@@ -3,7 +3,7 @@
 use core::fmt::Debug;
 
 use crate::method::{
-    Failure, Inside, Kept, Outcome, StageStorage, StageTableau, Step, Stopping, Work,
+    Failure, Inside, Outcome, StageStorage, StageTableau, Step, StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Summation, Vector};
 use crate::system::Hamiltonian;
@@ -24,10 +24,10 @@ pub trait Solver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
         step: &Step<'_, V>,
         system: &S,
         memory: &mut Self::Memory<P>,
-        kept: Kept,
+        kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         P: StageTableau,
         R: Summation,

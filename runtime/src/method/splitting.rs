@@ -3,8 +3,8 @@
 use core::marker::PhantomData;
 
 use crate::method::{
-    Evaluations, Failure, Inside, Interpolation, Kept, Moves, Outcome, Plan, Solver, Span,
-    StageStorage, Step, Stopping, Witness, Work,
+    EvaluationObserver, Evaluations, Failure, Inside, Interpolation, KickDrift, Outcome, Plan,
+    Solver, Span, StageStorage, Step, StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Summation, Vector, copy};
 use crate::system::{Class, Hamiltonian};
@@ -17,7 +17,7 @@ pub trait SplittingPlan {
 
     /// The number of evaluations of a step.
     const EVALUATIONS: u32;
-    /// How many of the first ones are not made where the step before has [kept](Kept::evaluation) them.
+    /// How many of the first ones are not made where the step before has [kept](WarmStart::evaluation) them.
     const CARRIED: u32;
 
     /// Takes the step `span` from `state`, in place, by these `moves`, and shows its evaluations to `witness`.
@@ -25,13 +25,13 @@ pub trait SplittingPlan {
         R: Summation,
         V: Vector,
         S: Hamiltonian<V, Class = Self::Class>,
-        K: Moves,
-        W: Witness,
+        K: KickDrift,
+        W: EvaluationObserver,
     >(
         span: Span,
         system: &S,
         evaluations: &mut Evaluations<V>,
-        kept: Kept,
+        kept: WarmStart,
         state: Outcome<'_, V>,
         moves: &mut K,
         witness: &mut W,
@@ -66,10 +66,10 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         step: &Step<'_, V>,
         system: &S,
         memory: &mut Evaluations<V>,
-        kept: Kept,
+        kept: WarmStart,
         _stopping: Stopping,
         mut outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         R: Summation,
         V: Vector,
@@ -79,9 +79,9 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         Self::start::<R, V>(step, &mut outcome);
         P::apply::<R, V, S, (), ()>(step.span(), system, memory, kept, outcome, &mut (), &mut ());
         let carried = if kept.evaluation { P::CARRIED } else { 0 };
-        Ok(Work {
+        Ok(StepStatistics {
             evaluations: P::EVALUATIONS - carried,
-            ..Work::default()
+            ..StepStatistics::default()
         })
     }
 
@@ -96,7 +96,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,
         N: Solver<V, S>,
-        W: Witness,
+        W: EvaluationObserver,
     {
         *memory = Evaluations::like(step.q);
         Self::start::<R, V>(step, &mut outcome);
@@ -104,7 +104,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
             step.span(),
             system,
             memory,
-            Kept::default(),
+            WarmStart::default(),
             outcome,
             &mut (),
             witness,
@@ -134,9 +134,9 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,
         N: Solver<V, S>,
-        K: Moves,
+        K: KickDrift,
     {
-        let kept = Kept::new(true, false);
+        let kept = WarmStart::new(true, false);
         P::apply::<R, V, S, K, ()>(span, system, memory, kept, state, moves, &mut ());
     }
 
@@ -151,7 +151,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         V: Vector,
         S: Hamiltonian<V, Class = P::Class>,
         N: Solver<V, S>,
-        K: Moves,
+        K: KickDrift,
     {
         let momentum = (state.p, state.p_low);
         moves.settle::<R, V, S>(system, &mut memory.force, state.q, momentum);

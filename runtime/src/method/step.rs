@@ -98,17 +98,17 @@ impl<V> Outcome<'_, V> {
 
 /// What the memory of the stages still holds from the step before.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kept {
+pub struct WarmStart {
     /// The evaluations at its end that are those at the start of this step, if there are any.
     pub evaluation: bool,
     /// The increments of its stages, from which those of this step can be extrapolated: the step before was taken by
     /// the same method, from a step size equal to this one.
     pub stages: bool,
-    /// How large [those stages](crate::solver::Work::scales) were, as the step before has returned it: zero where that is not known.
+    /// How large [those stages](crate::solver::StepStatistics::scales) were, as the step before has returned it: zero where that is not known.
     pub scales: [f64; 2],
 }
 
-impl Kept {
+impl WarmStart {
     /// Evaluations, stages, or both.
     pub const fn new(evaluation: bool, stages: bool) -> Self {
         Self {
@@ -119,7 +119,7 @@ impl Kept {
     }
 }
 
-impl Default for Kept {
+impl Default for WarmStart {
     /// Nothing. Written out, for that of an array would be a call: see `array.rs`.
     #[inline(always)]
     fn default() -> Self {
@@ -132,13 +132,13 @@ impl Default for Kept {
 pub struct EvaluationCounts {
     /// Before the coupled stages; all of a splitting.
     pub begin: u32,
-    /// Where the coupled stages start from, if no stages are [kept](Kept::stages).
+    /// Where the coupled stages start from, if no stages are [kept](WarmStart::stages).
     pub start: u32,
     /// In one sweep.
     pub sweep: u32,
     /// After the coupled stages.
     pub finish: u32,
-    /// How many of the first ones are not made where the step before has [kept](Kept::evaluation) them; every accepted
+    /// How many of the first ones are not made where the step before has [kept](WarmStart::evaluation) them; every accepted
     /// step keeps them.
     pub carried: u32,
 }
@@ -146,7 +146,7 @@ pub struct EvaluationCounts {
 impl EvaluationCounts {
     /// Those before the coupled stages, with what is kept from the step before.
     #[inline(always)]
-    pub(crate) const fn at_begin(&self, kept: Kept) -> u32 {
+    pub(crate) const fn at_begin(&self, kept: WarmStart) -> u32 {
         let carried = if kept.evaluation { self.carried } else { 0 };
         let start = if kept.stages { 0 } else { self.start };
         self.begin + start - carried
@@ -154,12 +154,12 @@ impl EvaluationCounts {
 }
 
 /// Who is shown every evaluation of a step that stores no stages; nobody, `()`, in a step that goes well.
-pub trait Witness {
+pub trait EvaluationObserver {
     /// Shows the evaluation `value` of a stage, from 1, at `argument`.
     fn evaluation<V: Vector>(&mut self, what: Quantity, stage: usize, argument: &V, value: &V);
 }
 
-impl Witness for () {
+impl EvaluationObserver for () {
     #[inline(always)]
     fn evaluation<V: Vector>(&mut self, _what: Quantity, _stage: usize, _at: &V, _value: &V) {}
 }

@@ -6,7 +6,7 @@ use crate::error::Quantity;
 
 /// What a step took.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Work {
+pub struct StepStatistics {
     /// Sweeps of the fixed-point iteration, or of another one.
     pub iterations: u32,
     /// Evaluations of a velocity or a force; those that derivatives are made of are not counted.
@@ -23,7 +23,7 @@ pub struct Work {
     pub residual: f64,
 }
 
-impl Default for Work {
+impl Default for StepStatistics {
     /// Nothing. Written out, for that of an array would be a call: see `array.rs`.
     #[inline(always)]
     fn default() -> Self {
@@ -38,7 +38,7 @@ impl Default for Work {
     }
 }
 
-impl AddAssign for Work {
+impl AddAssign for StepStatistics {
     #[inline]
     fn add_assign(&mut self, other: Self) {
         self.iterations += other.iterations;

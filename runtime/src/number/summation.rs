@@ -8,7 +8,7 @@ mod sealed {
     pub trait Sealed {}
     impl Sealed for super::Compensated {}
     impl Sealed for super::Plain {}
-    impl<R> Sealed for super::Beyond<R> {}
+    impl<R> Sealed for super::Overrelaxed<R> {}
 }
 
 /// How a step adds its increments to the state: [`Compensated`] or [`Plain`]. Sealed.
@@ -47,9 +47,9 @@ impl Summation for Plain {
 
 /// `R`, of a sweep that moves stages twice as far: where it converges fast, to about the mirror image of where they were.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Beyond<R>(PhantomData<R>);
+pub(crate) struct Overrelaxed<R>(PhantomData<R>);
 
-impl<R: Summation> Summation for Beyond<R> {
+impl<R: Summation> Summation for Overrelaxed<R> {
     const COMPENSATED: bool = R::COMPENSATED;
 
     const BEYOND: bool = true;

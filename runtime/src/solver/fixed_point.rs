@@ -5,10 +5,10 @@ use core::mem;
 
 use crate::error::Quantity;
 use crate::method::{
-    Change, EvaluationCounts, Failure, Inside, Kept, Outcome, Solver, StagePlan, StageStorage,
-    StageTableau, Step, Stopping, Work,
+    EvaluationCounts, Failure, Inside, Outcome, Solver, StageChange, StagePlan, StageStorage,
+    StageTableau, Step, StepStatistics, Stopping, WarmStart,
 };
-use crate::number::summation::Beyond;
+use crate::number::summation::Overrelaxed;
 use crate::number::vector::{LIGHT, is_in_place};
 use crate::number::{Scalar, Summation, Vector};
 use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
@@ -56,10 +56,10 @@ impl<V: Vector, S: Hamiltonian<V>> Solver<V, S> for FixedPoint {
         step: &Step<'_, V>,
         system: &S,
         stages: &mut P::Stages<V>,
-        kept: Kept,
+        kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         P: StageTableau,
         R: Summation,
@@ -81,10 +81,10 @@ pub(crate) fn by_stages<P, R, V, S>(
     step: &Step<'_, V>,
     system: &S,
     stages: &mut P::Stages<V>,
-    kept: Kept,
+    kept: WarmStart,
     stopping: Stopping,
     outcome: Outcome<'_, V>,
-) -> Result<Work, Failure>
+) -> Result<StepStatistics, Failure>
 where
     P: StagePlan,
     R: Summation,
@@ -121,9 +121,9 @@ where
     V: Vector,
     S: Hamiltonian<V, Class = P::Class>,
 {
-    type Movement = Change;
+    type Movement = StageChange;
 
-    const HASTY: bool = !R::COMPENSATED;
+    const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
     #[inline(always)]
     fn evaluations(&self) -> EvaluationCounts {
@@ -136,7 +136,7 @@ where
     }
 
     #[inline(always)]
-    fn begin(&mut self, kept: Kept) {
+    fn begin(&mut self, kept: WarmStart) {
         P::begin::<R, V, S>(self.step, self.system, self.stages, kept);
     }
 
@@ -151,10 +151,10 @@ where
     #[inline(always)]
     fn go_on<C: Class, T: Scalar>(
         &mut self,
-        kept: Kept,
+        kept: WarmStart,
         stopping: Stopping,
-        begun: Begun<Change>,
-    ) -> Result<Work, Failure> {
+        begun: Begun<StageChange>,
+    ) -> Result<StepStatistics, Failure> {
         if !is_in_place(self.step.q) || size_of::<P::Stages<V>>() > LIGHT {
             return patiently::<C, T, _>(self, kept, stopping, begun);
         }
@@ -174,17 +174,17 @@ where
     }
 
     #[inline(always)]
-    fn sweep(&mut self) -> Change {
+    fn sweep(&mut self) -> StageChange {
         P::sweep::<R, V, S>(self.step, self.system, self.stages)
     }
 
     #[inline(always)]
-    fn sweep_beyond(&mut self) -> Change {
-        P::sweep::<Beyond<R>, V, S>(self.step, self.system, self.stages)
+    fn overrelaxed_sweep(&mut self) -> StageChange {
+        P::sweep::<Overrelaxed<R>, V, S>(self.step, self.system, self.stages)
     }
 
     #[inline(always)]
-    fn change(&self, movement: &Change) -> Change {
+    fn change(&self, movement: &StageChange) -> StageChange {
         *movement
     }
 }

@@ -10,9 +10,9 @@ pub(crate) mod relax;
 pub(crate) mod simd;
 
 pub use crate::method::{
-    Change, Decoupling, EvaluationCounts, Failure, HalfTableau, Kept, Outcome, PartChange,
-    SecondOrderTableau, Solver, Span, StagePolynomial, StageStorage, StageTableau, Step, Stopping,
-    StoredEvaluations, Work,
+    Decoupling, EvaluationCounts, Failure, HalfChange, HalfTableau, Outcome, SecondOrderTableau,
+    Solver, Span, StageChange, StagePolynomial, StageStorage, StageTableau, Step, StepStatistics,
+    Stopping, StoredEvaluations, WarmStart,
 };
 pub use crate::number::{Coefficient, Coefficients};
 pub use fixed_point::FixedPoint;
@@ -24,8 +24,8 @@ pub use newton::{
 };
 #[cfg(feature = "num-dual")]
 pub use newton::{DualNumbers, HamiltonianInDuals};
-pub use nystrom::{SecondOrderInLanes, SecondOrderStages};
+pub use nystrom::{NystromStages, SimdNystrom};
 pub use relax::relax;
-pub use simd::gauss_seidel::InLanes;
-pub use simd::jacobi::AtOnceInLanes;
-pub use simd::stages::LaneStages;
+pub use simd::gauss_seidel::SimdFixedPoint;
+pub use simd::jacobi::SimdJacobi;
+pub use simd::stages::SimdStages;

@@ -2,7 +2,7 @@
 
 use num_traits::Zero;
 
-use crate::method::PartChange;
+use crate::method::HalfChange;
 use crate::number::array::array;
 use crate::number::linear_combination::{shortest, starts, value};
 use crate::number::rows::{Eight, Row, splats};
@@ -17,7 +17,7 @@ pub fn relax<R: Summation, V: Vector, const N: usize>(
     low: &V,
     factors: [V::Scalar; N],
     terms: [&V; N],
-    change: &mut PartChange,
+    change: &mut HalfChange,
 ) {
     let n = shortest([&*out, base, low]).min(shortest(terms));
     let (out, base) = (&mut out.as_mut_slice()[..n], &base.as_slice()[..n]);
@@ -42,7 +42,7 @@ fn relax_rows<R: Summation, T: Scalar, const N: usize>(
     low: &[T],
     factors: &[T; N],
     terms: &[&[T]; N],
-    change: &mut PartChange,
+    change: &mut HalfChange,
 ) -> usize {
     let (Some(out), Some(base), Some(low), Some(factors)) = (
         T::doubles_mut(out),

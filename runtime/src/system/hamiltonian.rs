@@ -68,7 +68,7 @@ pub trait Hamiltonian<V: Vector> {
     const SHARED_SLOPES: bool = false;
 
     /// [`velocity`](Self::velocity) and [`force`](Self::force) at one time and place, with the same bits: to be written out, and
-    /// [said](Self::SHARED_SLOPES), where they have costly parts in common. [`AtOnceInLanes`](crate::solver::AtOnceInLanes) evaluates it;
+    /// [said](Self::SHARED_SLOPES), where they have costly parts in common. [`SimdJacobi`](crate::solver::SimdJacobi) evaluates it;
     /// where other bits come out of it for the first state, making an integrator fails with
     /// [`Error::NotTheSameSlopes`](crate::Error::NotTheSameSlopes).
     ///
@@ -180,7 +180,7 @@ pub trait Hamiltonian<V: Vector> {
 /// ```
 pub trait SeparableHamiltonian<V: Vector> {
     /// Whether the velocity is the momentum to the last bit, `H = |p|²/2 + U(t, q)`. The drifts of a splitting, and the sweeps
-    /// of [`SecondOrderInLanes`](crate::solver::SecondOrderInLanes), then take the momentum for it: long vectors are not copied. Where it is said and not so,
+    /// of [`SimdNystrom`](crate::solver::SimdNystrom), then take the momentum for it: long vectors are not copied. Where it is said and not so,
     /// [`Error::NotUnitMasses`](crate::Error::NotUnitMasses) is what an integrator is made of.
     ///
     /// ```
@@ -217,7 +217,7 @@ pub trait SeparableHamiltonian<V: Vector> {
     /// [said](Self::LOCAL_FORCE), where the force on a component sees those beside it and few others, as in a [`Chain`](crate::system::Chain).
     ///
     /// For vectors on the heap, [unit masses](Self::UNIT_MASSES) and up to eight stages at different times
-    /// [`SecondOrderInLanes`](crate::solver::SecondOrderInLanes) then makes sums over stages, evaluates, and notes what changed in one pass. The
+    /// [`SimdNystrom`](crate::solver::SimdNystrom) then makes sums over stages, evaluates, and notes what changed in one pass. The
     /// positions of the stages need not go to memory, but where a step does not go on from one before it, or its iteration does not
     /// settle in the first sweeps. Making that solver fails with [`Error::NotTheSameLocalForce`](crate::Error::NotTheSameLocalForce) where
     /// other bits come out of it in doubles or in lanes, for the present state or for one near it whose components all differ.
@@ -272,7 +272,7 @@ pub trait SeparableHamiltonian<V: Vector> {
     /// written out beside it, and [said](Self::ROW_FORCES), where the components feel each other in the same way everywhere, as in a
     /// [`Chain`](crate::system::Chain). A system that wraps another one has to pass it on to keep it.
     ///
-    /// [`SecondOrderInLanes`](crate::solver::SecondOrderInLanes) asks for it in place of `local_force` where a method has fewer than eight stages
+    /// [`SimdNystrom`](crate::solver::SimdNystrom) asks for it in place of `local_force` where a method has fewer than eight stages
     /// and the number of components is a multiple of eight: then no lane is without work, and results are made row by row too.
     /// Making that solver fails with [`Error::NotTheSameLocalForce`](crate::Error::NotTheSameLocalForce) where other bits come out of it
     /// than by `force`, for as many stages as there can be, each with a time and with positions of its own near those of the present

@@ -12,8 +12,8 @@ use crate::method::Solver;
 use crate::method::diagnosis::{Attempt, FirstFault};
 use crate::method::storage::{first_mismatch, first_non_finite, first_non_finite_of, is_finite};
 use crate::method::{
-    Change, EvaluationCounts, Kept, Method, Outcome, PartChange, ProvedFor, StagePlan,
-    StageStorage, Step, Stopping, Witness,
+    EvaluationCounts, EvaluationObserver, HalfChange, Method, Outcome, ProvedFor, StageChange,
+    StagePlan, StageStorage, Step, Stopping, WarmStart,
 };
 use crate::number::{Coefficient, Coefficients, Plain, Scalar, Summation, Vector};
 use crate::solver::fixed_point::by_stages;
@@ -158,7 +158,7 @@ fn generating<M: Method, S: Hamiltonian<V>, V: Vector>(
         step,
         system,
         &mut stages,
-        Kept::default(),
+        WarmStart::default(),
         stopping,
         Outcome {
             q: &mut q1,
@@ -204,7 +204,7 @@ impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Unknowns<M, V>,
-        _kept: Kept,
+        _kept: WarmStart,
     ) {
         stages.weights = Weights::new(&M::COEFFICIENTS, step.size);
         stages.q.iter_mut().for_each(|q| q.clone_from(step.q));
@@ -220,7 +220,7 @@ impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Unknowns<M, V>,
-    ) -> Change {
+    ) -> StageChange {
         let Unknowns {
             q,
             p,
@@ -230,7 +230,7 @@ impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
             weights,
             ..
         } = stages;
-        let mut change = Change::default();
+        let mut change = StageChange::default();
         for (q, weights) in q.iter_mut().zip(&weights.a) {
             sum(increment, weights, velocity);
             settle(q, step.q, increment, &mut change.q);
@@ -250,11 +250,11 @@ impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
         change
     }
 
-    fn finish<R: Summation, V: Vector, S: Hamiltonian<V, Class = C>, W: Witness>(
+    fn finish<R: Summation, V: Vector, S: Hamiltonian<V, Class = C>, W: EvaluationObserver>(
         step: &Step<'_, V>,
         _system: &S,
         stages: &mut Unknowns<M, V>,
-        _kept: Kept,
+        _kept: WarmStart,
         outcome: Outcome<'_, V>,
         _witness: &mut W,
     ) {
@@ -265,7 +265,7 @@ impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
             weights,
             ..
         } = stages;
-        let mut unused = PartChange::default();
+        let mut unused = HalfChange::default();
         sum(increment, &weights.b, velocity);
         settle(outcome.q, step.q, increment, &mut unused);
         sum(increment, &weights.back, force);
@@ -409,7 +409,7 @@ fn sum<V: Vector>(out: &mut V, weights: &[V::Scalar], terms: &[V]) {
 }
 
 /// `out = base + increment`; notes in `change` how far `out` moved.
-fn settle<V: Vector>(out: &mut V, base: &V, increment: &V, change: &mut PartChange) {
+fn settle<V: Vector>(out: &mut V, base: &V, increment: &V, change: &mut HalfChange) {
     let ends = base.as_slice().iter().zip(increment.as_slice());
     for (out, (&base, &increment)) in out.as_mut_slice().iter_mut().zip(ends) {
         let new = base + increment;

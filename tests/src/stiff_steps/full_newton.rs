@@ -13,7 +13,8 @@ use std::rc::Rc;
 use symplectic::nalgebra::SVector;
 use symplectic::output::Inside;
 use symplectic::solver::{
-    Failure, HalfTableau, Kept, Outcome, Solver, StageStorage, StageTableau, Step, Stopping, Work,
+    Failure, HalfTableau, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics,
+    Stopping, WarmStart,
 };
 use symplectic::{Class, Hamiltonian, Quantity, Scalar, SeparableHamiltonian, Summation};
 
@@ -108,10 +109,10 @@ impl<T: Scalar, S: Stiff<N> + 'static, const N: usize> Solver<SVector<T, N>, Wat
         step: &Step<'_, SVector<T, N>>,
         watched: &Watched<S>,
         _memory: &mut Nothing,
-        _kept: Kept,
+        _kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, SVector<T, N>>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         P: StageTableau,
         R: Summation,
@@ -126,9 +127,9 @@ impl<T: Scalar, S: Stiff<N> + 'static, const N: usize> Solver<SVector<T, N>, Wat
         if watched.is_reference {
             watched.notes.replace(stages.sensitivity(system, &q, &p));
         }
-        Ok(Work {
+        Ok(StepStatistics {
             iterations,
-            ..Work::default()
+            ..StepStatistics::default()
         })
     }
 

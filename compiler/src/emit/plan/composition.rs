@@ -104,14 +104,14 @@ impl Composed<'_> {
                     step: &::symplectic::emitted::Step<'_, V>,
                     system: &S,
                     memory: &mut Self::Memory<V, S, N>,
-                    kept: ::symplectic::emitted::Kept,
+                    kept: ::symplectic::emitted::WarmStart,
                     stopping: ::symplectic::emitted::Stopping,
                     outcome: ::symplectic::emitted::Outcome<'_, V>,
-                ) -> ::core::result::Result<::symplectic::emitted::Work, ::symplectic::emitted::Failure> {
+                ) -> ::core::result::Result<::symplectic::emitted::StepStatistics, ::symplectic::emitted::Failure> {
                     #take
                 }
 
-                fn observe<#arguments, W: ::symplectic::emitted::Witness>(
+                fn observe<#arguments, W: ::symplectic::emitted::EvaluationObserver>(
                     number: usize,
                     step: &::symplectic::emitted::Step<'_, V>,
                     system: &S,
@@ -143,7 +143,7 @@ impl Composed<'_> {
                 ::symplectic::emitted::Substep {
                     start: #at,
                     fraction: #size,
-                    kept: ::symplectic::emitted::Kept::new(#follows, #equal),
+                    kept: ::symplectic::emitted::WarmStart::new(#follows, #equal),
                     stages: #count,
                 }
             });

@@ -152,21 +152,21 @@ fn of_stages(
             };
 
             #[inline]
-            fn begin<R: ::symplectic::emitted::Summation, V: ::symplectic::emitted::Vector, #system>(#arguments, kept: ::symplectic::emitted::Kept) {
+            fn begin<R: ::symplectic::emitted::Summation, V: ::symplectic::emitted::Vector, #system>(#arguments, kept: ::symplectic::emitted::WarmStart) {
                 #begin
             }
 
             #[inline]
-            fn sweep<R: ::symplectic::emitted::Summation, V: ::symplectic::emitted::Vector, #system>(#arguments) -> ::symplectic::emitted::Change {
+            fn sweep<R: ::symplectic::emitted::Summation, V: ::symplectic::emitted::Vector, #system>(#arguments) -> ::symplectic::emitted::StageChange {
                 #sweep
             }
 
             #increments
 
             #[inline]
-            fn finish<R: ::symplectic::emitted::Summation, V: ::symplectic::emitted::Vector, #system, W: ::symplectic::emitted::Witness>(
+            fn finish<R: ::symplectic::emitted::Summation, V: ::symplectic::emitted::Vector, #system, W: ::symplectic::emitted::EvaluationObserver>(
                 #arguments,
-                kept: ::symplectic::emitted::Kept,
+                kept: ::symplectic::emitted::WarmStart,
                 outcome: ::symplectic::emitted::Outcome<'_, V>,
                 witness: &mut W,
             ) {

@@ -168,7 +168,7 @@ impl<'g, 'a> Stored<'g, 'a> {
 
     fn sweep(&self) -> TokenStream {
         if self.phases.coupled.is_empty() {
-            return quote!(::symplectic::emitted::Change::default());
+            return quote!(::symplectic::emitted::StageChange::default());
         }
         // Each kind sees the newest of the kind before it, which converges in fewer sweeps than all
         // stage values from all old evaluations. The positions come last: how much they change says what
@@ -206,7 +206,7 @@ impl<'g, 'a> Stored<'g, 'a> {
             }
         });
         quote! {
-            let mut change = ::symplectic::emitted::Change::default();
+            let mut change = ::symplectic::emitted::StageChange::default();
             #(#weights)*
             #(#lines)*
             change

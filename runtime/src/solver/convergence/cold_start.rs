@@ -2,10 +2,10 @@
 
 use super::{
     AMPLIFIED, Begun, CONTRACTION, FAR, Movement, NOISIEST, PATIENCE, ROUNDING, STAGNATION, Sweeps,
-    coin, is_known, known, larger, units,
+    dither_last_sweep, is_known, known, larger, units,
 };
 use crate::error::Quantity;
-use crate::method::{Change, Failure, Kept, PartChange, Stopping, Work};
+use crate::method::{Failure, HalfChange, StageChange, StepStatistics, Stopping, WarmStart};
 use crate::number::Scalar;
 use crate::solver::convergence::settling;
 use crate::system::{Class, Separable};
@@ -16,12 +16,12 @@ use crate::system::{Class, Separable};
 #[inline(never)]
 pub(crate) fn patiently<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
-    kept: Kept,
+    kept: WarmStart,
     stopping: Stopping,
     begun: Begun<W::Movement>,
-) -> Result<Work, Failure> {
+) -> Result<StepStatistics, Failure> {
     let (mut kept, mut begun) = (kept, begun);
-    let mut work = Work::default();
+    let mut work = StepStatistics::default();
     loop {
         let solved = solve::<C, T, _>(sweeps, kept, stopping, begun, &mut work);
         if solved.is_ok() || !kept.stages {
@@ -35,10 +35,10 @@ pub(crate) fn patiently<C: Class, T: Scalar, W: Sweeps>(
 /// Finds the coupled stages, and adds to `work` what that took.
 pub(super) fn solve<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
-    kept: Kept,
+    kept: WarmStart,
     stopping: Stopping,
     begun: Begun<W::Movement>,
-    work: &mut Work,
+    work: &mut StepStatistics,
 ) -> Result<(), Failure> {
     if begun.is_nothing() {
         sweeps.begin(kept);
@@ -59,7 +59,7 @@ pub(super) fn solve<C: Class, T: Scalar, W: Sweeps>(
     let solved = iterate::<C, T, _>(sweeps, kept, stopping, begun);
     let iterations = match solved {
         Ok((iterations, scales)) => {
-            work.scales = known::<T>(scales, W::both::<C>() || !W::HASTY);
+            work.scales = known::<T>(scales, W::both::<C>() || !W::STOPS_AT_ROUNDING);
             iterations
         }
         Err(Failure::NoConvergence { iterations, .. } | Failure::Stagnation { iterations, .. }) => {
@@ -78,7 +78,7 @@ pub(super) fn solve<C: Class, T: Scalar, W: Sweeps>(
 /// grow for many sweeps and vanish after all. A true divergence ends at the bound or overflows.
 fn iterate<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
-    kept: Kept,
+    kept: WarmStart,
     stopping: Stopping,
     begun: Begun<W::Movement>,
 ) -> Result<(u32, [f64; 2]), Failure> {
@@ -89,13 +89,13 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
     let both = W::both::<C>();
     // Sweeps before this one are early.
     let late = max_iterations.min(PATIENCE);
-    let tolerates = W::HASTY && tolerance > 0.0;
-    let relative = |change: &Change| match both {
+    let tolerates = W::STOPS_AT_ROUNDING && tolerance > 0.0;
+    let relative = |change: &StageChange| match both {
         true => change.residual(),
         false => change.q.relative(),
     };
     // What shrinks from sweep to sweep: without a division where it is one half.
-    let size_of = |change: &Change| match both {
+    let size_of = |change: &StageChange| match both {
         true => change.residual(),
         false => change.q.difference(),
     };
@@ -111,7 +111,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         least: seen,
         last: mut made,
     } = begun;
-    let (mut last, mut looked) = (Change::default(), 0);
+    let (mut last, mut looked) = (StageChange::default(), 0);
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0);
     let mut least = last;
     let mut idle = 0;
@@ -159,7 +159,9 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
                     iterations: iteration,
                 });
             }
-            if W::HASTY && is_last::<T>(before.map(|x| sweeps.change(&x)), &change, both) {
+            if W::STOPS_AT_ROUNDING
+                && is_last::<T>(before.map(|x| sweeps.change(&x)), &change, both)
+            {
                 return Ok((iteration, change.scales()));
             }
             let size = size_of(&change);
@@ -194,7 +196,10 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
             let waited = iteration == max_iterations || idle > iteration / STAGNATION;
             if idle > 0 && waited && (is_rounding() || idle >= PATIENCE && is_noise()) {
                 // At the bound there is no sweep left to make.
-                if W::HASTY || iteration == max_iterations || !coin(sweeps.time()) {
+                if W::STOPS_AT_ROUNDING
+                    || iteration == max_iterations
+                    || !dither_last_sweep(sweeps.time())
+                {
                     return Ok((iteration, change.scales()));
                 }
                 once_more = true;
@@ -221,8 +226,12 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
 
 /// Whether a change, after the one `before`, is the last of an iteration that does not wait for stagnation.
 #[inline(always)]
-pub(crate) fn is_last<T: Scalar>(before: Option<Change>, change: &Change, both: bool) -> bool {
-    let of = |before: Option<f64>, change: &PartChange| {
+pub(crate) fn is_last<T: Scalar>(
+    before: Option<StageChange>,
+    change: &StageChange,
+    both: bool,
+) -> bool {
+    let of = |before: Option<f64>, change: &HalfChange| {
         let (unit, this) = (T::EPSILON * change.scale(), change.difference());
         // The next one by a quotient, for numbers of any size.
         let is_next_within = |before| this / before * this <= unit;
@@ -236,7 +245,7 @@ pub(crate) fn is_last<T: Scalar>(before: Option<Change>, change: &Change, both: 
 pub(crate) fn non_finite(
     force: Option<usize>,
     evaluation: impl FnOnce() -> Option<(Quantity, usize)>,
-    change: &Change,
+    change: &StageChange,
 ) -> Failure {
     let part = if change.q.is_undefined() {
         Quantity::Position

@@ -8,7 +8,7 @@ pub(crate) use self::cold_start::patiently;
 pub(crate) use self::cold_start::{is_last, non_finite};
 use self::warm_start::hasten;
 use crate::error::Quantity;
-use crate::method::{Change, EvaluationCounts, Failure, Kept, Stopping, Work};
+use crate::method::{EvaluationCounts, Failure, StageChange, StepStatistics, Stopping, WarmStart};
 use crate::number::Scalar;
 use crate::system::Class;
 
@@ -44,7 +44,7 @@ pub(crate) trait Sweeps {
     type Movement: Movement;
 
     /// Whether a change that is down to rounding errors is the last where the next one would be down to a unit of EPSILON.
-    const HASTY: bool;
+    const STOPS_AT_ROUNDING: bool;
 
     /// Whether it is known after each sweep how large they are; else only what they [are about](Self::are_about), from the start.
     const MEASURED: bool = true;
@@ -62,7 +62,7 @@ pub(crate) trait Sweeps {
     fn time(&self) -> f64;
 
     /// Starting values; evaluations that are made once.
-    fn begin(&mut self, kept: Kept);
+    fn begin(&mut self, kept: WarmStart);
 
     /// The first evaluation that is not finite although its argument is.
     fn non_finite(&self) -> Option<(Quantity, usize)>;
@@ -88,20 +88,20 @@ pub(crate) trait Sweeps {
     /// One that moves them twice as far. Only asked for of systems that are not separable, of sums that wait for stagnation, and where
     /// changes that are far from rounding are not looked at: others need not have it.
     #[inline(always)]
-    fn sweep_beyond(&mut self) -> Self::Movement {
+    fn overrelaxed_sweep(&mut self) -> Self::Movement {
         self.sweep()
     }
 
     /// By how much that moved them altogether, where they are [measured](Self::MEASURED).
-    fn change(&self, movement: &Self::Movement) -> Change;
+    fn change(&self, movement: &Self::Movement) -> StageChange;
 
     /// [`patiently`], in another place where that leaves these stages in registers.
     fn go_on<C: Class, T: Scalar>(
         &mut self,
-        kept: Kept,
+        kept: WarmStart,
         stopping: Stopping,
         begun: Begun<Self::Movement>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         Self: Sized,
     {
@@ -142,7 +142,7 @@ pub(crate) trait Movement: Copy {
     fn is_number(&self) -> bool;
 }
 
-impl Movement for Change {
+impl Movement for StageChange {
     #[inline(always)]
     fn is_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
         self.q.difference() <= q && (!both || self.p.difference() <= p)
@@ -223,17 +223,17 @@ impl<M> Begun<M> {
 #[inline(always)]
 pub(crate) fn settle<C: Class, T: Scalar>(
     sweeps: &mut impl Sweeps,
-    kept: Kept,
+    kept: WarmStart,
     stopping: Stopping,
-) -> Result<Work, Failure> {
+) -> Result<StepStatistics, Failure> {
     match hasten::<C, T, _>(sweeps, kept, stopping) {
         Ok((iterations, scales)) => {
             let counts = sweeps.evaluations();
-            Ok(Work {
+            Ok(StepStatistics {
                 iterations,
                 evaluations: counts.at_begin(kept) + iterations * counts.sweep,
                 scales,
-                ..Work::default()
+                ..StepStatistics::default()
             })
         }
         Err(begun) => sweeps.go_on::<C, T>(kept, stopping, begun),
@@ -280,7 +280,7 @@ fn is_square_safe(size: f64) -> bool {
 /// At which of the two the iteration ends goes with the side from which it came, and starting values come from the same side
 /// at every step: the energy would drift, for Hénon–Heiles and Gauss 8 by 1e-21 of it a step.
 #[inline]
-pub(crate) const fn coin(time: f64) -> bool {
+pub(crate) const fn dither_last_sweep(time: f64) -> bool {
     bits(time) & 1 == 1
 }
 
@@ -289,7 +289,7 @@ pub(crate) const fn coin(time: f64) -> bool {
 /// Where stages stand still they do so at one of several roundings that solve the rounded equations, and that too goes with the side
 /// from which they came. For `(q² + 1)(p² + 1)/2` and Gauss 6 the energy would drift by 1e-20 of it a step.
 #[inline]
-const fn other_coin(time: f64) -> bool {
+const fn dither_side(time: f64) -> bool {
     bits(time) & 2 == 2
 }
 
@@ -318,7 +318,7 @@ mod tests;
 /// the noise of the system's own evaluations at most. This noise can be far above the rounding errors of a
 /// sum: stiff springs between masses far from the origin.
 #[inline]
-pub(crate) fn settling<C: Class>(change: &Change) -> f64 {
+pub(crate) fn settling<C: Class>(change: &StageChange) -> f64 {
     if C::SEPARABLE {
         change.q.relative().min(change.p.relative())
     } else {

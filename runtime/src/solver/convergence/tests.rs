@@ -2,13 +2,13 @@
 
 use super::cold_start::solve;
 use super::*;
-use crate::method::{EvaluationCounts, PartChange};
+use crate::method::{EvaluationCounts, HalfChange};
 use crate::system::{General, Separable};
 use alloc::vec;
 use alloc::vec::Vec;
 
 /// Stages whose changes are given, in units of EPSILON of the values.
-struct Scripted<'a, const HASTY: bool> {
+struct Scripted<'a, const STOPS_AT_ROUNDING: bool> {
     changes: &'a [[f64; 2]],
     /// Of the values in each sweep; the last one in all that follow.
     scales: &'a [f64],
@@ -22,7 +22,7 @@ struct Scripted<'a, const HASTY: bool> {
     time: f64,
 }
 
-impl<'a, const HASTY: bool> Scripted<'a, HASTY> {
+impl<'a, const STOPS_AT_ROUNDING: bool> Scripted<'a, STOPS_AT_ROUNDING> {
     const fn new(changes: &'a [[f64; 2]], scales: &'a [f64], time: f64) -> Self {
         Self {
             changes,
@@ -36,10 +36,10 @@ impl<'a, const HASTY: bool> Scripted<'a, HASTY> {
     }
 }
 
-impl<const HASTY: bool> Sweeps for Scripted<'_, HASTY> {
-    type Movement = Change;
+impl<const STOPS_AT_ROUNDING: bool> Sweeps for Scripted<'_, STOPS_AT_ROUNDING> {
+    type Movement = StageChange;
 
-    const HASTY: bool = HASTY;
+    const STOPS_AT_ROUNDING: bool = STOPS_AT_ROUNDING;
 
     fn evaluations(&self) -> EvaluationCounts {
         EvaluationCounts {
@@ -55,7 +55,7 @@ impl<const HASTY: bool> Sweeps for Scripted<'_, HASTY> {
         self.time
     }
 
-    fn begin(&mut self, _kept: Kept) {
+    fn begin(&mut self, _kept: WarmStart) {
         self.begun += 1;
     }
 
@@ -67,12 +67,12 @@ impl<const HASTY: bool> Sweeps for Scripted<'_, HASTY> {
         None
     }
 
-    fn sweep(&mut self) -> Change {
+    fn sweep(&mut self) -> StageChange {
         let scale = self.scales[self.made.min(self.scales.len() - 1)];
         let [q, p] = self.changes[self.made]
-            .map(|units| PartChange::new(units * f64::EPSILON * scale, scale));
+            .map(|units| HalfChange::new(units * f64::EPSILON * scale, scale));
         self.made += 1;
-        Change { q, p }
+        StageChange { q, p }
     }
 
     fn unseen(&self) -> u32 {
@@ -84,12 +84,12 @@ impl<const HASTY: bool> Sweeps for Scripted<'_, HASTY> {
         self.sweep();
     }
 
-    fn sweep_beyond(&mut self) -> Change {
+    fn overrelaxed_sweep(&mut self) -> StageChange {
         self.beyond = Some(self.made);
         self.sweep()
     }
 
-    fn change(&self, movement: &Change) -> Change {
+    fn change(&self, movement: &StageChange) -> StageChange {
         *movement
     }
 }
@@ -97,11 +97,11 @@ impl<const HASTY: bool> Sweeps for Scripted<'_, HASTY> {
 /// The sweeps of one iteration, not taken again without stages that are kept, and how large its stages are.
 fn made<C: Class, W: Sweeps>(
     sweeps: &mut W,
-    kept: Kept,
+    kept: WarmStart,
     stopping: Stopping,
 ) -> Result<(u32, [f64; 2]), Failure> {
     hasten::<C, f64, _>(sweeps, kept, stopping).or_else(|begun| {
-        let mut work = Work::default();
+        let mut work = StepStatistics::default();
         solve::<C, f64, _>(sweeps, kept, stopping, begun, &mut work)?;
         assert_eq!(work.evaluations, work.iterations);
         Ok((work.iterations, work.scales))
@@ -111,20 +111,20 @@ fn made<C: Class, W: Sweeps>(
 /// A time with this side of the coin, at which stages do not come from the other side.
 fn time(side: bool) -> f64 {
     let mut time = 1.0;
-    while coin(time) != side || other_coin(time) {
+    while dither_last_sweep(time) != side || dither_side(time) {
         time += 1.0;
     }
     time
 }
 
 /// The sweeps of an iteration with these changes that begins at a time with this coin.
-fn sweeps<C: Class, const HASTY: bool>(
+fn sweeps<C: Class, const STOPS_AT_ROUNDING: bool>(
     changes: &[[f64; 2]],
     scales: &[f64],
-    coin: bool,
+    dither_last_sweep: bool,
 ) -> Result<u32, Failure> {
-    let mut script = Scripted::<HASTY>::new(changes, scales, time(coin));
-    let settled = made::<C, _>(&mut script, Kept::default(), at_most(changes.len()));
+    let mut script = Scripted::<STOPS_AT_ROUNDING>::new(changes, scales, time(dither_last_sweep));
+    let settled = made::<C, _>(&mut script, WarmStart::default(), at_most(changes.len()));
     settled.map(|(iterations, _)| iterations)
 }
 
@@ -145,10 +145,10 @@ fn at_most(sweeps: usize) -> Stopping {
 }
 
 /// The stages of the step before are kept, and were as large as this.
-fn stages(scales: [f64; 2]) -> Kept {
-    Kept {
+fn stages(scales: [f64; 2]) -> WarmStart {
+    WarmStart {
         scales,
-        ..Kept::new(false, true)
+        ..WarmStart::new(false, true)
     }
 }
 
@@ -173,8 +173,8 @@ fn what_stagnates_has_one_sweep_more_at_half_of_all_times() {
 #[test]
 fn what_stagnates_after_another_step_has_one_sweep_more_at_half_of_all_times() {
     let changes = alike([1e12, 1e6, 10.0, 4.0, 5.0, 3.0, 3.0]);
-    let after = |coin: bool, bound: usize| {
-        let mut script = Scripted::<false>::new(&changes, &[1.0], time(coin));
+    let after = |dither_last_sweep: bool, bound: usize| {
+        let mut script = Scripted::<false>::new(&changes, &[1.0], time(dither_last_sweep));
         made::<Separable, _>(&mut script, stages([1.0; 2]), at_most(bound)).map(|x| x.0)
     };
     // The bound may come right after.
@@ -187,13 +187,13 @@ fn what_stagnates_after_another_step_has_one_sweep_more_at_half_of_all_times() {
 }
 
 /// The sweeps of an iteration of which so many need not be looked at, and how many were not.
-fn passing_over<const HASTY: bool>(
+fn passing_over<const STOPS_AT_ROUNDING: bool>(
     unseen: u32,
     changes: &[f64],
     bound: usize,
 ) -> (Option<u32>, u32) {
     let changes: Vec<_> = changes.iter().map(|&change| [change; 2]).collect();
-    let mut script = Scripted::<HASTY>::new(&changes, &[1.0], time(false));
+    let mut script = Scripted::<STOPS_AT_ROUNDING>::new(&changes, &[1.0], time(false));
     script.unseen[0] = unseen;
     let settled = made::<Separable, _>(&mut script, stages([1.0; 2]), at_most(bound));
     (settled.ok().map(|x| x.0), script.unseen[1])
@@ -201,25 +201,28 @@ fn passing_over<const HASTY: bool>(
 
 #[test]
 fn sweeps_that_others_follow_are_not_looked_at() {
-    fn check<const HASTY: bool>(changes: [f64; 12], sweeps: u32, looks: u32) {
+    fn check<const STOPS_AT_ROUNDING: bool>(changes: [f64; 12], sweeps: u32, looks: u32) {
         for unseen in 0..sweeps {
             let settled = Some(sweeps.max(unseen + looks));
-            let found = passing_over::<HASTY>(unseen, &changes, 20);
-            assert_eq!(found, (settled, unseen), "{HASTY}");
+            let found = passing_over::<STOPS_AT_ROUNDING>(unseen, &changes, 20);
+            assert_eq!(found, (settled, unseen), "{STOPS_AT_ROUNDING}");
         }
         // At least two are looked at, and no more are made than there may be.
         for bound in 2..=sweeps as usize {
-            let (settled, passed_over) = passing_over::<HASTY>(9, &changes, bound);
-            assert_eq!(passed_over, bound as u32 - 2, "{HASTY}");
-            let (expected, _) = passing_over::<HASTY>(0, &changes, bound);
-            assert_eq!(settled, expected, "{HASTY} {bound}");
+            let (settled, passed_over) = passing_over::<STOPS_AT_ROUNDING>(9, &changes, bound);
+            assert_eq!(passed_over, bound as u32 - 2, "{STOPS_AT_ROUNDING}");
+            let (expected, _) = passing_over::<STOPS_AT_ROUNDING>(0, &changes, bound);
+            assert_eq!(settled, expected, "{STOPS_AT_ROUNDING} {bound}");
         }
         // What is not a number is missed where it does not stay, and only there.
         let mut changes = changes;
         changes[0] = f64::NAN;
-        assert_eq!(passing_over::<HASTY>(2, &changes, 20), (Some(sweeps), 2));
+        assert_eq!(
+            passing_over::<STOPS_AT_ROUNDING>(2, &changes, 20),
+            (Some(sweeps), 2)
+        );
         changes[2..].fill(f64::NAN);
-        assert_eq!(passing_over::<HASTY>(2, &changes, 12).0, None);
+        assert_eq!(passing_over::<STOPS_AT_ROUNDING>(2, &changes, 12).0, None);
     }
     let mut changes = [0.5; 12];
     changes[..3].copy_from_slice(&[1e3, 200.0, 50.0]);
@@ -263,11 +266,11 @@ fn the_sweep_more_does_not_depend_on_how_many_there_were() {
         // Each ends where what is near has grown: with more than sixteen sweeps, for two of them.
         let first = (0..far).map(|sweep| 1e12 / 3_f64.powi(sweep));
         let changes: Vec<_> = first.chain(near).map(|change| [change; 2]).collect();
-        let made = |kept: Kept, coin: bool| {
-            let mut script = Scripted::<false>::new(&changes, &[1.0], time(coin));
+        let made = |kept: WarmStart, dither_last_sweep: bool| {
+            let mut script = Scripted::<false>::new(&changes, &[1.0], time(dither_last_sweep));
             made::<Separable, _>(&mut script, kept, at_most(100)).map(|x| x.0)
         };
-        for kept in [stages([1.0; 2]), Kept::default()] {
+        for kept in [stages([1.0; 2]), WarmStart::default()] {
             let sweeps = made(kept, false).expect("it stagnates");
             let waits = if sweeps > 16 { 2 } else { 1 };
             assert_eq!(sweeps, far as u32 + 7 + waits, "{far}");
@@ -278,9 +281,9 @@ fn the_sweep_more_does_not_depend_on_how_many_there_were() {
 
 #[test]
 fn an_iteration_is_begun_once_whatever_its_bound_is() {
-    fn check<const HASTY: bool>(bound: usize) {
+    fn check<const STOPS_AT_ROUNDING: bool>(bound: usize) {
         let changes = alike([1e3, 100.0, 60.0, 60.0, 60.0, 60.0]);
-        let mut script = Scripted::<HASTY>::new(&changes, &[1.0], time(false));
+        let mut script = Scripted::<STOPS_AT_ROUNDING>::new(&changes, &[1.0], time(false));
         let settled = made::<General, _>(&mut script, stages([1.0; 2]), at_most(bound));
         assert_eq!(script.begun, 1);
         assert_eq!(script.made, bound.min(4));
@@ -314,9 +317,10 @@ fn what_is_not_a_number_ends_no_iteration_after_another() {
 fn the_coin_falls_as_often_on_either_side_whatever_the_steps_are() {
     for size in [0.125, 0.1, 488.0, 1e-7, 1.0 / 3.0, -0.39] {
         for start in [0.0, 1e3, 2.5e6] {
-            let coin = |step: u32| coin(start + f64::from(step) * size);
-            let heads = (0..10_000).filter(|&step| coin(step)).count();
-            let pairs = (0..10_000).filter(|&step| coin(step) == coin(step + 1));
+            let dither_last_sweep = |step: u32| dither_last_sweep(start + f64::from(step) * size);
+            let heads = (0..10_000).filter(|&step| dither_last_sweep(step)).count();
+            let pairs =
+                (0..10_000).filter(|&step| dither_last_sweep(step) == dither_last_sweep(step + 1));
             let pairs = pairs.count();
             // Four standard deviations of as many independent ones.
             assert!(heads.abs_diff(5_000) <= 200, "{size} {start}: {heads}");
@@ -379,15 +383,15 @@ fn noise_may_be_amplified_after_it_was_rounding() {
 fn noise_is_noise_where_the_sweeps_before_it_were_not_looked_at() {
     let mut changes = alike([1e12, 1e9, 1e6, 1e3, 50.0]).to_vec();
     changes.extend([[200.0; 2]; 30]);
-    let settled = |kept: Kept| {
+    let settled = |kept: WarmStart| {
         let mut script = Scripted::<false>::new(&changes, &[1.0], 1.0);
         made::<Separable, _>(&mut script, kept, at_most(changes.len()))
     };
-    assert_eq!(settled(Kept::default()), Ok((15, [1.0; 2])));
+    assert_eq!(settled(WarmStart::default()), Ok((15, [1.0; 2])));
     assert_eq!(settled(stages([1.0; 2])), Ok((15, [1.0; 2])));
     // Where one half never settles, the other says nothing.
     let changes = [[0.5, 1e12]; 40];
-    for kept in [Kept::default(), stages([1.0; 2])] {
+    for kept in [WarmStart::default(), stages([1.0; 2])] {
         let mut script = Scripted::<false>::new(&changes, &[1.0], 1.0);
         let settled = made::<General, _>(&mut script, kept, at_most(40));
         assert!(settled.is_err(), "{settled:?}");
@@ -399,7 +403,7 @@ fn noise_is_noise_where_the_sweeps_before_it_were_not_looked_at() {
 /// The sweeps of a hasty iteration of values that are one, to a tolerance in units of EPSILON.
 fn tolerant<C: Class>(
     units: f64,
-    kept: Kept,
+    kept: WarmStart,
     changes: &[[f64; 2]],
 ) -> Result<(u32, [f64; 2]), Failure> {
     let mut script = Scripted::<true>::new(changes, &[1.0], 1.0);
@@ -414,7 +418,7 @@ fn tolerant<C: Class>(
 fn a_tolerance_ends_an_iteration_at_the_first_change_within_it() {
     let changes = alike([1e12, 1e9, 1e6, 1e3, 1.0, 0.5]);
     for kept in [
-        Kept::default(),
+        WarmStart::default(),
         stages([0.0; 2]),
         stages([1.0; 2]),
         stages([1e-3; 2]),
@@ -432,7 +436,7 @@ fn a_tolerance_ends_an_iteration_at_the_first_change_within_it() {
     }
     // Momenta count where they count.
     let changes = [[1e12, 1e12], [1.0, 1e6], [1.0, 1.0]];
-    for (kept, general) in [(Kept::default(), 3), (stages([1.0; 2]), 3)] {
+    for (kept, general) in [(WarmStart::default(), 3), (stages([1.0; 2]), 3)] {
         assert_eq!(
             tolerant::<General>(9.0, kept, &changes).map(|x| x.0),
             Ok(general)
@@ -466,7 +470,7 @@ fn a_tolerance_below_rounding_is_not_waited_for() {
 fn what_is_not_a_number_is_within_no_tolerance() {
     let mut changes = alike([1e12, 1e9]).to_vec();
     changes.extend([[f64::NAN; 2]; 20]);
-    for kept in [Kept::default(), stages([1.0; 2])] {
+    for kept in [WarmStart::default(), stages([1.0; 2])] {
         let made = tolerant::<General>(1e3, kept, &changes);
         assert!(
             matches!(made, Err(Failure::NoConvergence { .. })),
@@ -537,9 +541,10 @@ fn shrinking(seed: u64) -> Vec<[f64; 2]> {
 }
 
 /// How many of a thousand iterations end at another sweep after a step with values this large than without one; values are one.
-fn others<C: Class, const HASTY: bool>(before: f64) -> usize {
-    let scripted = |seed: u64, changes: &[[f64; 2]], kept: Kept| {
-        let mut script = Scripted::<HASTY>::new(changes, &[1.0], time(seed.is_multiple_of(2)));
+fn others<C: Class, const STOPS_AT_ROUNDING: bool>(before: f64) -> usize {
+    let scripted = |seed: u64, changes: &[[f64; 2]], kept: WarmStart| {
+        let mut script =
+            Scripted::<STOPS_AT_ROUNDING>::new(changes, &[1.0], time(seed.is_multiple_of(2)));
         let bound = at_most(changes.len());
         let quick = hasten::<C, f64, _>(&mut script, kept, bound).is_ok();
         (script.made, script.begun) = (0, 0);
@@ -551,13 +556,13 @@ fn others<C: Class, const HASTY: bool>(before: f64) -> usize {
     for seed in 0..1000 {
         let changes = shrinking(seed);
         let (hastened, after) = scripted(seed, &changes, stages([before; 2]));
-        let (hastened_alone, alone) = scripted(seed, &changes, Kept::default());
+        let (hastened_alone, alone) = scripted(seed, &changes, WarmStart::default());
         assert!(!hastened_alone);
         quick += usize::from(hastened);
         others += usize::from(after != alone);
     }
     // Those of the smaller factors come down to 64 units in nine sweeps, more of them in fifteen, and of those of little noise to one.
-    let least = match (HASTY, C::SEPARABLE) {
+    let least = match (STOPS_AT_ROUNDING, C::SEPARABLE) {
         (true, _) => 50,
         (false, true) => 250,
         (false, false) => 300,
@@ -632,13 +637,13 @@ fn a_hasty_iteration_of_numbers_of_any_size_ends_at_the_same_sweep() {
 
 #[test]
 fn numbers_that_cannot_be_squared_are_not_known_to_the_next_step() {
-    fn check<const HASTY: bool>(scale: f64) {
+    fn check<const STOPS_AT_ROUNDING: bool>(scale: f64) {
         let mut changes = alike([1e12, 1e6]).to_vec();
         changes.extend([[1.0; 2]; 20]);
         let scales = [scale];
-        let mut script = Scripted::<HASTY>::new(&changes, &scales, time(false));
+        let mut script = Scripted::<STOPS_AT_ROUNDING>::new(&changes, &scales, time(false));
         let settled = made::<General, _>(&mut script, stages([1.0; 2]), at_most(20));
-        assert_eq!(settled.map(|x| x.1), Ok([0.0; 2]), "{scale} {HASTY}");
+        assert_eq!(settled.map(|x| x.1), Ok([0.0; 2]), "{scale} {STOPS_AT_ROUNDING}");
     }
     for scale in [1e-150, 1e-130, 1e160] {
         check::<false>(scale);
@@ -690,9 +695,13 @@ fn values_that_were_large_once_leave_no_bound_that_is_too_wide() {
 /// and where there are sweeps enough.
 #[test]
 fn half_of_the_steps_come_from_the_other_side() {
-    fn beyond<C: Class, const HASTY: bool>(time: f64, kept: Kept, sweeps: usize) -> Option<usize> {
+    fn beyond<C: Class, const STOPS_AT_ROUNDING: bool>(
+        time: f64,
+        kept: WarmStart,
+        sweeps: usize,
+    ) -> Option<usize> {
         let changes: Vec<_> = [1e6, 1e3, 1e6, 1.0, 0.0].map(|x| [x; 2]).to_vec();
-        let mut script = Scripted::<HASTY>::new(&changes, &[1.0], time);
+        let mut script = Scripted::<STOPS_AT_ROUNDING>::new(&changes, &[1.0], time);
         let (made, _) = made::<C, _>(&mut script, kept, at_most(sweeps)).expect("settled");
         // It counts.
         assert_eq!(made as usize, script.made);
@@ -702,12 +711,15 @@ fn half_of_the_steps_come_from_the_other_side() {
     let [mut heads, steps] = [0, 1000];
     for step in 0..steps {
         let time = 0.1 * f64::from(step);
-        let expected = other_coin(time).then_some(1);
-        heads += u32::from(other_coin(time));
+        let expected = dither_side(time).then_some(1);
+        heads += u32::from(dither_side(time));
         assert_eq!(beyond::<General, false>(time, kept(), 100), expected);
         assert_eq!(beyond::<Separable, false>(time, kept(), 100), None);
         assert_eq!(beyond::<General, true>(time, kept(), 100), None);
-        assert_eq!(beyond::<General, false>(time, Kept::default(), 100), None);
+        assert_eq!(
+            beyond::<General, false>(time, WarmStart::default(), 100),
+            None
+        );
         assert_eq!(beyond::<General, false>(time, kept(), 5), None);
     }
     assert!((450..550).contains(&heads), "{heads}");

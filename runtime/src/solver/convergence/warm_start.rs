@@ -3,8 +3,8 @@
 //! The processor need not wait for the largest of all lanes, and nothing is made ready for what is rarely needed.
 
 use super::{
-    Begun, Class, Kept, Movement, PATIENCE, ROUNDING, STAGNATION, Scalar, Stopping, Sweeps, coin,
-    is_known, other_coin, units,
+    Begun, Class, Movement, PATIENCE, ROUNDING, STAGNATION, Scalar, Stopping, Sweeps, WarmStart,
+    dither_last_sweep, dither_side, is_known, units,
 };
 
 /// A tolerance of so many units of EPSILON is waited for, for as long as sweeps are [early](PATIENCE), or, where both halves count, one
@@ -18,7 +18,7 @@ type Hastened<M> = Result<(u32, [f64; 2]), Begun<M>>;
 #[inline(always)]
 pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
-    kept: Kept,
+    kept: WarmStart,
     stopping: Stopping,
 ) -> Hastened<W::Movement> {
     let both = W::both::<C>();
@@ -41,11 +41,11 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     let bound = stopping.max_iterations.min(STAGNATION);
     // Where either half will do, the smallest change may be one of many that were not near; where both count, none of them is.
     let near_by = if C::SEPARABLE { late } else { bound };
-    if !W::HASTY {
-        if !C::SEPARABLE && late == PATIENCE && other_coin(sweeps.time()) {
+    if !W::STOPS_AT_ROUNDING {
+        if !C::SEPARABLE && late == PATIENCE && dither_side(sweeps.time()) {
             // From the other side. An ordinary sweep comes first: it leaves mostly the error that shrinks least, to be mirrored.
             begun.first = Some(sweeps.sweep());
-            sweeps.sweep_beyond();
+            sweeps.overrelaxed_sweep();
             begun.iterations += 2;
         }
         return to_stagnation::<T, W>(sweeps, kept.scales, begun, [near_by, bound], both);
@@ -135,7 +135,7 @@ fn to_rounding<T: Scalar, W: Sweeps>(
     Err(begun)
 }
 
-/// Until changes that can be rounding errors have stopped shrinking, and at the times of one side of the [`coin`] for a sweep more.
+/// Until changes that can be rounding errors have stopped shrinking, and at the times of one side of the [`dither_last_sweep`] for a sweep more.
 #[inline(always)]
 fn to_stagnation<T: Scalar, W: Sweeps>(
     sweeps: &mut W,
@@ -190,7 +190,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
     }
     // Whatever moves them at all is below infinity.
     let moves = this.shrinks(f64::INFINITY, size.weights, both);
-    if moves && coin(sweeps.time()) {
+    if moves && dither_last_sweep(sweeps.time()) {
         sweeps.sweep_unseen();
         begun.iterations += 1;
     }

@@ -2,11 +2,11 @@
 
 use super::linear_solver::LinearSolver;
 use super::sweep::ByIncrements;
-use crate::method::{Change, Failure, Kept, StageTableau, Stopping, Work};
+use crate::method::{Failure, StageChange, StageTableau, StepStatistics, Stopping, WarmStart};
 use crate::number::{Scalar, Summation, Vector};
 use crate::solver::convergence::settling;
 use crate::solver::convergence::{
-    CONTRACTION, NOISIEST, PATIENCE, ROUNDING, STAGNATION, coin, is_last, non_finite,
+    CONTRACTION, NOISIEST, PATIENCE, ROUNDING, STAGNATION, dither_last_sweep, is_last, non_finite,
 };
 use crate::system::{Class, Hamiltonian, Separable};
 
@@ -60,9 +60,9 @@ fn attempts(kept: bool, in_full: bool, available: bool) -> impl Iterator<Item = 
 /// Iterates until the stages have settled; returns what that took.
 pub(super) fn settle<P, R, V, S, L>(
     sweeps: &mut ByIncrements<'_, P, R, V, S, L>,
-    kept: Kept,
+    kept: WarmStart,
     stopping: Stopping,
-) -> Result<Work, Failure>
+) -> Result<StepStatistics, Failure>
 where
     P: StageTableau,
     R: Summation,
@@ -70,7 +70,7 @@ where
     S: Hamiltonian<V, Class = P::Class>,
     L: LinearSolver<V, S>,
 {
-    let mut work = Work::default();
+    let mut work = StepStatistics::default();
     let steps_in_full = sweeps.steps_in_full();
     let was_in_full = *steps_in_full > 0;
     *steps_in_full = steps_in_full.saturating_sub(1);
@@ -101,7 +101,7 @@ fn take<P, R, V, S, L>(
     sweeps: &mut ByIncrements<'_, P, R, V, S, L>,
     attempt: Attempt,
     stopping: Stopping,
-    work: &mut Work,
+    work: &mut StepStatistics,
 ) -> Result<(), Failure>
 where
     P: StageTableau,
@@ -151,7 +151,10 @@ where
                     change.q.difference() <= NOISY * q && change.p.difference() <= NOISY * p
                 };
             if is_noise {
-                if !R::COMPENSATED || iteration == max_iterations || !coin(sweeps.time()) {
+                if !R::COMPENSATED
+                    || iteration == max_iterations
+                    || !dither_last_sweep(sweeps.time())
+                {
                     return Ok(());
                 }
                 once_more = true;
@@ -172,7 +175,7 @@ where
 /// their rounding errors, and the momenta only follow. For a general one it is the larger.
 #[derive(Default)]
 struct Course {
-    last: Option<Change>,
+    last: Option<StageChange>,
     /// The smallest one, and sweeps since.
     smallest: Option<f64>,
     idle: u32,
@@ -186,7 +189,7 @@ struct Course {
 
 impl Course {
     /// Takes note of a change; one below `floor` is not told from a smaller one.
-    fn note<C: Class>(&mut self, change: &Change, floor: f64) {
+    fn note<C: Class>(&mut self, change: &StageChange, floor: f64) {
         let size = settling::<C>(change).max(floor);
         self.last = Some(*change);
         self.largest = self.largest.max(size);

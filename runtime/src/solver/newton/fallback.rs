@@ -6,7 +6,8 @@ use super::linear_solver::LinearSolver;
 use super::{Newton, memory::NewtonMemory};
 use crate::error::Quantity;
 use crate::method::{
-    Failure, Inside, Kept, Outcome, Solver, StageStorage, StageTableau, Step, Stopping, Work,
+    Failure, Inside, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics, Stopping,
+    WarmStart,
 };
 use crate::number::{Summation, Vector};
 use crate::solver::FixedPoint;
@@ -131,17 +132,17 @@ where
         step: &Step<'_, V>,
         system: &S,
         memory: &mut Self::Memory<P>,
-        kept: Kept,
+        kept: WarmStart,
         stopping: Stopping,
         mut outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         P: StageTableau,
         R: Summation,
         S: Hamiltonian<V, Class = P::Class>,
     {
         // What is kept is kept by the solver of the step before.
-        let if_kept = |is: bool| if is { kept } else { Kept::default() };
+        let if_kept = |is: bool| if is { kept } else { WarmStart::default() };
         let mut rejected = 0;
         if memory.waiting == 0 {
             let taken = by_stages::<P, R, V, S>(

@@ -23,7 +23,8 @@ pub use linear_solver::{Banded, Coupling, Dense, LinearSolver, Matrices, Parts};
 pub use memory::NewtonMemory;
 
 use crate::method::{
-    Failure, Inside, Kept, Outcome, Solver, StageTableau, Step, Stopping, StoredEvaluations, Work,
+    Failure, Inside, Outcome, Solver, StageTableau, Step, StepStatistics, Stopping,
+    StoredEvaluations, WarmStart,
 };
 use crate::number::{Summation, Vector};
 use crate::system::Hamiltonian;
@@ -47,7 +48,7 @@ use sweep::ByIncrements;
 ///
 /// # Derivatives
 ///
-/// The factors are kept from step to step. They are computed anew if the step size changes, if nothing is [kept](Kept::stages) of the
+/// The factors are kept from step to step. They are computed anew if the step size changes, if nothing is [kept](WarmStart::stages) of the
 /// step before, after a step in which the change shrank by less than a factor of 32 a sweep, and at once if the contraction forecasts more
 /// than 16 sweeps. Derivatives at one point cannot do for all stages where a stiff direction turns within the step, as on a pendulum with a
 /// spring of frequency ω if `h²ω` is above 1. If renewed ones still contract too slowly, the step starts again by full Newton, with the
@@ -131,10 +132,10 @@ impl<V: Vector, S: Hamiltonian<V>, L: LinearSolver<V, S>> Solver<V, S> for Newto
         step: &Step<'_, V>,
         system: &S,
         memory: &mut Self::Memory<P>,
-        kept: Kept,
+        kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         P: StageTableau,
         R: Summation,

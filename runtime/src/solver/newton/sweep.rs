@@ -11,7 +11,7 @@ use super::memory::{NewtonMemory, rows};
 use crate::error::Quantity;
 use crate::method::storage::first_non_finite_of;
 use crate::method::{
-    Change, Failure, HalfTableau, Outcome, PartChange, StageStorage, StageTableau, Step,
+    Failure, HalfChange, HalfTableau, Outcome, StageChange, StageStorage, StageTableau, Step,
 };
 use crate::number::summation::add;
 use crate::number::{Scalar, Summation, Vector};
@@ -144,7 +144,7 @@ where
     }
 
     /// Corrects all increments; returns how much that moved the stages.
-    pub(super) fn sweep(&mut self) -> Result<Change, Failure> {
+    pub(super) fn sweep(&mut self) -> Result<StageChange, Failure> {
         self.evaluate();
         self.residuals();
         self.correct()?;
@@ -199,7 +199,7 @@ where
         }
         memory.waiting = memory.waiting.saturating_sub(1);
         if let Some(first) = memory.first_change {
-            let change = Change {
+            let change = StageChange {
                 q: moved(&memory.q, step.q),
                 p: moved(&memory.p, step.p),
             };
@@ -457,18 +457,18 @@ where
     }
 
     /// Stage values from the increments; returns how much they changed.
-    fn values(&mut self) -> Change {
+    fn values(&mut self) -> StageChange {
         let step = self.step;
         let NewtonMemory { q, p, u, w, .. } = &mut *self.memory;
         let factor = if P::INCREMENTS { 1.0 } else { step.size };
-        Change {
+        StageChange {
             q: values::<R, V>(&P::POSITIONS, factor, q, (step.q, step.q_low), u),
             p: values::<R, V>(&P::MOMENTA, factor, p, (step.p, step.p_low), w),
         }
     }
 
     /// Decides from a change whether the derivatives at one point are still good enough.
-    fn judge(&mut self, change: &Change) -> Result<(), Failure> {
+    fn judge(&mut self, change: &StageChange) -> Result<(), Failure> {
         if self.sweeps == 0 && self.memory.first_change.is_some() {
             self.memory.first_change = Some(settling::<P::Class>(change));
         }
@@ -680,8 +680,8 @@ fn values<R: Summation, V: Vector>(
     values: &mut [V],
     (base, low): (&V, &V),
     increments: &[V],
-) -> PartChange {
-    let mut change = PartChange::default();
+) -> HalfChange {
+    let mut change = HalfChange::default();
     for (i, value) in values.iter_mut().enumerate() {
         let components = value.as_mut_slice().iter_mut();
         let components = components.zip(base.as_slice().iter().zip(low.as_slice()));
@@ -702,8 +702,8 @@ fn values<R: Summation, V: Vector>(
 }
 
 /// How far the stages are from the start of the step.
-fn moved<V: Vector>(values: &[V], base: &V) -> PartChange {
-    let mut change = PartChange::default();
+fn moved<V: Vector>(values: &[V], base: &V) -> HalfChange {
+    let mut change = HalfChange::default();
     for value in values {
         let components = value.as_slice().iter().zip(base.as_slice());
         components.for_each(|(&value, &base)| change.record(base, base, value));

@@ -8,7 +8,9 @@ use num_traits::Zero;
 use super::rows::{AlongRows, are_in_rows, enter, leave};
 use super::{Positions, Start, Terms, apart, eliminates, position, tableau};
 use crate::error::Quantity;
-use crate::method::{Change, EvaluationCounts, Failure, Kept, StageTableau, Stopping, Work};
+use crate::method::{
+    EvaluationCounts, Failure, StageChange, StageTableau, StepStatistics, Stopping, WarmStart,
+};
 use crate::number::lanes::{lane_of, lanes};
 use crate::number::linear_combination::sum_of_products;
 use crate::number::{Lanes, Scalar, Summation, Vector};
@@ -205,7 +207,7 @@ where
 {
     type Movement = LaneMovement<P::Lanes>;
 
-    const HASTY: bool = !R::COMPENSATED;
+    const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
     const MEASURED: bool = false;
 
@@ -225,7 +227,7 @@ where
     }
 
     #[inline(always)]
-    fn begin(&mut self, _kept: Kept) {
+    fn begin(&mut self, _kept: WarmStart) {
         // Sweeps follow, each with what it has moved.
         apart(|| {
             let h = self.positions.lanes.step.size;
@@ -247,10 +249,10 @@ where
     #[inline(always)]
     fn go_on<C: Class, T: Scalar>(
         &mut self,
-        kept: Kept,
+        kept: WarmStart,
         stopping: Stopping,
         begun: Begun<Self::Movement>,
-    ) -> Result<Work, Failure> {
+    ) -> Result<StepStatistics, Failure> {
         let in_rows = self.are_in_rows();
         if in_rows {
             leave::<P, V>(self.positions.lanes.stages);
@@ -291,9 +293,9 @@ where
     }
 
     #[inline(always)]
-    fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
+    fn change(&self, movement: &LaneMovement<P::Lanes>) -> StageChange {
         let q = part_change(movement.q, self.largest);
-        Change { q, p: q }
+        StageChange { q, p: q }
     }
 
     #[inline(always)]

@@ -10,34 +10,34 @@ use core::mem;
 
 use self::local::{Locally, is_local};
 use self::rows::are_in_rows;
-pub use self::stages::SecondOrderStages;
+pub use self::stages::NystromStages;
 use crate::error::{Error, Quantity};
 use crate::method::tableau::Columns;
 use crate::method::{
-    Change, EvaluationCounts, Failure, Inside, Kept, Outcome, SecondOrderTableau, Solver,
-    StageTableau, Step, Stopping, Work,
+    EvaluationCounts, Failure, Inside, Outcome, SecondOrderTableau, Solver, StageChange,
+    StageTableau, Step, StepStatistics, Stopping, WarmStart,
 };
 use crate::number::lanes::lanes;
 use crate::number::vector::is_in_place;
 use crate::number::{Lanes, Scalar, Summation, Vector};
-use crate::solver::InLanes;
-use crate::solver::convergence::{Begun, Sweeps, coin, patiently, settle};
+use crate::solver::SimdFixedPoint;
+use crate::solver::convergence::{Begun, Sweeps, dither_last_sweep, patiently, settle};
 use crate::solver::predictor::{MOST, StartingColumns, starting_columns, starts_at_once, weighted};
 use crate::solver::simd::change::{LaneMovement, part_change};
 use crate::solver::simd::gauss_seidel::{
     ByLanes, Sums, entry, extend, extrapolate, is_about, scale_of, values,
 };
-use crate::solver::simd::stages::LaneStages;
+use crate::solver::simd::stages::SimdStages;
 use crate::system::HamiltonianInLanes;
 use crate::system::SystemLanes;
 use crate::system::linearity::{NonLinear, non_linear_velocity};
 use crate::system::{Class, Hamiltonian};
 
-/// [`InLanes`] for second-order systems `q'' = M⁻¹ f(q)`, whose velocity `M⁻¹ p` is linear in the momentum: only the
+/// [`SimdFixedPoint`] for second-order systems `q'' = M⁻¹ f(q)`, whose velocity `M⁻¹ p` is linear in the momentum: only the
 /// positions are iterated, with the coefficients of a [`SecondOrderTableau`]. Made by
 /// [`Integrator::in_second_order_lanes`](crate::Integrator::in_second_order_lanes).
 ///
-/// Methods that have no such coefficients, and systems that are not separable, are taken as by [`InLanes`].
+/// Methods that have no such coefficients, and systems that are not separable, are taken as by [`SimdFixedPoint`].
 ///
 /// For vectors on the heap and up to eight stages at different times a system of unit masses whose force is
 /// [local](crate::SeparableHamiltonian::LOCAL_FORCE), a [`Chain`](crate::system::Chain), is gone through once in a sweep, as long as a step goes
@@ -49,9 +49,9 @@ use crate::system::{Class, Hamiltonian};
 /// [can](crate::SeparableHamiltonian::ROW_FORCES) goes through them in rows: the lanes run along the components. Both have the same
 /// bits.
 #[derive(Clone, Copy, Debug)]
-pub struct SecondOrderInLanes(());
+pub struct SimdNystrom(());
 
-impl SecondOrderInLanes {
+impl SimdNystrom {
     /// The solver, if the velocity of `system` is linear in the momentum, `p` and another one, and does not depend on time.
     ///
     /// # Errors
@@ -77,28 +77,28 @@ impl SecondOrderInLanes {
     }
 }
 
-impl<V, S> Solver<V, S> for SecondOrderInLanes
+impl<V, S> Solver<V, S> for SimdNystrom
 where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
-    type Memory<P: StageTableau> = SecondOrderStages<V, P>;
+    type Memory<P: StageTableau> = NystromStages<V, P>;
 
     #[inline(always)]
     fn take<P, R>(
         step: &Step<'_, V>,
         system: &S,
-        memory: &mut SecondOrderStages<V, P>,
-        kept: Kept,
+        memory: &mut NystromStages<V, P>,
+        kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         P: StageTableau,
         R: Summation,
         S: Hamiltonian<V, Class = P::Class>,
     {
-        let SecondOrderStages {
+        let NystromStages {
             lanes,
             start,
             of_increments,
@@ -106,7 +106,7 @@ where
             sweeps: sweeps_before,
         } = memory;
         if !eliminates::<P>() {
-            return <InLanes as Solver<V, S>>::take::<P, R>(
+            return <SimdFixedPoint as Solver<V, S>>::take::<P, R>(
                 step, system, lanes, kept, stopping, outcome,
             );
         }
@@ -130,7 +130,7 @@ where
             true => {
                 let mut locally = Locally::new(&mut sweeps, *sweeps_before);
                 let work = settle::<P::Class, f64>(&mut locally, kept, stopping)?;
-                let by_coin = R::COMPENSATED && coin(step.time);
+                let by_coin = R::COMPENSATED && dither_last_sweep(step.time);
                 *sweeps_before = work.iterations.saturating_sub(u32::from(by_coin));
                 work
             }
@@ -152,14 +152,14 @@ where
     }
 
     fn extend<P: StageTableau>(
-        memory: &SecondOrderStages<V, P>,
+        memory: &NystromStages<V, P>,
         at: Inside<'_, V>,
         q: &mut V,
         p: &mut V,
     ) {
         let stages = &memory.lanes;
         if !eliminates::<P>() {
-            return <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
+            return <SimdFixedPoint as Solver<V, S>>::extend::<P>(stages, at, q, p);
         }
         // What makes an increment of what is stored.
         let factor = |stage: usize| match memory.of_increments {
@@ -198,7 +198,7 @@ fn velocity<P, V, S>(
     step: &Step<'_, V>,
     momentum: &V,
     out: &mut V,
-    stages: &mut LaneStages<V, P>,
+    stages: &mut SimdStages<V, P>,
 ) where
     P: StageTableau,
     V: Vector<Scalar = f64>,
@@ -392,7 +392,7 @@ where
         if <S as Hamiltonian<V>>::UNIT_MASSES {
             return;
         }
-        let LaneStages {
+        let SimdStages {
             q, velocity, force, ..
         } = &mut *self.lanes.stages;
         let (q, force) = (q.as_ref(), force.as_ref());
@@ -416,7 +416,7 @@ where
 {
     type Movement = LaneMovement<P::Lanes>;
 
-    const HASTY: bool = !R::COMPENSATED;
+    const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
     #[inline(always)]
     fn evaluations(&self) -> EvaluationCounts {
@@ -442,7 +442,7 @@ where
     }
 
     #[inline(always)]
-    fn begin(&mut self, kept: Kept) {
+    fn begin(&mut self, kept: WarmStart) {
         if kept.stages && starts_at_once(&P::POSITIONS) {
             let h = self.lanes.step.size;
             self.with(&Start::<P>::terms(R::COMPENSATED, h), None);
@@ -477,10 +477,10 @@ where
     #[inline(always)]
     fn go_on<C: Class, T: Scalar>(
         &mut self,
-        kept: Kept,
+        kept: WarmStart,
         stopping: Stopping,
         begun: Begun<Self::Movement>,
-    ) -> Result<Work, Failure> {
+    ) -> Result<StepStatistics, Failure> {
         let start = self.start;
         self.lanes.elsewhere(begun.is_nothing(), |lanes| {
             let patiently = |start| {
@@ -511,10 +511,10 @@ where
     }
 
     #[inline(always)]
-    fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
+    fn change(&self, movement: &LaneMovement<P::Lanes>) -> StageChange {
         let stages = self.lanes.stages.q.as_ref();
         let q = part_change(movement.q, scale_of::<P, V>(self.lanes.step.q, stages));
-        Change { q, p: q }
+        StageChange { q, p: q }
     }
 
     #[inline(always)]

@@ -15,7 +15,7 @@ use crate::number::lanes::lane_of;
 use crate::number::linear_combination::sum_of_products;
 use crate::number::{F64x8, Lanes, Scalar, Summation, Vector};
 use crate::solver::simd::gauss_seidel::{entry, shortest, times};
-use crate::solver::simd::stages::LaneStages;
+use crate::solver::simd::stages::SimdStages;
 use crate::system::HamiltonianInLanes;
 use crate::system::{Hamiltonian, MOST_ROW_STAGES, StageRows};
 
@@ -39,13 +39,13 @@ where
 
 /// The forces in rows.
 #[inline(always)]
-pub(super) fn forces<P: StageTableau, V: Vector>(stages: &LaneStages<V, P>) -> &[P::Lanes] {
+pub(super) fn forces<P: StageTableau, V: Vector>(stages: &SimdStages<V, P>) -> &[P::Lanes] {
     (stages.velocity.as_ref().first()).map_or(&[], Vector::as_slice)
 }
 
 /// [`forces`], to be written.
 #[inline(always)]
-fn forces_mut<P: StageTableau, V: Vector>(stages: &mut LaneStages<V, P>) -> &mut [P::Lanes] {
+fn forces_mut<P: StageTableau, V: Vector>(stages: &mut SimdStages<V, P>) -> &mut [P::Lanes] {
     (stages.velocity.as_mut().first_mut()).map_or(&mut [], Vector::as_mut_slice)
 }
 
@@ -78,7 +78,7 @@ pub(super) const fn row_length<P: StageTableau>() -> usize {
 
 /// The first stage, from 1, whose force is not finite.
 pub(super) fn non_finite_force<P: StageTableau, V: Vector>(
-    stages: &LaneStages<V, P>,
+    stages: &SimdStages<V, P>,
 ) -> Option<usize> {
     let components = || 0..forces(stages).len() / row_length::<P>() * WIDTH;
     let first = (0..P::POSITIONS.count)
@@ -89,7 +89,7 @@ pub(super) fn non_finite_force<P: StageTableau, V: Vector>(
 /// The force on a component at a stage.
 #[inline(always)]
 pub(super) fn force<P: StageTableau, V: Vector>(
-    stages: &LaneStages<V, P>,
+    stages: &SimdStages<V, P>,
     stage: usize,
     component: usize,
 ) -> f64 {
@@ -99,7 +99,7 @@ pub(super) fn force<P: StageTableau, V: Vector>(
 }
 
 /// From the rows to their own place. The rows are zero then: where an iteration fails, they are not taken for velocities.
-pub(super) fn leave<P: StageTableau, V: Vector>(stages: &mut LaneStages<V, P>) {
+pub(super) fn leave<P: StageTableau, V: Vector>(stages: &mut SimdStages<V, P>) {
     let n = shortest(stages.force.as_ref()).min(shortest(stages.velocity.as_ref()));
     for k in 0..n / WIDTH * WIDTH {
         let numbers = P::Lanes::from_fn(|lane| force(stages, lane.min(P::POSITIONS.count - 1), k));
@@ -111,8 +111,8 @@ pub(super) fn leave<P: StageTableau, V: Vector>(stages: &mut LaneStages<V, P>) {
 }
 
 /// Back to the rows.
-pub(super) fn enter<P: StageTableau, V: Vector>(stages: &mut LaneStages<V, P>) {
-    let LaneStages {
+pub(super) fn enter<P: StageTableau, V: Vector>(stages: &mut SimdStages<V, P>) {
+    let SimdStages {
         velocity, force, ..
     } = stages;
     let (Some(rows), force) = (velocity.as_mut().first_mut(), force.as_ref()) else {
@@ -166,7 +166,7 @@ where
     pub(super) fn new<V: Vector<Scalar = f64>>(
         terms: &'a Terms<C>,
         step: &'a Step<'_, V>,
-        stages: &'a mut LaneStages<V, P>,
+        stages: &'a mut SimdStages<V, P>,
     ) -> Self {
         let (q, q_low, p) = (rows(step.q), rows(step.q_low), rows(step.p));
         let forces = forces_mut(stages);

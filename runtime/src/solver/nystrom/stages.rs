@@ -4,12 +4,12 @@ use super::rows;
 use crate::error::Quantity;
 use crate::method::{StageStorage, StageTableau};
 use crate::number::Vector;
-use crate::solver::LaneStages;
+use crate::solver::SimdStages;
 
 /// Stages in lanes, and the velocity that they start from.
 #[derive(Debug)]
-pub struct SecondOrderStages<V: Vector, P: StageTableau> {
-    pub(crate) lanes: LaneStages<V, P>,
+pub struct NystromStages<V: Vector, P: StageTableau> {
+    pub(crate) lanes: SimdStages<V, P>,
     /// The velocity at the start of the step, of a plan whose momenta are eliminated; not where it is the momentum itself.
     pub(crate) start: V,
     /// Whether the forces, and their velocities, are increments between steps: of compensated sums.
@@ -20,12 +20,12 @@ pub struct SecondOrderStages<V: Vector, P: StageTableau> {
     pub(crate) sweeps: u32,
 }
 
-impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SecondOrderStages<V, P> {
-    const BROADCASTS: bool = <LaneStages<V, P> as StageStorage<V>>::BROADCASTS;
+impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for NystromStages<V, P> {
+    const BROADCASTS: bool = <SimdStages<V, P> as StageStorage<V>>::BROADCASTS;
 
     fn like(prototype: &V) -> Self {
         Self {
-            lanes: LaneStages::like(prototype),
+            lanes: SimdStages::like(prototype),
             start: prototype.zeros_like(),
             of_increments: false,
             in_rows: false,

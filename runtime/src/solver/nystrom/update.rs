@@ -11,14 +11,14 @@ use crate::number::linear_combination::sum_of_products;
 use crate::number::summation::add;
 use crate::number::{F64x8, Lanes, Plain, Scalar, Summation, Vector};
 use crate::solver::simd::gauss_seidel::{shortest, total};
-use crate::solver::simd::stages::{LaneStages, Laned};
+use crate::solver::simd::stages::{Laned, SimdStages};
 use crate::system::HamiltonianInLanes;
 
 /// With unit masses, of forces in rows.
 #[inline(always)]
 pub(super) fn in_rows<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     step: &Step<'_, V>,
-    stages: &LaneStages<V, P>,
+    stages: &SimdStages<V, P>,
     outcome: Outcome<'_, V>,
 ) {
     let length = row_length::<P>();
@@ -37,7 +37,7 @@ pub(super) fn in_rows<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
 #[inline(always)]
 pub(super) fn by_eights<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     step: &Step<'_, V>,
-    stages: &LaneStages<V, P>,
+    stages: &SimdStages<V, P>,
     Outcome { q, q_low, p, p_low }: Outcome<'_, V>,
 ) {
     let [forces, ..] = stages.force.as_ref() else {
@@ -155,7 +155,7 @@ pub(super) fn compensated<P, R, V, S>(
     step: &Step<'_, V>,
     system: &S,
     start: &V,
-    stages: &mut LaneStages<V, P>,
+    stages: &mut SimdStages<V, P>,
     Outcome { q, q_low, p, p_low }: Outcome<'_, V>,
 ) where
     P: StageTableau,
@@ -198,7 +198,7 @@ pub(super) fn compensated<P, R, V, S>(
 pub(super) fn plain<P, V, S>(
     step: &Step<'_, V>,
     start: &V,
-    stages: &LaneStages<V, P>,
+    stages: &SimdStages<V, P>,
     Outcome { q, p, .. }: Outcome<'_, V>,
 ) where
     P: StageTableau,

@@ -1,6 +1,6 @@
 //! How sweeps move stages in lanes.
 
-use crate::method::PartChange;
+use crate::method::HalfChange;
 use crate::number::Lanes;
 use crate::solver::convergence::{Movement, is_next_within};
 
@@ -20,10 +20,10 @@ pub(crate) fn noted<L: Lanes>(largest: Option<L>, change: L) -> L {
 
 /// The largest change, and the largest component, lane by lane, as those of all lanes together.
 #[inline(always)]
-pub(crate) fn part_change<L: Lanes>(change: L, scale: L) -> PartChange {
+pub(crate) fn part_change<L: Lanes>(change: L, scale: L) -> HalfChange {
     match change.any_nan() {
-        false => PartChange::new(change.largest(), scale.largest()),
-        true => PartChange::new(f64::NAN, f64::NAN),
+        false => HalfChange::new(change.largest(), scale.largest()),
+        true => HalfChange::new(f64::NAN, f64::NAN),
     }
 }
 
@@ -89,15 +89,15 @@ mod tests {
     use num_traits::Zero;
 
     use super::*;
-    use crate::method::Change;
+    use crate::method::StageChange;
     use crate::number::{F64x2, Scalar};
 
     /// How lanes moved, and the same as one number for each half.
-    fn moved(lanes: [[f64; 2]; 2]) -> (LaneMovement<F64x2>, Change) {
+    fn moved(lanes: [[f64; 2]; 2]) -> (LaneMovement<F64x2>, StageChange) {
         let [q, p] = lanes.map(F64x2::from_array);
         let one = F64x2::from_f64(1.0);
         let [of_q, of_p] = [q, p].map(|change| part_change(change, one));
-        let change = Change { q: of_q, p: of_p };
+        let change = StageChange { q: of_q, p: of_p };
         (LaneMovement { q, p }, change)
     }
 
@@ -111,9 +111,9 @@ mod tests {
         };
         let ones = F64x2::from_f64(1.0);
         let all = all_noted(&changes);
-        assert_eq!(part_change(all, ones), PartChange::new(3.0, 1.0));
+        assert_eq!(part_change(all, ones), HalfChange::new(3.0, 1.0));
         assert!(LaneMovement { q: all, p: all }.is_number());
-        assert_eq!(part_change(all_noted(&[]), ones), PartChange::new(0.0, 1.0));
+        assert_eq!(part_change(all_noted(&[]), ones), HalfChange::new(0.0, 1.0));
         for component in 0..3 {
             for lane in 0..2 {
                 let mut changes = changes;

@@ -8,17 +8,17 @@ use num_traits::Zero;
 use crate::error::Quantity;
 use crate::method::tableau::Columns;
 use crate::method::{
-    Change, EvaluationCounts, Failure, HalfTableau, Inside, Kept, Outcome, Solver, StageStorage,
-    StageTableau, Step, Stopping, Work,
+    EvaluationCounts, Failure, HalfTableau, Inside, Outcome, Solver, StageChange, StageStorage,
+    StageTableau, Step, StepStatistics, Stopping, WarmStart,
 };
 use crate::number::lanes::{lane_of, lanes};
 use crate::number::linear_combination::sum_of_products;
-use crate::number::summation::{Beyond, add, moved};
+use crate::number::summation::{Overrelaxed, add, moved};
 use crate::number::vector::{LIGHT, is_in_place};
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
 use crate::solver::simd::change::{LaneMovement, noted, part_change};
-use crate::solver::simd::stages::{LaneStages, Laned};
+use crate::solver::simd::stages::{Laned, SimdStages};
 use crate::system::HamiltonianInLanes;
 use crate::system::SystemLanes;
 use crate::system::{Class, Hamiltonian};
@@ -30,24 +30,24 @@ use crate::system::{Class, Hamiltonian};
 /// but sums over the stages are slower than with all stages of a component at hand (`--example ratios` of the contest has
 /// both for a chain of 1024 particles).
 #[derive(Clone, Copy, Debug, Default)]
-pub struct InLanes;
+pub struct SimdFixedPoint;
 
-impl<V, S> Solver<V, S> for InLanes
+impl<V, S> Solver<V, S> for SimdFixedPoint
 where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
-    type Memory<P: StageTableau> = LaneStages<V, P>;
+    type Memory<P: StageTableau> = SimdStages<V, P>;
 
     #[inline(always)]
     fn take<P, R>(
         step: &Step<'_, V>,
         system: &S,
-        stages: &mut LaneStages<V, P>,
-        kept: Kept,
+        stages: &mut SimdStages<V, P>,
+        kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         P: StageTableau,
         R: Summation,
@@ -81,7 +81,7 @@ where
         Ok(work)
     }
 
-    fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
+    fn extend<P: StageTableau>(stages: &SimdStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
         let velocity = |stage, k| entry::<P, V>(stages.velocity.as_ref(), stage, k);
         let force = |stage, k| entry::<P, V>(stages.force.as_ref(), stage, k);
         extend::<P, V>(&P::MOMENTA, at, velocity, q);
@@ -119,7 +119,7 @@ pub(crate) fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
 pub(crate) struct ByLanes<'a, P: StageTableau, R, V: Vector, S> {
     pub(crate) step: &'a Step<'a, V>,
     pub(crate) system: &'a S,
-    pub(crate) stages: &'a mut LaneStages<V, P>,
+    pub(crate) stages: &'a mut SimdStages<V, P>,
     pub(crate) sums: PhantomData<R>,
 }
 
@@ -132,7 +132,7 @@ where
 {
     type Movement = LaneMovement<P::Lanes>;
 
-    const HASTY: bool = !R::COMPENSATED;
+    const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
     #[inline(always)]
     fn evaluations(&self) -> EvaluationCounts {
@@ -157,7 +157,7 @@ where
     }
 
     #[inline(always)]
-    fn begin(&mut self, kept: Kept) {
+    fn begin(&mut self, kept: WarmStart) {
         if kept.stages && extrapolates::<P>() {
             extrapolate::<P, V>(&P::MOMENTA, self.stages.velocity.as_mut());
             if !P::Class::SEPARABLE {
@@ -186,10 +186,10 @@ where
     #[inline(always)]
     fn go_on<C: Class, T: Scalar>(
         &mut self,
-        kept: Kept,
+        kept: WarmStart,
         stopping: Stopping,
         begun: Begun<Self::Movement>,
-    ) -> Result<Work, Failure> {
+    ) -> Result<StepStatistics, Failure> {
         self.elsewhere(begun.is_nothing(), |mut lanes| {
             patiently::<C, T, _>(&mut lanes, kept, stopping, begun)
         })
@@ -211,14 +211,14 @@ where
     }
 
     #[inline(always)]
-    fn sweep_beyond(&mut self) -> LaneMovement<P::Lanes> {
+    fn overrelaxed_sweep(&mut self) -> LaneMovement<P::Lanes> {
         self.beyond().sweep()
     }
 
     #[inline(always)]
-    fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
+    fn change(&self, movement: &LaneMovement<P::Lanes>) -> StageChange {
         let (step, stages) = (self.step, &*self.stages);
-        Change {
+        StageChange {
             q: part_change(movement.q, scale_of::<P, V>(step.q, stages.q.as_ref())),
             p: part_change(movement.p, scale_of::<P, V>(step.p, stages.p.as_ref())),
         }
@@ -281,7 +281,7 @@ where
 {
     /// The same with sweeps that move the stages twice as far.
     #[inline(always)]
-    pub(crate) fn beyond(&mut self) -> ByLanes<'_, P, Beyond<R>, V, S> {
+    pub(crate) fn beyond(&mut self) -> ByLanes<'_, P, Overrelaxed<R>, V, S> {
         ByLanes {
             step: self.step,
             system: self.system,
@@ -299,7 +299,7 @@ where
         go_on: impl FnOnce(ByLanes<'_, P, R, V, S>) -> T,
     ) -> T {
         let (system, sums) = (self.system, PhantomData);
-        if !is_in_place(self.step.q) || size_of::<LaneStages<V, P>>() > LIGHT {
+        if !is_in_place(self.step.q) || size_of::<SimdStages<V, P>>() > LIGHT {
             let (step, stages) = (self.step, &mut *self.stages);
             return go_on(ByLanes {
                 step,
@@ -346,7 +346,7 @@ where
     /// Evaluates all forces, which are no increments yet.
     #[inline(always)]
     pub(crate) fn forces(&mut self) {
-        let LaneStages { q, p, force, .. } = &mut *self.stages;
+        let SimdStages { q, p, force, .. } = &mut *self.stages;
         let (q, p) = (q.as_ref(), p.as_ref());
         for (group, force) in force.as_mut().iter_mut().enumerate() {
             let time = times::<P, V>(&P::POSITIONS, self.step, group);
@@ -357,7 +357,7 @@ where
     /// Evaluates all velocities, which are no increments yet.
     #[inline(always)]
     pub(crate) fn velocities(&mut self) {
-        let LaneStages { q, p, velocity, .. } = &mut *self.stages;
+        let SimdStages { q, p, velocity, .. } = &mut *self.stages;
         let (q, p) = (q.as_ref(), p.as_ref());
         for (group, velocity) in velocity.as_mut().iter_mut().enumerate() {
             let time = times::<P, V>(&P::MOMENTA, self.step, group);
@@ -368,7 +368,7 @@ where
     /// Evaluates all velocities and forces, which are no increments yet; they have one time.
     #[inline(always)]
     pub(crate) fn slopes(&mut self) {
-        let LaneStages {
+        let SimdStages {
             q,
             p,
             velocity,

@@ -5,56 +5,56 @@ use core::marker::PhantomData;
 use crate::error::Quantity;
 use crate::method::tableau::Columns;
 use crate::method::{
-    Change, EvaluationCounts, Failure, Inside, Kept, Outcome, Solver, StageTableau, Step, Stopping,
-    Work,
+    EvaluationCounts, Failure, Inside, Outcome, Solver, StageChange, StageTableau, Step,
+    StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Scalar, Summation, Vector};
-use crate::solver::InLanes;
+use crate::solver::SimdFixedPoint;
 use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
 use crate::solver::predictor::{Starting, starts_at_once};
 use crate::solver::simd::change::LaneMovement;
 use crate::solver::simd::gauss_seidel::{
     ByLanes, Sums, extrapolate, extrapolates, fill, sum, sums, total, values,
 };
-use crate::solver::simd::stages::{LaneStages, Laned};
+use crate::solver::simd::stages::{Laned, SimdStages};
 use crate::system::HamiltonianInLanes;
 use crate::system::{Class, Hamiltonian};
 
-/// [`InLanes`] for Hamiltonians that are not separable, with positions and momenta iterated at once.
+/// [`SimdFixedPoint`] for Hamiltonians that are not separable, with positions and momenta iterated at once.
 ///
-/// A sweep of [`InLanes`] takes the velocities where its forces have moved the momenta to (Gauss–Seidel); here both halves are
+/// A sweep of [`SimdFixedPoint`] takes the velocities where its forces have moved the momenta to (Gauss–Seidel); here both halves are
 /// taken where the sweep before has left the stages (Jacobi). Neither half waits for the other, and there may be more sweeps:
 /// it pays where `∂²H/∂q∂p` is as large as the other second derivatives and evaluations cost little. Where velocity and force have
 /// costly parts in common they are evaluated together, by [`Hamiltonian::slopes`].
-/// The stages are those of [`InLanes`] up to rounding.
+/// The stages are those of [`SimdFixedPoint`] up to rounding.
 ///
-/// Separable systems are taken as by [`InLanes`]: for these there would be twice as many sweeps.
+/// Separable systems are taken as by [`SimdFixedPoint`]: for these there would be twice as many sweeps.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct AtOnceInLanes;
+pub struct SimdJacobi;
 
-impl<V, S> Solver<V, S> for AtOnceInLanes
+impl<V, S> Solver<V, S> for SimdJacobi
 where
     V: Vector<Scalar = f64>,
     S: HamiltonianInLanes<V>,
 {
-    type Memory<P: StageTableau> = LaneStages<V, P>;
+    type Memory<P: StageTableau> = SimdStages<V, P>;
 
     #[inline(always)]
     fn take<P, R>(
         step: &Step<'_, V>,
         system: &S,
-        stages: &mut LaneStages<V, P>,
-        kept: Kept,
+        stages: &mut SimdStages<V, P>,
+        kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<Work, Failure>
+    ) -> Result<StepStatistics, Failure>
     where
         P: StageTableau,
         R: Summation,
         S: Hamiltonian<V, Class = P::Class>,
     {
         if P::Class::SEPARABLE {
-            return <InLanes as Solver<V, S>>::take::<P, R>(
+            return <SimdFixedPoint as Solver<V, S>>::take::<P, R>(
                 step, system, stages, kept, stopping, outcome,
             );
         }
@@ -86,8 +86,8 @@ where
         Ok(work)
     }
 
-    fn extend<P: StageTableau>(stages: &LaneStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
-        <InLanes as Solver<V, S>>::extend::<P>(stages, at, q, p);
+    fn extend<P: StageTableau>(stages: &SimdStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
+        <SimdFixedPoint as Solver<V, S>>::extend::<P>(stages, at, q, p);
     }
 }
 
@@ -111,7 +111,7 @@ where
             self.0.increments();
         }
         let step = self.0.step;
-        let LaneStages {
+        let SimdStages {
             q,
             p,
             velocity,
@@ -153,7 +153,7 @@ where
     fn start(&mut self) {
         let step = self.0.step;
         let factor = (!P::INCREMENTS).then_some(step.size);
-        let LaneStages {
+        let SimdStages {
             q,
             p,
             velocity,
@@ -198,7 +198,7 @@ where
 {
     type Movement = LaneMovement<P::Lanes>;
 
-    const HASTY: bool = !R::COMPENSATED;
+    const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
     #[inline(always)]
     fn evaluations(&self) -> EvaluationCounts {
@@ -221,7 +221,7 @@ where
     }
 
     #[inline(always)]
-    fn begin(&mut self, kept: Kept) {
+    fn begin(&mut self, kept: WarmStart) {
         if kept.stages && starts_at_once(&P::POSITIONS) && starts_at_once(&P::MOMENTA) {
             self.start();
             return;
@@ -251,10 +251,10 @@ where
     #[inline(always)]
     fn go_on<C: Class, T: Scalar>(
         &mut self,
-        kept: Kept,
+        kept: WarmStart,
         stopping: Stopping,
         begun: Begun<Self::Movement>,
-    ) -> Result<Work, Failure> {
+    ) -> Result<StepStatistics, Failure> {
         self.0.elsewhere(begun.is_nothing(), |lanes| {
             patiently::<C, T, _>(&mut Halves(lanes), kept, stopping, begun)
         })
@@ -272,12 +272,12 @@ where
     }
 
     #[inline(always)]
-    fn sweep_beyond(&mut self) -> LaneMovement<P::Lanes> {
+    fn overrelaxed_sweep(&mut self) -> LaneMovement<P::Lanes> {
         Halves(self.0.beyond()).sweep()
     }
 
     #[inline(always)]
-    fn change(&self, movement: &LaneMovement<P::Lanes>) -> Change {
+    fn change(&self, movement: &LaneMovement<P::Lanes>) -> StageChange {
         self.0.change(movement)
     }
 

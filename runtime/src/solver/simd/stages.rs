@@ -11,7 +11,7 @@ pub(crate) type Laned<V, P> = <V as Vector>::With<<P as StageTableau>::Lanes>;
 
 /// Stages in lanes.
 #[derive(Debug)]
-pub struct LaneStages<V: Vector, P: StageTableau> {
+pub struct SimdStages<V: Vector, P: StageTableau> {
     pub(crate) q: P::Groups<Laned<V, P>>,
     pub(crate) p: P::Groups<Laned<V, P>>,
     /// Evaluations, or the increments made of them.
@@ -19,7 +19,7 @@ pub struct LaneStages<V: Vector, P: StageTableau> {
     pub(crate) force: P::Groups<Laned<V, P>>,
 }
 
-impl<V: Vector, P: StageTableau> LaneStages<V, P> {
+impl<V: Vector, P: StageTableau> SimdStages<V, P> {
     /// The stages, moved out: nothing points to where they were. Positions and momenta are blank where they are not wanted.
     #[inline(always)]
     pub(crate) fn take(&mut self, with_values: bool) -> Self {
@@ -39,7 +39,7 @@ impl<V: Vector, P: StageTableau> LaneStages<V, P> {
     }
 }
 
-impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for LaneStages<V, P> {
+impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SimdStages<V, P> {
     const BROADCASTS: bool = P::Lanes::WIDTH > 4;
 
     fn like(prototype: &V) -> Self {
