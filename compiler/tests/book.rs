@@ -16,7 +16,8 @@ fn the_catalogue_of_the_book_is_what_the_tool_lists() {
     let start = text.find("| method |").expect("a table");
     let listed = stdout(&["list", "--facts"]);
     if std::env::var_os("UPDATE_EXPECT").is_some_and(|value| value == "1") {
-        fs::write(&page, format!("{}{listed}", &text[..start])).expect("a page that can be written");
+        fs::write(&page, format!("{}{listed}", &text[..start]))
+            .expect("a page that can be written");
         return;
     }
     assert!(
