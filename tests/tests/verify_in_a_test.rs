@@ -1,4 +1,4 @@
-//! How a program verifies its method: the code that the book shows.
+//! How a program verifies its method: the code that the README and the book show.
 
 use symplectic::Method;
 use symplectic_compiler::{Definition, Limits};
@@ -19,10 +19,23 @@ fn lobatto_3_is_what_i_think_it_is() -> Result<(), symplectic_compiler::Error> {
 }
 
 #[test]
-fn the_book_shows_this_code() {
+fn the_order_of_lobatto_3_is_4() -> Result<(), symplectic_compiler::Error> {
+    let exact = Definition::parse(Lobatto3::DEFINITION)?.derive(&Limits::default())?;
+    assert!(exact.properties().symplectic.holds);
+    assert_eq!(exact.to_f64().a, Lobatto3::A.map(|row| row.to_vec()));
+    symplectic_compiler::assert_order!(Lobatto3, general == 4);
+    Ok(())
+}
+
+#[test]
+fn the_readme_and_the_book_show_this_code() {
     let here = include_str!("verify_in_a_test.rs");
-    let start = here.find("use symplectic::Method").expect("the code");
-    let end = here.find("\n#[test]\nfn the_book").expect("its end");
-    let page = include_str!("../../docs/src/guide/methods.md");
-    assert!(page.contains(&here[start..end]));
+    let (book, rest) = here
+        .split_once("\n#[test]\nfn the_order")
+        .expect("two tests");
+    let book = &book[book.find("use symplectic::Method").expect("the code")..];
+    let readme = rest.split("\n}\n").next().expect("the end of a test");
+    assert!(include_str!("../../docs/src/guide/methods.md").contains(book));
+    assert!(readme.contains("assert_order!"));
+    assert!(include_str!("../../README.md").contains(readme));
 }
