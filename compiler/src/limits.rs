@@ -3,7 +3,7 @@
 /// Bounds on the work that an input can ask for.
 ///
 /// The derivation of `s` stages takes time that grows roughly like `s³`, and with the length of the
-/// nodes (the README has measured figures).
+/// nodes (the book has measured figures).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
     /// The largest number of stages; 36 unless changed, as all but three methods of the

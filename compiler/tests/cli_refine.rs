@@ -107,7 +107,7 @@ fn every_method_is_certified() {
     }
 }
 
-/// The example of the README is a file.
+/// The example of the book is a file.
 #[test]
 fn a_file_is_refined() {
     let file = "tests/data/yoshida-1990-order-6-a.toml";

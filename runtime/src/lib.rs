@@ -103,3 +103,26 @@ pub mod emitted {
     pub use crate::solver::*;
     pub use crate::system::*;
 }
+
+/// The Rust code of the README and of the book, compiled and run by `cargo test --doc`.
+#[cfg(doctest)]
+mod book {
+    #[doc = include_str!("../../README.md")]
+    struct Readme;
+    #[doc = include_str!("../../docs/src/guide/hamiltonian.md")]
+    struct Hamiltonian;
+    #[doc = include_str!("../../docs/src/guide/choosing.md")]
+    struct Choosing;
+    #[doc = include_str!("../../docs/src/guide/methods.md")]
+    struct Methods;
+    #[doc = include_str!("../../docs/src/guide/long-runs.md")]
+    struct LongRuns;
+    #[doc = include_str!("../../docs/src/guide/events.md")]
+    struct Events;
+    #[doc = include_str!("../../docs/src/guide/newton.md")]
+    struct Newton;
+    #[doc = include_str!("../../docs/src/guide/speed.md")]
+    struct Speed;
+    #[doc = include_str!("../../docs/src/reference/errors.md")]
+    struct Errors;
+}

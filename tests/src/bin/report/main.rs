@@ -1,6 +1,6 @@
 //! Error against run time of all methods on all scenes: `cargo run --release -p symplectic-tests --bin report`
 //!
-//! Writes a page, plots, CSV, JSON and the table of the README into a folder.
+//! Writes a page, plots, CSV, JSON and the table of the book into a folder.
 
 #![allow(clippy::print_stdout, reason = "a report prints its table")]
 
