@@ -94,11 +94,11 @@ mod tests {
         let code = |value| coefficient(&Number::Rational(value)).to_string();
         assert_eq!(
             code(exact(0.5)),
-            ":: symplectic :: Coefficient :: exact (0.5)"
+            ":: symplectic :: emitted :: Coefficient :: exact (0.5)"
         );
         assert_eq!(
             code(exact(-1e300)),
-            ":: symplectic :: Coefficient :: exact ((- 1e300))"
+            ":: symplectic :: emitted :: Coefficient :: exact ((- 1e300))"
         );
         let seventh = exact(1e300) / ratio(7, 1);
         let seventh = code(seventh);
