@@ -85,15 +85,24 @@ impl Number<'_> {
     /// The binary places beyond the usual ones that it takes to see the smallest of the numbers of which this one consists.
     pub(crate) fn fineness(&self) -> u32 {
         match self {
-            Number::Rational(value) => beyond_usual(value.denom().bits()),
+            Number::Rational(value) => beyond_usual(value.numer().bits().max(value.denom().bits())),
             Number::Field(_, element) => {
                 let lists = [element.numerator(), element.denominator()];
-                let places = lists.into_iter().flatten().map(|p| p.denominator().bits());
+                let longest = |p: &Polynomial| {
+                    let numerators = p.numerators().iter().map(BigInt::bits);
+                    numerators.max().unwrap_or(0).max(p.denominator().bits())
+                };
+                let places = lists.into_iter().flatten().map(longest);
                 beyond_usual(places.max().unwrap_or(0))
             }
             Number::Real(number) => number.fineness(),
             Number::Node(_) | Number::Enclosed(_) => 0,
         }
+    }
+
+    /// A number `n` with `|x| < 2ⁿ`, if that is positive, and 0 otherwise.
+    pub(crate) fn largeness(&self) -> u64 {
+        u64::try_from(self.enclose(0).magnitude_bits()).unwrap_or(0)
     }
 
     /// Whether both are written in the same way, which is seen at once; numbers that are not may be equal.

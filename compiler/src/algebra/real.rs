@@ -61,7 +61,9 @@ impl Operation {
     /// That of a sum is that of its finest term, that of a product the sum of those of its factors.
     fn fineness(&self) -> u32 {
         match self {
-            Operation::Rational(value) => beyond_usual(value.denom().bits()),
+            Operation::Rational(value) => {
+                beyond_usual(value.numer().bits().max(value.denom().bits()))
+            }
             Operation::Constant(constant) => beyond_usual(constant.fineness()),
             Operation::Certified(..) => 0,
             Operation::Add(x, y) | Operation::Subtract(x, y) => x.fineness().max(y.fineness()),

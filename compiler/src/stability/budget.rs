@@ -25,6 +25,11 @@ impl Budget {
             .store(left.saturating_sub(products), Ordering::Relaxed);
     }
 
+    /// Takes the bound away: what is decided is printed to as many digits as are asked for.
+    pub(super) fn lift(&self) {
+        self.0.store(u64::MAX, Ordering::Relaxed);
+    }
+
     pub(super) fn is_spent(&self) -> bool {
         self.0.load(Ordering::Relaxed) == 0
     }

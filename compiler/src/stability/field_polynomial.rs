@@ -33,9 +33,13 @@ pub(super) struct FieldPolynomial<A: StageAlgebra> {
 }
 
 /// Bits of enclosures. The signs of numbers that the last ones do not tell are found exactly, or are not known.
-const PRECISIONS: [u32; 4] = [256, 1024, 4096, 16384];
+const PRECISIONS: [u32; 6] = [256, 1 << 10, 1 << 12, 1 << 14, 1 << 16, 1 << 18];
 /// So many of [`PRECISIONS`] are tried to tell roots apart.
 const TRIED: usize = 3;
+/// Bits of enclosures that are tried for every point where coefficients are known to any number of them.
+const USUAL: u64 = 1 << 12;
+/// Bits by which a value near a root is told from zero, beside those of the point.
+const NEAR: u64 = 1 << 10;
 /// About the products that take as long as an inverse.
 const INVERSE: u64 = 8;
 /// For each bit of enclosures, about the products of machine words that take as long as a search for roots that are too close.
@@ -107,13 +111,15 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
         self.coefficients.len() as u64 * words * words
     }
 
-    /// The value at a rational point, if enclosures tell its sign.
+    /// The value at a rational point, if enclosures tell its sign: with more bits than a point near a root has.
     fn known_value(&self, point: &BigRational) -> Option<Ball> {
-        let is_enough = |finest| PRECISIONS.iter().position(|&bits| bits >= finest);
-        let tried = match self.field().finest_bits() {
-            None => TRIED,
-            Some(finest) => is_enough(finest).map_or(PRECISIONS.len(), |k| k + 1),
+        let needed = match self.field().finest_bits() {
+            Some(finest) => u64::from(finest),
+            None => USUAL.max(point.denom().bits() + NEAR),
         };
+        let is_enough = |&bits: &u32| u64::from(bits) >= needed;
+        let tried = PRECISIONS.iter().position(is_enough);
+        let tried = tried.map_or(PRECISIONS.len(), |k| k + 1);
         let known = |k| {
             if !self.is_exact() {
                 self.budget.spend(self.cost_of_value(k));

@@ -102,6 +102,7 @@ impl Stability {
             } else {
                 let stability = Stability::over(&pair.algebra, &budget, &parts, lists);
                 if stability.is_decided() && !budget.is_spent() {
+                    budget.lift();
                     return stability;
                 }
             }
@@ -135,16 +136,25 @@ impl Stability {
         let numbers = pair.numbers();
         let equal = pair.equal_halves() == (true, true);
         let fineness = numbers.iter().map(Number::fineness).max().unwrap_or(0);
+        // Determinants have products of large numbers, one of each row, which may cancel and leave one of about 1.
+        let row = |row: &Vec<Number<'_>>| row.iter().map(Number::largeness).max().unwrap_or(0);
+        let rows = numbers.a.iter().chain(&numbers.a_tilde);
+        let rows = rows.chain([&numbers.b, &numbers.b_tilde]);
+        let largeness: u64 = rows.map(row).sum();
         let wanted = precision
             .zero
+            .saturating_add(u32::try_from(largeness).unwrap_or(u32::MAX))
             .saturating_add(ORDERS.saturating_mul(fineness));
         // More bits than are spent: none of them is worth it.
-        let most = if wanted + GUARD > precision.most {
+        let most = if wanted.saturating_add(GUARD) > precision.most {
             FEWEST
         } else {
             precision.most
         };
-        let mut bits = (wanted + GUARD).next_power_of_two().min(most);
+        let mut bits = match wanted.saturating_add(GUARD) {
+            more if more > most => most,
+            enough => enough.next_power_of_two().min(most),
+        };
         loop {
             let pair = pair.enclosed(bits);
             let balls = &pair.algebra;
@@ -155,6 +165,7 @@ impl Stability {
             let verified = balls.field().zero_bits();
             if stability.is_decided() && verified >= wanted && !budget.is_spent() {
                 let evidence = Evidence::Verified { bits: ZERO_BITS };
+                budget.lift();
                 return Stability {
                     evidence,
                     ..stability

@@ -632,3 +632,64 @@ fn many_digits_are_proved_in_bounded_time() {
         assert!(!found.intervals.is_empty());
     }
 }
+
+/// The work that decides where steps are stable is bounded; what is printed of it afterwards is right to any number of digits.
+#[test]
+fn more_digits_do_not_change_the_first_ones() {
+    for name in ["forest-ruth-1990", "triple-jump-6", "exponential-lobatto-2"] {
+        let tableau = catalogue::find(name).expect(name).derive().expect(name);
+        let ends = |digits| -> Vec<String> {
+            let intervals = tableau.stability().intervals;
+            intervals.iter().map(|i| i.high.decimal(digits)).collect()
+        };
+        for (few, many) in ends(100).iter().zip(ends(2000)) {
+            assert!(many.starts_with(&few[..few.len() - 1]), "{name}: {few}");
+        }
+    }
+}
+
+/// What is left of large numbers that cancel is not zero.
+#[test]
+fn large_numbers_that_cancel_leave_something() {
+    for size in ["exp(1000)", "exp(2000)", "(10^200)^2*pi"] {
+        let found = splitting(&format!("{size}, 1, -{size}"), "pi, 1 - pi, 0");
+        let trace = found.trace.to_string();
+        assert!(trace == "2 − ν²" || !found.is_decided(), "{size}: {trace}");
+        assert!(found.is_decided() || size != "exp(1000)");
+        let found = splitting(&format!("e, 1 - e"), &format!("{size}, 1 - {size}"));
+        assert!(!found.intervals.is_empty() || !found.is_decided(), "{size}");
+    }
+    // Rows of 1/2: the midpoint rule.
+    for size in ["exp(900)", "exp(1450)"] {
+        let text = format!("a: [[{size}, 1/2 - {size}], [pi, 1/2 - pi]], b: [1/2, 1/2]");
+        let definition = crate::Definition::parse(&text).expect("text");
+        let tableau = definition
+            .derive(&crate::Limits::default())
+            .expect("derived");
+        let found = tableau.stability();
+        assert!(found.p_stable || !found.is_decided(), "{size}");
+        if let Some(dispersion) = &found.dispersion {
+            assert_eq!(dispersion.order, 2, "{size}");
+        }
+    }
+}
+
+/// A third of a step is moved by 5e-701, which is the difference of large numbers: two ends are not one.
+#[test]
+fn numbers_that_are_small_by_cancellation_are_seen() {
+    let tiny = "(sqrt((10^350)^4 + 1) - (10^350)^2)";
+    let found = splitting(
+        &format!("1/6, 1/3 + {tiny}, 1/3 - {tiny}, 1/6"),
+        "1/3, 1/3, 1/3, 0",
+    );
+    assert!(found.intervals.len() > 1 || !found.is_decided());
+    let text = format!("base: velocity-verlet, weights: [{tiny}, pi, e, 1 - pi - e - {tiny}]");
+    let definition = crate::Definition::parse(&text).expect("text");
+    let tableau = definition
+        .derive(&crate::Limits::default())
+        .expect("derived");
+    assert_eq!(
+        tableau.numbers().c_tilde[0].decimal(3).to_string(),
+        "2.50e-701"
+    );
+}

@@ -96,6 +96,12 @@ impl Constant {
         if let Tree::Product(factors) = self.tree() {
             parts.extend(sides(factors)?);
         }
+        if let Tree::Sum(_, terms) = self.tree() {
+            let term = |(x, factor): &(Constant, BigRational)| {
+                x.bounds().times(Magnitude::of_rational(factor))
+            };
+            parts.extend(terms.iter().map(term));
+        }
         match parts.into_iter().find_map(Magnitude::excess) {
             Some(logarithm) if self.as_rational().is_none() => Err(self.out_of_bounds(logarithm)),
             _ => Ok(()),

@@ -33,14 +33,16 @@ pub(super) fn words(value: &BigRational) -> usize {
 
 /// How many binary places there are before the smallest of the numbers of which a constant consists begins, beside
 /// others of about 1: what enclosures have to have to see all of them.
+///
+/// Large numbers count like their inverses: where they cancel, as in `√(n² + 1) − n`, that is what is left.
 pub(super) fn fineness(constant: &Constant) -> u64 {
-    let rational = |value: &BigRational| value.denom().bits();
-    // That of a number which is small because its parts are.
-    let smallness = || {
+    let rational = |value: &BigRational| value.numer().bits().max(value.denom().bits());
+    // That of a number which is large, or small because its parts are or because they cancel.
+    let extent = || {
         let separated = constant.separation().map_or(0, |(_, least)| -least);
-        u64::try_from(separated).unwrap_or(0)
+        u64::try_from(separated.max(constant.magnitude())).unwrap_or(0)
     };
-    let below = match constant.tree() {
+    let of_parts = match constant.tree() {
         Tree::Rational(value) => return rational(value),
         Tree::Pi | Tree::Root(_) => 0,
         Tree::Sqrt(x) | Tree::Cbrt(x) | Tree::Exp(x) | Tree::Ln(x) => fineness(x),
@@ -56,10 +58,10 @@ pub(super) fn fineness(constant: &Constant) -> u64 {
                 fineness(x).saturating_add(rational(factor))
             };
             let terms = terms.iter().map(term).max();
-            return rational(constant).max(terms.unwrap_or(0));
+            rational(constant).max(terms.unwrap_or(0))
         }
     };
-    below.max(smallness())
+    of_parts.max(extent())
 }
 
 /// The size of a tree and the largest height in it.

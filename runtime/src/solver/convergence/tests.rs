@@ -643,7 +643,11 @@ fn numbers_that_cannot_be_squared_are_not_known_to_the_next_step() {
         let scales = [scale];
         let mut script = Scripted::<STOPS_AT_ROUNDING>::new(&changes, &scales, time(false));
         let settled = made::<General, _>(&mut script, stages([1.0; 2]), at_most(20));
-        assert_eq!(settled.map(|x| x.1), Ok([0.0; 2]), "{scale} {STOPS_AT_ROUNDING}");
+        assert_eq!(
+            settled.map(|x| x.1),
+            Ok([0.0; 2]),
+            "{scale} {STOPS_AT_ROUNDING}"
+        );
     }
     for scale in [1e-150, 1e-130, 1e160] {
         check::<false>(scale);
