@@ -77,7 +77,7 @@ fn a_composition_of_implicit_methods_is_a_list_of_steps() {
     );
     assert_eq!(code.matches("::symplectic::emitted::Substep {").count(), 6);
     // The sizes of the first and the last step are equal, and so are those of the last and the next first one.
-    assert_eq!(code.matches("Kept::new(true, true)").count(), 2);
+    assert_eq!(code.matches("WarmStart::new(true, true)").count(), 2);
     assert!(code.contains("type Separable = ::symplectic::emitted::Composition<JumpSeparable>"));
     // Explicit for separable systems: one splitting there.
     let definition = Definition::parse("base: velocity-verlet, weights: triple_jump(4)");

@@ -310,3 +310,25 @@ fn each_event_is_found_in_its_own_way() -> Result<(), Error> {
     );
     Ok(())
 }
+
+/// A function that has no value below the floor is looked at there before the floor is found.
+#[test]
+fn a_function_without_a_value_behind_a_wall_leaves_the_state_above_it() {
+    let fall = acceleration::<Vector1<f64>, _>(|_, _, acceleration| acceleration[0] = -10.0);
+    let start = State::from_arrays(0.0, [1.0], [0.0]);
+    let mut integrator = Integrator::new(StoermerVerlet, fall, start, 0.3).expect("an integrator");
+    let events = (
+        Event::wall(|ball: &State<Vector1<f64>>| ball.q[0]),
+        Event::falling(|ball: &State<Vector1<f64>>| ball.q[0].sqrt() - 0.25),
+    );
+    let error = integrator.integrate_through(1.0, &[], &events, |moment| {
+        if let Moment::Event { index: 0, state } = moment {
+            state.p *= -1.0;
+        }
+        ControlFlow::<()>::Continue(())
+    });
+    assert!(matches!(error, Err(Error::EventValue { .. })), "{error:?}");
+    assert!(integrator.state().q[0] > 0.0);
+    // Four equal steps to 1, and the floor is in the second.
+    assert_eq!(integrator.state().time, 0.25);
+}

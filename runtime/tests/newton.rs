@@ -689,3 +689,41 @@ fn dual_numbers_give_the_derivatives() -> Result<(), Error> {
     integrator.integrate_to(1.0)?;
     Ok(())
 }
+
+/// A light body round a heavy one that moves: its momentum is less than a unit in the last place of the other one's.
+#[test]
+fn a_light_body_beside_a_heavy_one_is_as_exact_as_alone() {
+    type Bodies = SVector<f64, 4>;
+    let energy_error = |heavy: f64| {
+        let system = separable::<Bodies, _, _>(
+            move |_, p, velocity| {
+                *velocity = Bodies::new(p[0] / heavy, p[1] / heavy, p[2], p[3]);
+            },
+            |_, q, force| {
+                let (x, y) = (q[2] - q[0], q[3] - q[1]);
+                let square = x * x + y * y;
+                let pull = (square * square.sqrt()).recip();
+                *force = Bodies::new(pull * x, pull * y, -pull * x, -pull * y);
+            },
+        );
+        let energy = |state: &State<Bodies>| {
+            let State { q, p, .. } = state;
+            let relative = Vector2::new(p[2] - p[0] / heavy, p[3] - p[1] / heavy);
+            let distance = Vector2::new(q[2] - q[0], q[3] - q[1]).norm();
+            relative.norm_squared() / 2.0 - distance.recip()
+        };
+        let start = State::from_arrays(0.0, [0.0, 0.0, 1.0, 0.0], [0.0, heavy / 3.0, 0.0, 1.1]);
+        let before = energy(&start);
+        let integrator = Integrator::new(Gauss4, system, start, 0.0625).expect("an integrator");
+        let mut integrator = integrator.by_newton();
+        integrator.take_steps(200).expect("steps");
+        (energy(integrator.state()) - before).abs()
+    };
+    for heavy in [1e10, 1e20, 1e30] {
+        assert!(
+            energy_error(heavy) < 1e-9,
+            "{heavy} {}",
+            energy_error(heavy)
+        );
+    }
+}

@@ -22,7 +22,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     /// # Errors
     ///
     /// Those of [`integrate_to`](Self::integrate_to) and of [`dense`](Self::dense); [`Error::EventValue`] where the
-    /// function is NaN, [`Error::EventsAccumulate`].
+    /// function is NaN: the present state is then that before the step; [`Error::EventsAccumulate`].
     pub fn integrate_with_events<G, B, F>(
         &mut self,
         end: f64,
@@ -126,15 +126,17 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         search.start(self, step)?;
         let mut ended = search.show_output(self, present, &mut handle)?;
         loop {
-            if ended.is_continue() {
-                ended = self.steps_to(end, |integrator, next| {
+            let stepped = match ended {
+                ControlFlow::Break(stop) => Ok(ControlFlow::Break(stop)),
+                ControlFlow::Continue(()) => self.steps_to(end, |integrator, next| {
                     integrator.advance_in_sight(next.size, next.time, &mut |integrator: &Self| {
-                        search.step(integrator, &mut handle)
+                        let seen = search.step(integrator, &mut handle);
+                        Ok(seen.unwrap_or_else(|error| search.fail(integrator, error)))
                     })
-                })?;
-            }
+                }),
+            };
             self.set_last_event(search.last);
-            let ControlFlow::Break(stop) = ended else {
+            let ControlFlow::Break(stop) = stepped? else {
                 return Ok(None);
             };
             if !matches!(stop, Stop::Broken(_, false)) {

@@ -194,6 +194,22 @@ where
         Ok(ControlFlow::Continue(()))
     }
 
+    /// Ends the search with an error, at the start of the last step: its end may lie behind a wall that was not found.
+    pub(super) fn fail<R: Summation, B>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        error: Error,
+    ) -> Seen<B> {
+        if let Some(last) = integrator.last_step() {
+            self.shown.time = last.start;
+            copy(&mut self.shown.q, last.positions.start.0);
+            copy(&mut self.shown.p, last.momenta.start.0);
+        } else {
+            copy_state(&mut self.shown, integrator.state());
+        }
+        ControlFlow::Break(Stop::Failed(error))
+    }
+
     /// Shows output and events up to a time.
     fn show<R: Summation, B>(
         &mut self,

@@ -169,10 +169,18 @@ where
     Err(course.failure(max_iterations))
 }
 
-/// How the changes have gone so far.
-///
-/// Their size is the smaller relative change of both halves for a separable system: where the positions rest, so do the forces, but for
-/// their rounding errors, and the momenta only follow. For a general one it is the larger.
+/// How large a change is: for a separable system the relative change of the positions, for where they rest, so do the forces, and
+/// the momenta follow. Momenta may rest before: beside one that is huge, the others change by nothing. For a general system it is the
+/// larger of both.
+pub(super) fn size<C: Class>(change: &StageChange) -> f64 {
+    if C::SEPARABLE {
+        change.q.relative()
+    } else {
+        change.residual()
+    }
+}
+
+/// How the changes have gone so far, by their [`size`].
 #[derive(Default)]
 struct Course {
     last: Option<StageChange>,
@@ -190,7 +198,7 @@ struct Course {
 impl Course {
     /// Takes note of a change; one below `floor` is not told from a smaller one.
     fn note<C: Class>(&mut self, change: &StageChange, floor: f64) {
-        let size = settling::<C>(change).max(floor);
+        let size = size::<C>(change).max(floor);
         self.last = Some(*change);
         self.largest = self.largest.max(size);
         (self.smallest, self.idle) = match self.smallest {
@@ -201,7 +209,9 @@ impl Course {
             Some(mark) if size > 0.5 * mark => (Some(mark), self.slow + 1),
             _ => (Some(size), 0),
         };
-        self.resting = match settling::<Separable>(change) <= floor {
+        self.resting = match C::SEPARABLE && change.q.relative() <= floor
+            || !C::SEPARABLE && settling::<Separable>(change) <= floor
+        {
             true => self.resting + 1,
             false => 0,
         };

@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use num_traits::Zero;
 
-use super::convergence::{Attempt, MOST_SWEEPS};
+use super::convergence::{Attempt, MOST_SWEEPS, size};
 use super::every_stage::{EveryStage, NOT_FINITE};
 use super::linear_solver::{Coupling, LinearSolver};
 use super::memory::{NewtonMemory, rows};
@@ -15,8 +15,7 @@ use crate::method::{
 };
 use crate::number::summation::add;
 use crate::number::{Scalar, Summation, Vector};
-use crate::solver::convergence::settling;
-use crate::system::{Class, Hamiltonian, Separable};
+use crate::system::{Class, Hamiltonian};
 
 /// A change that goes on by more than this factor makes the derivatives stale for the next step.
 const GOOD: f64 = 1.0 / 32.0;
@@ -203,7 +202,7 @@ where
                 q: moved(&memory.q, step.q),
                 p: moved(&memory.p, step.p),
             };
-            if first > settling::<P::Class>(&change) {
+            if first > size::<P::Class>(&change) {
                 memory.waiting = PATIENCE;
             }
         }
@@ -470,12 +469,11 @@ where
     /// Decides from a change whether the derivatives at one point are still good enough.
     fn judge(&mut self, change: &StageChange) -> Result<(), Failure> {
         if self.sweeps == 0 && self.memory.first_change.is_some() {
-            self.memory.first_change = Some(settling::<P::Class>(change));
+            self.memory.first_change = Some(size::<P::Class>(change));
         }
         self.sweeps += 1;
         self.since += 1;
-        // Either half shows it: the noise of the other one may be large.
-        let size = settling::<Separable>(change);
+        let size = size::<P::Class>(change);
         let contraction = size / self.last;
         self.last = size;
         if self.in_full
