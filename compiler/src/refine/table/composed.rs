@@ -144,12 +144,16 @@ fn certified(
     method: String,
     terms: impl Fn(&Cell) -> Terms,
 ) -> Result<RefinedTable, Error> {
-    // Both kinds are compositions of symplectic maps. In an explicit pair they are so for separable H.
+    // Both kinds are compositions of symplectic maps. Kicks and drifts are so for separable H.
+    let symplectic = match certificate.structure() {
+        structure if structure.composition() => "symplectic, by its structure",
+        _ => "symplectic for separable H, by its structure",
+    };
     let mut facts = vec![format!("{}, certified", certificate.claim())];
     for (claimed, span) in &table.properties {
         match claimed {
             Claimed::Symplectic => {
-                facts.push("symplectic, by its structure".to_owned());
+                facts.push(symplectic.to_owned());
             }
             Claimed::Symmetric if certificate.structure().symmetric() => {
                 facts.push("symmetric, by its structure".to_owned());

@@ -110,14 +110,19 @@ fn facts(file: Input<'_>, table: &Table, tableau: &Tableau) -> Result<Vec<String
     let mut facts = vec![format!("order {} for {class} H, proved", found.order)];
     let properties = tableau.properties();
     for (claimed, span) in &table.properties {
-        let (holds, name) = match claimed {
-            Claimed::Symplectic => (properties.symplectic.holds, "symplectic"),
-            Claimed::Symmetric => (properties.symmetric.holds, "symmetric"),
+        let (property, name) = match claimed {
+            Claimed::Symplectic => (Some(&properties.symplectic), "symplectic"),
+            Claimed::Symmetric => (Some(&properties.symmetric), "symmetric"),
             // Such tables are known by their nodes.
-            Claimed::Collocation => (false, "collocation"),
+            Claimed::Collocation => (None, "collocation"),
         };
-        if !holds {
-            let message = format!("the method is not {name}, which is proved");
+        let evidence = property.map_or(Evidence::Refuted, |property| property.evidence);
+        let refused = match evidence {
+            Evidence::Proved => None,
+            Evidence::Refuted => Some(format!("the method is not {name}, which is proved")),
+            _ => Some(format!("whether the method is {name} is not proved")),
+        };
+        if let Some(message) = refused {
             return Err(not_certified(file, span.clone(), message));
         }
         facts.push(format!("{name}, proved"));
