@@ -51,7 +51,7 @@ const EXPECTED: &[(&str, &str)] = &[
     ),
     (
         "Kepler, head-on collision",
-        "bbbbu bbbbb ubub bnnn nubnuunn",
+        "bbbbu bbbbb ubub bnnn nubnnunn",
     ),
     (
         "three bodies, not resolved",
