@@ -55,7 +55,7 @@ keys! {
     /// The nodes of the quadrature formula of the rectangular construction, as many as there are
     /// functions or more.
     Quadrature = "quadrature", Some("QUADRATURE"),
-        "Nodes of the rectangular construction, at least as many as there are functions";
+        "Nodes of the rectangular construction: as many as there are functions, or more";
     /// A method on which a composition is built: a name of the [`catalogue`](crate::catalogue), or a definition in
     /// brackets. Without [`Key::Weights`] it is the method itself.
     Base = "base", Some("METHOD"),

@@ -13,7 +13,7 @@ use super::field::{ConstantField, Extension, FieldElement, Notation, NumberField
 use super::{Field, Image, Number, Zero};
 use crate::arithmetic::algebraic_number::AlgebraicNumber;
 use crate::arithmetic::polynomial::Polynomial;
-use crate::arithmetic::rational::ratio;
+use crate::arithmetic::rational::{length, ratio};
 use crate::expression::{Input, parse_list};
 use crate::symbolic::{Constant, Tree};
 
@@ -136,7 +136,7 @@ impl Parts {
 
     /// Takes note of the length of a rational.
     fn note(&mut self, value: &BigRational) {
-        let bits = value.numer().bits().max(value.denom().bits());
+        let bits = length(value);
         self.bits = self.bits.max(bits);
     }
 

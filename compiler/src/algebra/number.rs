@@ -11,7 +11,7 @@ use super::real::{ROUNDING_BITS, beyond_usual};
 use super::{Ball, ConstantField, FieldElement, Real, ZERO_BITS};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::polynomial::Polynomial;
-use crate::arithmetic::rational::{add, ratio};
+use crate::arithmetic::rational::{add, length, ratio};
 use crate::arithmetic::rounding::{self, Decimal, exact};
 
 /// What is known about whether a number is zero.
@@ -85,7 +85,7 @@ impl Number<'_> {
     /// The binary places beyond the usual ones that it takes to see the smallest of the numbers of which this one consists.
     pub(crate) fn fineness(&self) -> u32 {
         match self {
-            Number::Rational(value) => beyond_usual(value.numer().bits().max(value.denom().bits())),
+            Number::Rational(value) => beyond_usual(length(value)),
             Number::Field(_, element) => {
                 let lists = [element.numerator(), element.denominator()];
                 let longest = |p: &Polynomial| {

@@ -8,6 +8,7 @@ use num_traits::{One, Zero as _};
 
 use super::{Field, Number, Zero};
 use crate::arithmetic::interval::{Interval, more_places};
+use crate::arithmetic::rational::length;
 use crate::certify::{Certificate, Coefficient};
 use crate::symbolic::Constant;
 
@@ -61,9 +62,7 @@ impl Operation {
     /// That of a sum is that of its finest term, that of a product the sum of those of its factors.
     fn fineness(&self) -> u32 {
         match self {
-            Operation::Rational(value) => {
-                beyond_usual(value.numer().bits().max(value.denom().bits()))
-            }
+            Operation::Rational(value) => beyond_usual(length(value)),
             Operation::Constant(constant) => beyond_usual(constant.fineness()),
             Operation::Certified(..) => 0,
             Operation::Add(x, y) | Operation::Subtract(x, y) => x.fineness().max(y.fineness()),

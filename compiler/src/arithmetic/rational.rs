@@ -10,6 +10,11 @@ pub fn ratio(numerator: i64, denominator: i64) -> BigRational {
     BigRational::new(numerator.into(), denominator.into())
 }
 
+/// The bits of the longer one of numerator and denominator.
+pub(crate) fn length(value: &BigRational) -> u64 {
+    value.numer().bits().max(value.denom().bits())
+}
+
 /// `numerator·2⁻ᵇⁱᵗˢ` in lowest terms, for which no greatest common divisor is needed.
 pub(crate) fn dyadic(numerator: &BigInt, bits: u32) -> BigRational {
     match numerator.trailing_zeros() {

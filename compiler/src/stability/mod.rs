@@ -151,10 +151,7 @@ impl Stability {
         } else {
             precision.most
         };
-        let mut bits = match wanted.saturating_add(GUARD) {
-            more if more > most => most,
-            enough => enough.next_power_of_two().min(most),
-        };
+        let mut bits = wanted.saturating_add(GUARD).min(most).next_power_of_two();
         loop {
             let pair = pair.enclosed(bits);
             let balls = &pair.algebra;

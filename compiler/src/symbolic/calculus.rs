@@ -8,6 +8,7 @@ use super::operations::at_pi;
 use super::size::check_bits;
 use super::{Constant, Frequency, Function, Term, Wave};
 use crate::arithmetic::polynomial::Polynomial;
+use crate::arithmetic::rational::length;
 use crate::error::ErrorKind;
 
 impl Function {
@@ -105,7 +106,7 @@ impl Function {
     pub fn evaluate(&self, t: &Constant) -> Result<Constant, ErrorKind> {
         if let (Some(polynomial), Some(t)) = (self.as_polynomial(), t.as_rational()) {
             let degree = polynomial.degree().unwrap_or(0);
-            let bits = t.numer().bits().max(t.denom().bits()) as usize;
+            let bits = length(t) as usize;
             check_bits(degree.saturating_mul(bits), t.is_integer())?;
             return Constant::rational(polynomial.evaluate(t));
         }

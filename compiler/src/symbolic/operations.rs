@@ -166,7 +166,7 @@ pub(super) fn at_pi(polynomial: &Polynomial) -> Result<Constant, ErrorKind> {
 
 /// The power of a rational that is not zero.
 fn rational_power(base: &BigRational, exponent: i32) -> Result<BigRational, ErrorKind> {
-    let bits = base.numer().bits().max(base.denom().bits()) as usize;
+    let bits = rational::length(base) as usize;
     if bits > 1 {
         let bits = bits.saturating_mul(exponent.unsigned_abs() as usize);
         check_bits(bits, base.is_integer() && exponent > 0)?;

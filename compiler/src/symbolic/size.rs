@@ -3,6 +3,7 @@
 use num_rational::BigRational;
 
 use super::{Constant, MAX_FRACTION_BITS, Tree};
+use crate::arithmetic::rational::length;
 use crate::error::ErrorKind;
 use crate::expression::MAX_BITS;
 
@@ -22,8 +23,7 @@ pub(super) fn check_bits(bits: usize, whole: bool) -> Result<(), ErrorKind> {
 
 /// An error if a rational is too long.
 pub(super) fn check_rational(value: &BigRational) -> Result<(), ErrorKind> {
-    let bits = value.numer().bits().max(value.denom().bits());
-    check_bits(bits as usize, value.is_integer())
+    check_bits(length(value) as usize, value.is_integer())
 }
 
 /// The words of a rational.
@@ -36,14 +36,13 @@ pub(super) fn words(value: &BigRational) -> usize {
 ///
 /// Large numbers count like their inverses: where they cancel, as in `√(n² + 1) − n`, that is what is left.
 pub(super) fn fineness(constant: &Constant) -> u64 {
-    let rational = |value: &BigRational| value.numer().bits().max(value.denom().bits());
     // That of a number which is large, or small because its parts are or because they cancel.
     let extent = || {
         let separated = constant.separation().map_or(0, |(_, least)| -least);
         u64::try_from(separated.max(constant.magnitude())).unwrap_or(0)
     };
     let of_parts = match constant.tree() {
-        Tree::Rational(value) => return rational(value),
+        Tree::Rational(value) => return length(value),
         Tree::Pi | Tree::Root(_) => 0,
         Tree::Sqrt(x) | Tree::Cbrt(x) | Tree::Exp(x) | Tree::Ln(x) => fineness(x),
         // Those of small arguments differ from 0 or 1 by a square.
@@ -54,11 +53,10 @@ pub(super) fn fineness(constant: &Constant) -> u64 {
             factors.iter().map(power).fold(0, u64::saturating_add)
         }
         Tree::Sum(constant, terms) => {
-            let term = |(x, factor): &(Constant, BigRational)| {
-                fineness(x).saturating_add(rational(factor))
-            };
+            let term =
+                |(x, factor): &(Constant, BigRational)| fineness(x).saturating_add(length(factor));
             let terms = terms.iter().map(term).max();
-            rational(constant).max(terms.unwrap_or(0))
+            length(constant).max(terms.unwrap_or(0))
         }
     };
     of_parts.max(extent())

@@ -87,7 +87,7 @@ impl Role {
     }
 }
 
-/// 0 or 1, for a number that was computed from rounded ones and is one of them but for that.
+/// 0 or 1, if a number computed from rounded ones lies that near; otherwise the number.
 fn near_end(value: BigRational) -> BigRational {
     let ends = [BigRational::zero(), BigRational::one()].into_iter();
     let mut near = ends.filter(|end| (&value - end).abs() <= ratio(1, 1_000_000));

@@ -313,10 +313,9 @@ mod tests;
 
 /// The relative change of the stages that has to be down to rounding errors where an iteration has settled.
 ///
-/// Of a general system both halves have to be. Of a separable one either will do: the stage momenta are a function
-/// of the stage positions and the other way round, so where one half only rounds, the other half moves by
-/// the noise of the system's own evaluations at most. This noise can be far above the rounding errors of a
-/// sum: stiff springs between masses far from the origin.
+/// Of a general system both halves have to be. Of a separable one either will do, once the positions have stopped shrinking: then
+/// the other half moves by the noise of the system's own evaluations at most. This noise can be far above the rounding errors of a
+/// sum: stiff springs between masses far from the origin. Alone it proves nothing: beside a huge momentum the others rest at once.
 #[inline]
 pub(crate) fn settling<C: Class>(change: &StageChange) -> f64 {
     if C::SEPARABLE {
