@@ -249,6 +249,61 @@ fn wrong_digits_are_named() {
     .assert_eq(&refused("radau-symplectic", &symplectic));
 }
 
+/// With one free node, another method is near in which ten numbers are a little off: they are not to blame.
+#[test]
+fn one_wrong_entry_of_a_collocation_table_is_named_alone() {
+    let exact = derive("basis: polynomial(3), nodes: [1/7, 2/5, 6/7]");
+    let right = arrays(&exact, 16, false);
+    let found = refined("nodes-right", &file("general", 3, &["collocation"], &right));
+    assert_eq!(found["printed_digits"], "all", "{found}");
+    let entry = exact.numbers().map(|number| number.decimal(16)).a[1][2].to_string();
+    assert_eq!(right.matches(&entry).count(), 1);
+    let digit = entry.len() - 4;
+    let changed = if &entry[digit..=digit] == "5" {
+        "6"
+    } else {
+        "5"
+    };
+    let wrong = right.replace(
+        &entry,
+        &format!("{}{changed}{}", &entry[..digit], &entry[digit + 1..]),
+    );
+    let without_nodes = |text: &str| text.split("c = ").next().unwrap_or_default().to_owned();
+    for printed in [wrong.clone(), without_nodes(&wrong)] {
+        let found = refined(
+            "nodes-wrong",
+            &file("general", 3, &["collocation"], &printed),
+        );
+        let names: Vec<&str> = found["wrong_digits"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .map(|wrong| wrong["coefficient"].as_str().expect("a name"))
+            .collect();
+        assert_eq!(names, ["a[1][2]"], "{found}");
+        let notes = found["notes"].to_string();
+        assert!(!notes.contains("may as well"), "{notes}");
+    }
+    // Two of them: neither alone leads to a method, and no number is called wrong.
+    let second = exact.numbers().map(|number| number.decimal(16)).b[0].to_string();
+    assert_eq!(right.matches(&second).count(), 1);
+    let last = second.len() - 4;
+    let changed = if &second[last..=last] == "5" {
+        "6"
+    } else {
+        "5"
+    };
+    let both = wrong.replace(
+        &second,
+        &format!("{}{changed}{}", &second[..last], &second[last + 1..]),
+    );
+    let both = without_nodes(&both);
+    let path = written("nodes-both", &file("general", 3, &["collocation"], &both));
+    let text = stdout(&["refine", &path]);
+    assert!(text.contains("wrong digits not told: "), "{text}");
+    assert!(text.contains("no change of one number alone"), "{text}");
+}
+
 /// Qin & Zhang 1992 with two stages, and Sanz-Serna & Abia 1991, three steps of the midpoint rule as in the triple jump.
 #[test]
 fn symplectic_diagonally_implicit_methods_are_certified() {

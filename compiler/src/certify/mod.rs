@@ -58,7 +58,7 @@ pub use error::CertifyError;
 pub(crate) use linear::middle;
 pub use lyndon::{Alphabet, Word};
 pub(crate) use lyndon::{DRIFT, KICK, split_lyndon};
-pub(crate) use minimax::{Row, minimax};
+pub(crate) use minimax::{Best, Row, minimax};
 pub(crate) use newton::{Equations, Square};
 pub use printed::{MAX_DIGITS, Printed};
 pub(crate) use proof::Proof;

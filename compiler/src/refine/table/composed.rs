@@ -171,6 +171,7 @@ fn certified(
         cells: table.cells.clone(),
         notes: Vec::new(),
         only_one: certificate.digits() == Digits::Excluded,
+        are_wrong: true,
         exact: Exact::Certified {
             terms: table.cells.iter().map(terms).collect(),
             certificate: Box::new(certificate),

@@ -31,6 +31,7 @@ pub(super) fn by_numbers(file: Input<'_>, table: &Table) -> Option<Result<Refine
         facts,
         notes: Vec::new(),
         only_one: false,
+        are_wrong: true,
     }))
 }
 
@@ -62,6 +63,7 @@ pub(super) fn in_exact_numbers(
             cells: found.cells,
             notes: found.notes,
             only_one: found.only_one,
+            are_wrong: found.are_wrong,
             method: "fractions and surds, from the equations of the table".to_owned(),
             ..exact
         },

@@ -148,6 +148,8 @@ pub struct RefinedTable {
     pub(super) notes: Vec<String>,
     /// Whether no other method of its kind satisfies the claim.
     pub(super) only_one: bool,
+    /// Whether the printed numbers that the exact ones do not round to are known to be the wrong ones.
+    pub(super) are_wrong: bool,
 }
 
 /// Reads a file with Butcher arrays and finds the exact method near them; `None` if the file has other printed lists, which

@@ -11,7 +11,7 @@ use super::{Array, Cell, Exact, RefinedTable};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
 use crate::basis::Basis;
-use crate::certify::{Row, middle, minimax};
+use crate::certify::{Best, Row, middle, minimax};
 use crate::definition::{Definition, Key};
 use crate::derive::derive_from;
 use crate::error::Error;
@@ -160,8 +160,14 @@ pub(super) fn by_nodes(file: Input<'_>, table: &Table, role: Role) -> Result<Ref
         Ok::<_, String>((rule, exact))
     };
     let start = coefficients(&nodes.printed);
-    let (rule, exact) =
-        within_last_places(table, &family.free(), start, build).map_err(&refused)?;
+    let near = within_last_places(table, &family.free(), start, build).map_err(&refused)?;
+    let notes = notes(table, &near, only_one);
+    let Nearest {
+        rule,
+        exact,
+        suspects,
+        misses,
+    } = near;
     let Exact::Derived { tableau, .. } = &exact else {
         return Err(refused("the table is not derived".to_owned()));
     };
@@ -182,92 +188,215 @@ pub(super) fn by_nodes(file: Input<'_>, table: &Table, role: Role) -> Result<Ref
         exact,
         method,
         facts,
-        notes: Vec::new(),
+        notes,
         only_one,
+        are_wrong: only_one || !misses || !suspects.is_empty(),
     })
 }
 
+/// That other numbers than the one that is marked may be the wrong one, or that none is wrong alone.
+fn notes(table: &Table, near: &Nearest, only_one: bool) -> Vec<String> {
+    let names = near.suspects.iter().skip(1);
+    let names: Vec<String> = names.map(|&cell| table.cells[cell].name()).collect();
+    if !names.is_empty() {
+        let others = names.join(" or ");
+        return vec![format!("the wrong number may as well be {others}")];
+    }
+    if only_one || !near.misses || !near.suspects.is_empty() {
+        return Vec::new();
+    }
+    let message = "no change of one number alone was found that leads to a method of this kind";
+    vec![message.to_owned()]
+}
+
+/// A method near the printed numbers, and which of these it does not have.
+struct Nearest {
+    rule: QuadratureRule,
+    exact: Exact,
+    /// The cells by whose change alone a method has all other digits, that of this method first.
+    suspects: Vec<usize>,
+    /// Whether some numbers are not rounded to their prints.
+    misses: bool,
+}
+
 /// The method whose numbers are nearest to their prints, each measured by its own last place: the free coefficients of the
-/// node polynomial are moved as in [`minimax`].
+/// node polynomial are moved as in [`minimax`]. If none has all digits, one that has all but one, if there is such a method.
 fn within_last_places(
     table: &Table,
     free: &[usize],
     start: Vec<BigRational>,
     build: impl Fn(&[BigRational]) -> Result<(QuadratureRule, Exact), String>,
-) -> Result<(QuadratureRule, Exact), String> {
-    const MAX_SHIFTS: usize = 4;
-    let places = table
-        .cells
-        .iter()
-        .filter_map(|cell| cell.printed.places())
-        .max();
-    let places = places.unwrap_or(0);
-    let bits = 192 + 4 * places;
-    // Steps of difference quotients: as small as the digits.
-    let step = BigRational::new(BigInt::one(), BigInt::from(10).pow(places));
-    let scale = BigRational::from_integer(BigInt::from(10).pow(places + 4));
-    let printed: Vec<&Cell> = {
+) -> Result<Nearest, String> {
+    let search = Search::new(table, free, build);
+    let near = search.shifted(start, None)?;
+    let (rule, exact) = near.method;
+    let mut nearest = Nearest {
+        rule,
+        exact,
+        suspects: Vec::new(),
+        misses: !near.reached,
+    };
+    let Some((rows, best)) = near.last.filter(|_| !near.reached) else {
+        return Ok(nearest);
+    };
+    // Leaving out a number that holds nothing back changes nothing.
+    let holds_back = |index: &usize| !best.multipliers[*index].is_zero();
+    let reachable = |index: &usize| {
+        let rest = without(&rows, *index);
+        minimax(&rest).is_some_and(|best| best.level <= slack())
+    };
+    let indices = (0..rows.len()).filter(holds_back).filter(reachable);
+    let mut methods = Vec::new();
+    for index in indices.take(MAX_SUSPECTS) {
+        let found = search.shifted(near.coefficients.clone(), Some(index))?;
+        if found.reached {
+            methods.push((search.printed[index], found.method));
+        }
+    }
+    nearest.suspects = methods.iter().map(|(cell, _)| *cell).collect();
+    if let Some((_, (rule, exact))) = methods.into_iter().next() {
+        (nearest.rule, nearest.exact) = (rule, exact);
+    }
+    Ok(nearest)
+}
+
+/// How many of the prints that could be the wrong one are looked at.
+const MAX_SUSPECTS: usize = 8;
+
+/// The level up to which another shift may still reach all prints.
+fn slack() -> BigRational {
+    ratio(2, 1)
+}
+
+fn without<T: Clone>(list: &[T], index: usize) -> Vec<T> {
+    let kept = list.iter().enumerate().filter(|(other, _)| *other != index);
+    kept.map(|(_, x)| x.clone()).collect()
+}
+
+/// Shifts of the free coefficients.
+struct Search<'a, B> {
+    table: &'a Table,
+    free: &'a [usize],
+    build: B,
+    /// The cells that are printed as decimals.
+    printed: Vec<usize>,
+    bits: u32,
+    /// The step of difference quotients: as small as the digits.
+    step: BigRational,
+    /// Coefficients are rounded to its inverse.
+    scale: BigRational,
+}
+
+/// Where shifts have led.
+struct Shifted {
+    coefficients: Vec<BigRational>,
+    method: (QuadratureRule, Exact),
+    /// Whether all numbers round to their prints.
+    reached: bool,
+    /// The last linear programme, if there was one.
+    last: Option<(Vec<Row>, Best)>,
+}
+
+impl<'a, B: Fn(&[BigRational]) -> Result<(QuadratureRule, Exact), String>> Search<'a, B> {
+    fn new(table: &'a Table, free: &'a [usize], build: B) -> Self {
         let cells = table.cells.iter();
-        cells
-            .filter(|cell| cell.printed.half_unit().is_positive())
-            .collect()
-    };
-    let units = |value: &BigRational| middle(&Interval::enclosing(value, bits));
-    let numbers = |exact: &Exact| -> Vec<BigInt> {
-        let pairs = table.cells.iter().zip(exact.enclosures(&table.cells, bits));
-        let pairs = pairs.filter(|(cell, _)| cell.printed.half_unit().is_positive());
-        pairs.map(|(_, enclosure)| middle(&enclosure)).collect()
-    };
-    let mut coefficients = start;
-    let mut best = build(&coefficients)?;
-    let mut reached = None;
-    for _ in 0..MAX_SHIFTS {
-        let at = numbers(&best.1);
-        let halves: Vec<BigInt> = printed
-            .iter()
-            .map(|cell| units(&cell.printed.half_unit()))
-            .collect();
-        let residuals: Vec<BigInt> = {
-            let pairs = at.iter().zip(&printed);
-            pairs
-                .map(|(value, cell)| value - units(cell.printed.value()))
+        let places = cells.clone().filter_map(|cell| cell.printed.places()).max();
+        let places = places.unwrap_or(0);
+        let decimal = |(_, cell): &(usize, &Cell)| cell.printed.half_unit().is_positive();
+        let printed = cells.enumerate().filter(decimal);
+        Search {
+            table,
+            free,
+            build,
+            printed: printed.map(|(index, _)| index).collect(),
+            bits: 192 + 4 * places,
+            step: BigRational::new(BigInt::one(), BigInt::from(10).pow(places)),
+            scale: BigRational::from_integer(BigInt::from(10).pow(places + 4)),
+        }
+    }
+
+    fn units(&self, value: &BigRational) -> BigInt {
+        middle(&Interval::enclosing(value, self.bits))
+    }
+
+    /// The exact numbers behind the decimals.
+    fn numbers(&self, exact: &Exact) -> Vec<BigInt> {
+        let all = exact.enclosures(&self.table.cells, self.bits);
+        let printed = self.printed.iter();
+        printed.map(|&cell| middle(&all[cell])).collect()
+    }
+
+    /// Shifts the free coefficients until all numbers round to their prints, apart from one.
+    fn shifted(
+        &self,
+        start: Vec<BigRational>,
+        apart_from: Option<usize>,
+    ) -> Result<Shifted, String> {
+        const MAX_SHIFTS: usize = 4;
+        let halves: Vec<BigInt> = {
+            let cells = self.printed.iter().map(|&cell| &self.table.cells[cell]);
+            cells
+                .map(|cell| self.units(&cell.printed.half_unit()))
                 .collect()
         };
-        let mut pairs = residuals.iter().zip(&halves);
-        if free.is_empty() || pairs.all(|(residual, half)| residual.abs() <= *half) {
-            break;
-        }
-        let mut slopes: Vec<Vec<BigInt>> = vec![Vec::new(); printed.len()];
-        for &power in free {
-            let mut moved = coefficients.clone();
-            moved[power] += &step;
-            let moved = numbers(&build(&moved)?.1);
-            for ((slopes, after), before) in slopes.iter_mut().zip(moved).zip(&at) {
-                slopes.push(after - before);
-            }
-        }
-        let rows: Vec<Row> = {
-            let rows = residuals.into_iter().zip(slopes).zip(halves);
-            rows.map(|((residual, slopes), half)| Row {
-                residual,
-                slopes,
-                half,
-            })
-            .collect()
+        let method = (self.build)(&start)?;
+        let mut found = Shifted {
+            coefficients: start,
+            method,
+            reached: false,
+            last: None,
         };
-        // A level that does not fall is the nearest there is.
-        let Some(found) = minimax(&rows) else { break };
-        if reached.as_ref().is_some_and(|level| found.level >= *level) {
-            break;
+        for shifts in 0..=MAX_SHIFTS {
+            let at = self.numbers(&found.method.1);
+            let residuals: Vec<BigInt> = {
+                let pairs = at.iter().zip(&self.printed);
+                let print = |cell: usize| self.units(self.table.cells[cell].printed.value());
+                pairs.map(|(value, &cell)| value - print(cell)).collect()
+            };
+            let mut pairs = residuals.iter().zip(&halves).enumerate();
+            found.reached = pairs.all(|(index, (residual, half))| {
+                Some(index) == apart_from || residual.abs() <= *half
+            });
+            if self.free.is_empty() || found.reached || shifts == MAX_SHIFTS {
+                break;
+            }
+            let mut slopes: Vec<Vec<BigInt>> = vec![Vec::new(); at.len()];
+            for &power in self.free {
+                let mut moved = found.coefficients.clone();
+                moved[power] += &self.step;
+                let moved = self.numbers(&(self.build)(&moved)?.1);
+                for ((slopes, after), before) in slopes.iter_mut().zip(moved).zip(&at) {
+                    slopes.push(after - before);
+                }
+            }
+            let rows: Vec<Row> = {
+                let rows = residuals.into_iter().zip(slopes).zip(halves.clone());
+                rows.map(|((residual, slopes), half)| Row {
+                    residual,
+                    slopes,
+                    half,
+                })
+                .collect()
+            };
+            let best = match apart_from {
+                None => minimax(&rows),
+                Some(index) => minimax(&without(&rows, index)),
+            };
+            // A level that does not fall is the nearest there is.
+            let Some(best) = best else { break };
+            let last = found.last.as_ref();
+            if last.is_some_and(|(_, last)| best.level >= last.level) {
+                break;
+            }
+            for (&power, shift) in self.free.iter().zip(&best.shift) {
+                let exact = (&found.coefficients[power] + shift * &self.step) * &self.scale;
+                found.coefficients[power] = exact.round() / &self.scale;
+            }
+            found.last = Some((rows, best));
+            found.method = (self.build)(&found.coefficients)?;
         }
-        reached = Some(found.level);
-        for (&power, shift) in free.iter().zip(&found.shift) {
-            let exact = (&coefficients[power] + shift * &step) * &scale;
-            coefficients[power] = exact.round() / &scale;
-        }
-        best = build(&coefficients)?;
+        Ok(found)
     }
-    Ok(best)
 }
 
 fn derived(rule: &QuadratureRule, named: bool, role: Role) -> Result<Tableau, String> {

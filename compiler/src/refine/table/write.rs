@@ -92,6 +92,10 @@ pub(super) fn text(table: &RefinedTable, digits: usize) -> Result<String, Error>
         "wrong digits",
         &match wrong.len() {
             0 => "none".to_owned(),
+            count if !table.are_wrong => format!(
+                "not told: {count} of {} numbers are not those of the nearest method, marked below",
+                table.cells.len()
+            ),
             count => format!("in {count} of {} numbers, marked below", table.cells.len()),
         },
     );

@@ -138,6 +138,7 @@ pub(super) fn by_equations(file: Input<'_>, table: &Table) -> Result<RefinedTabl
         method: "a table of no particular construction, from its equations".to_owned(),
         notes: other_suspects(table, &found.suspects).into_iter().collect(),
         only_one: found.excluded,
+        are_wrong: true,
     })
 }
 
