@@ -50,6 +50,8 @@ fn a_byte_order_mark_and_line_ends_change_nothing() {
             assert_eq!(run("mark", &format!("\u{feff}{text}")), plain, "{name}");
             assert_eq!(run("lines", &lines), plain, "{name}");
             assert_eq!(run("both", &format!("\u{feff}{lines}")), plain, "{name}");
+            let returns = text.replace('\n', "\r");
+            assert_eq!(run("returns", &returns), plain, "{name}");
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::error::{Error, ErrorKind};
 /// The largest table file that is read, in bytes; one of 36 stages has about 1 MB.
 const MAX_FILE: u64 = 64 << 20;
 
-/// The text of a table file, without a byte-order mark.
+/// The text of a table file, without a byte-order mark and with a line feed for each carriage return that stands alone.
 ///
 /// # Errors
 /// [`ErrorKind::Document`] where the file cannot be read, is too large or is not UTF-8 text; text in UTF-16 or UTF-32 is
@@ -45,10 +45,18 @@ fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Error> {
             "`{name}` is no UTF-8 text: the byte at offset {valid} is wrong; {INSTEAD}"
         ))
     })?;
-    Ok(match text.strip_prefix(BYTE_ORDER_MARK) {
-        Some(text) => text.to_owned(),
-        None => text,
-    })
+    Ok(with_line_feeds(without_mark(&text)))
+}
+
+/// The text with the line ends of old Macintosh programs as TOML has them; all places stay where they are.
+fn with_line_feeds(text: &str) -> String {
+    let mut rest = text.chars().peekable();
+    let mut lines = String::with_capacity(text.len());
+    while let Some(c) = rest.next() {
+        let alone = c == '\r' && rest.peek() != Some(&'\n');
+        lines.push(if alone { '\n' } else { c });
+    }
+    lines
 }
 
 /// The character that some programs write at the start of UTF-8 text.
@@ -88,6 +96,10 @@ mod tests {
             assert_eq!(decode("x", bytes), Ok(text.to_owned()));
         }
         assert_eq!(decode("x", Vec::new()), Ok(String::new()));
+        assert_eq!(
+            decode("x", b"\xef\xbb\xbfa\rb\r\nc\r\rd\r".to_vec()),
+            Ok("a\nb\r\nc\n\nd\n".to_owned())
+        );
         let refused = [
             (utf16(u16::to_le_bytes), "UTF-16 (little-endian)"),
             (utf16(u16::to_be_bytes), "UTF-16 (big-endian)"),
