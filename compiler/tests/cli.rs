@@ -40,7 +40,7 @@ fn derive_prints_the_tableau_of_the_readme() {
         stability on the oscillator, ν = hω
           trace: (ν⁴ − 22ν² + 48)/(ν² + 24)
           stable for ν in (0, 2*sqrt(2)) ∪ (2*sqrt(3), 2*sqrt(6)), proved
-          phase: order 4, error 1/2880 ν^5
+          phase: order 4, error 1/2880 ν^5, proved
     "#]]
     .assert_eq(&stdout(&[
         "derive",
@@ -89,9 +89,9 @@ fn irrational_and_long_entries_are_readable() {
         stability on the oscillator, ν = hω
           trace: (28800 − 12960ν² + 528ν⁴ − 2ν⁶)/(ν⁶ + 24ν⁴ + 720ν² + 14400)
           stable for ν in (0, ∞) (P-stable), proved
-          phase: order 6, error -1/100800 ν^7
-          R(z) = (z³ + 12z² + 60z + 120)/(120 − 60z + 12z² − z³)
-          A-stable: yes, L-stable: no, on the imaginary axis up to ∞
+          phase: order 6, error -1/100800 ν^7, proved
+          R(z) = (z³ + 12z² + 60z + 120)/(120 − 60z + 12z² − z³), proved
+          A-stable: yes, L-stable: no, on the imaginary axis up to ∞, proved
     "#]]
     .assert_eq(&stdout(&["show", "gauss-3"]));
     expect![[r#"
@@ -135,7 +135,7 @@ fn irrational_and_long_entries_are_readable() {
         stability on the oscillator, ν = hω
           trace: (7200 − 3312ν² + 162ν⁴ − ν⁶)/(3ν⁴ + 144ν² + 3600)
           stable for ν in (0, 3.05248911040…) ∪ (3.22862518301…, -3 + sqrt(69)) ∪ (3 + sqrt(69), 12.1761360726…), proved
-          phase: order 6, error 1/252000 ν^7
+          phase: order 6, error 1/252000 ν^7, proved
     "#]]
     .assert_eq(&stdout(&["show", "radau-right-3", "--digits", "8"]));
     // Entries without a short form are decimals.
@@ -178,9 +178,9 @@ fn irrational_and_long_entries_are_readable() {
         stability on the oscillator, ν = hω
           trace: (2ν⁸ − 1520ν⁶ + 138720ν⁴ − 2620800ν² + 5644800)/(ν⁸ + 40ν⁶ + 2160ν⁴ + 100800ν² + 2822400)
           stable for ν in (0, ∞) (P-stable), proved
-          phase: order 8, error -1/25401600 ν^9
-          R(z) = (z⁴ + 20z³ + 180z² + 840z + 1680)/(z⁴ − 20z³ + 180z² − 840z + 1680)
-          A-stable: yes, L-stable: no, on the imaginary axis up to ∞
+          phase: order 8, error -1/25401600 ν^9, proved
+          R(z) = (z⁴ + 20z³ + 180z² + 840z + 1680)/(z⁴ − 20z³ + 180z² − 840z + 1680), proved
+          A-stable: yes, L-stable: no, on the imaginary axis up to ∞, proved
     "#]].assert_eq(&stdout(&["show", "gauss-4", "--digits", "8"]));
 }
 
@@ -383,6 +383,20 @@ fn list_shows_every_method_and_rule() {
         );
         assert!(text.contains(family.description), "{}", family.name);
     }
+}
+
+#[test]
+fn a_long_definition_widens_no_line_but_its_own() {
+    let text = stdout(&["list"]);
+    let width = |name: &str| {
+        let line = text
+            .lines()
+            .find(|line| line.starts_with(&format!("  {name} ")));
+        line.expect(name).chars().count()
+    };
+    assert!(width("gauss-2") < 160, "{}", width("gauss-2"));
+    let gap = " ".repeat(60);
+    assert!(!text.contains(&gap), "{text}");
 }
 
 #[test]

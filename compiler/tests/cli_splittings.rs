@@ -40,7 +40,7 @@ fn derive_takes_kicks_and_drifts() {
         stability on the oscillator, ν = hω
           trace: (3456 − 1728ν² + 144ν⁴ − 7ν⁶)/1728
           stable for ν in (0, 2.50748117095…), proved
-          phase: order 4, error 11/17280 ν^5
+          phase: order 4, error 11/17280 ν^5, proved
     "#]].assert_eq(&stdout(&[
         "derive",
         "--kick",

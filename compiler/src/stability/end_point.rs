@@ -7,6 +7,7 @@ use std::sync::Arc;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
+use super::intervals::SHOWN_DIGITS;
 use super::polynomial::RealPolynomial;
 use crate::arithmetic::elementary::sqrt;
 use crate::arithmetic::enclosure_cache::EnclosureCache;
@@ -168,6 +169,15 @@ impl EndPoint {
             .map_or_else(|| "infinity".to_owned(), |decimal| decimal.to_string())
     }
 
+    /// The exact form, where it is short, and otherwise this many digits.
+    pub(super) fn text(&self, digits: usize) -> String {
+        match (&self.0, self.exact()) {
+            (Value::Infinity, _) => "∞".to_owned(),
+            (_, Some(text)) => text.to_owned(),
+            (_, None) => format!("{}…", self.decimal(digits)),
+        }
+    }
+
     /// The nearest double, ties to even.
     pub fn to_f64(&self) -> f64 {
         self.round(rounding::to_f64, |&double| exact(double))
@@ -243,11 +253,7 @@ const FIRST_BITS: u32 = 128;
 
 impl fmt::Display for EndPoint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (&self.0, self.exact()) {
-            (Value::Infinity, _) => f.write_str("∞"),
-            (_, Some(text)) => f.write_str(text),
-            (_, None) => write!(f, "{}…", self.decimal(12)),
-        }
+        f.write_str(&self.text(SHOWN_DIGITS))
     }
 }
 

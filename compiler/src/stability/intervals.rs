@@ -35,12 +35,25 @@ impl StabilityInterval {
     }
 }
 
+/// The digits of an end that has no short exact form.
+pub(super) const SHOWN_DIGITS: usize = 12;
+/// How often they are doubled to tell the ends of an interval apart.
+const MOST_DOUBLINGS: u32 = 7;
+
 impl fmt::Display for StabilityInterval {
-    /// `(0, 2*sqrt(2))`, with brackets at ends that belong to it.
+    /// `(0, 2*sqrt(2))`, with brackets at ends that belong to it, and as many digits as tell the ends apart.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let open = if self.low_closed { '[' } else { '(' };
         let close = if self.high_closed { ']' } else { ')' };
-        write!(f, "{open}{}, {}{close}", self.low, self.high)
+        let differ = |digits: &usize| self.low.decimal(*digits) != self.high.decimal(*digits);
+        let mut digits = SHOWN_DIGITS;
+        if !differ(&digits) {
+            // Where one end is the whole interval, none does.
+            let more = (1..=MOST_DOUBLINGS).map(|n| SHOWN_DIGITS << n);
+            digits = more.into_iter().find(differ).unwrap_or(digits);
+        }
+        let (low, high) = (self.low.text(digits), self.high.text(digits));
+        write!(f, "{open}{low}, {high}{close}")
     }
 }
 
@@ -149,4 +162,41 @@ pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Option<Vec<StabilityI
 fn vanishing_at<'a, P>(list: &'a [Vanishing<P>], polynomial: &Arc<P>) -> Option<&'a Vanishing<P>> {
     let is_that = |v: &&Vanishing<P>| Arc::ptr_eq(&v.polynomial, polynomial);
     list.iter().find(is_that)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::polynomial::Polynomial;
+    use crate::arithmetic::rational::ratio;
+
+    /// The interval between the square roots of two roots of polynomials.
+    fn between(low: &[BigRational], high: &[BigRational]) -> StabilityInterval {
+        let end = |list: &[BigRational]| {
+            let polynomial = Polynomial::from_rationals(list);
+            let root = polynomial.positive_roots().expect("roots").remove(0);
+            EndPoint::square_root_of(&PositiveRoot::new(&Arc::new(polynomial), root))
+        };
+        StabilityInterval {
+            low: end(low),
+            high: end(high),
+            low_closed: false,
+            high_closed: false,
+        }
+    }
+
+    #[test]
+    fn as_many_digits_are_shown_as_tell_the_ends_apart() {
+        let cubic = |constant: BigRational| [-constant, ratio(0, 1), ratio(0, 1), ratio(1, 1)];
+        let tiny = BigRational::new(1.into(), num_bigint::BigInt::from(10).pow(30));
+        let interval = between(&cubic(ratio(2, 1)), &cubic(ratio(2, 1) + tiny));
+        assert_eq!(
+            interval.to_string(),
+            "(1.12246204830937298143353304967917951623241111061…, 1.12246204830937298143353304967927305473643689170…)"
+        );
+        let apart = between(&cubic(ratio(2, 1)), &cubic(ratio(3, 1)));
+        assert_eq!(apart.to_string(), "(1.12246204831…, 1.20093695518…)");
+        let point = between(&cubic(ratio(2, 1)), &cubic(ratio(2, 1)));
+        assert_eq!(point.to_string(), "(1.12246204831…, 1.12246204831…)");
+    }
 }

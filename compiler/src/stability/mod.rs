@@ -359,7 +359,7 @@ impl fmt::Display for Stability {
             };
             write!(
                 f,
-                "\nphase: order {order}, error {coefficient} ν^{}",
+                "\nphase: order {order}, error {coefficient} ν^{}, {evidence}",
                 order + 1
             )?;
         }
@@ -369,7 +369,7 @@ impl fmt::Display for Stability {
         let yes = |holds: bool| if holds { "yes" } else { "no" };
         write!(
             f,
-            "\nR(z) = {}\nA-stable: {}, L-stable: {}, on the imaginary axis up to {}",
+            "\nR(z) = {}, {evidence}\nA-stable: {}, L-stable: {}, on the imaginary axis up to {}, {evidence}",
             rk.function,
             yes(rk.a_stable),
             yes(rk.l_stable),
