@@ -272,3 +272,20 @@ fn wrong_options_and_names_are_refused() {
     }
     assert!(stdout(&["show", "midpoint", "--digits", "10000", "--format", "toml"]).len() > 40_000);
 }
+
+#[test]
+fn more_digits_than_can_be_computed_in_time_are_refused() {
+    let gauss = [
+        "derive",
+        "--basis",
+        "polynomial(36)",
+        "--nodes",
+        "gauss(36)",
+    ];
+    let (status, errors) = failure(&[&gauss[..], &["--digits", "10000"]].concat());
+    assert_eq!(status, Some(2), "{errors}");
+    assert_eq!(
+        errors.trim_end(),
+        "error: 10000 digits of the coefficients of 36 stages take too long: `--digits` up to 6500 are written of this method"
+    );
+}

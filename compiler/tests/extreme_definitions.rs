@@ -5,6 +5,7 @@ mod extreme;
 use std::time::Duration;
 
 use extreme::{Random, definition, seeds, within};
+use num_bigint::BigInt;
 use symplectic_compiler::export::{json, text, toml};
 use symplectic_compiler::{Definition, Key, Limits, check};
 
@@ -40,6 +41,59 @@ fn extreme_constants_have_an_answer_in_time() {
     });
     let derived = derived.count() as u64;
     assert!(4 * derived > count, "only {derived} of {count} are derived");
+}
+
+/// Weights with many digits, the same from both ends, with the sum 1.
+fn long_weights(count: usize, digits: usize, random: &mut Random) -> String {
+    let half: Vec<BigInt> = (0..count / 2)
+        .map(|index| {
+            let number: String = (0..digits)
+                .map(|_| char::from(b'0' + random.below(10) as u8))
+                .collect();
+            let number: BigInt = format!("1{number}").parse().expect("digits");
+            if index % 2 == 0 { -number } else { number }
+        })
+        .collect();
+    let one = BigInt::from(10).pow(digits as u32 + 1);
+    let middle: BigInt = &one - half.iter().sum::<BigInt>() * 2;
+    let all = half.iter().chain([&middle]).chain(half.iter().rev());
+    let all: Vec<String> = all.map(|number| format!("{number}/{one}")).collect();
+    all.join(", ")
+}
+
+/// Before, these took from ten seconds to more than a minute each.
+#[test]
+fn implicit_compositions_with_many_digits_have_an_answer_in_time() {
+    const SOON: Duration = Duration::from_secs(60);
+    for (base, digits) in [
+        ("[basis: 1, nodes: 1/2]", 1000),
+        ("[basis: polynomial(2), nodes: gauss(2)]", 1000),
+        ("[basis: polynomial(3), nodes: lobatto(3)]", 3000),
+    ] {
+        let weights = long_weights(9, digits, &mut Random::new(1));
+        let parts = [(Key::Base, base), (Key::Weights, &*weights)];
+        let definition = Definition::new(parts);
+        let (derived, _) = within(SOON, base, move || answered(&definition));
+        assert!(derived, "{base}");
+    }
+    let small = "(pi - 355/113)^100";
+    let text = format!(
+        "base: [basis: polynomial(3), nodes: lobatto(3)], weights: [{small}, 1 - 2*{small}, {small}]"
+    );
+    let definition = Definition::parse(&text).expect("a definition");
+    assert!(within(SOON, small, move || answered(&definition)).0);
+}
+
+#[test]
+fn ten_thousand_digits_of_twenty_nodes_are_written_in_time() {
+    let definition = Definition::parse("basis: polynomial(20), nodes: gauss(20)");
+    let definition = definition.expect("a definition");
+    let write = move || {
+        let tableau = definition.derive(&Limits::default()).expect("a tableau");
+        text::write(&tableau, 10_000).len()
+    };
+    let (length, _) = within(Duration::from_secs(100), "gauss(20)", write);
+    assert!(length > 440 * 10_000);
 }
 
 /// Definitions whose numbers differ by hundreds of powers of ten.

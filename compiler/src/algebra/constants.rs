@@ -117,8 +117,22 @@ impl Parts {
             Tree::Ln(_) => return None,
             Tree::Product(factors) => {
                 for (x, exponent) in factors {
-                    if matches!(x.tree(), Tree::Pi) {
-                        self.arguments.push(ratio(i64::from(exponent.abs()), 1));
+                    let power = u64::from(exponent.unsigned_abs());
+                    match x.tree() {
+                        Tree::Pi => self.arguments.push(ratio(i64::from(exponent.abs()), 1)),
+                        // Written out, its powers are longer than it, and of a higher degree.
+                        Tree::Sum(..) => {
+                            let mut inside = Parts::default();
+                            inside.collect(x)?;
+                            if inside.transcendental()?.is_some() {
+                                let degree = inside.arguments.iter().max().cloned();
+                                let degree = degree.unwrap_or_else(|| ratio(1, 1));
+                                let power = BigRational::from_integer(power.into());
+                                self.arguments.push(degree * power);
+                            }
+                            self.bits = self.bits.max(inside.bits.saturating_mul(power));
+                        }
+                        _ => {}
                     }
                     self.collect(x)?;
                 }
@@ -444,5 +458,27 @@ impl Field for Constants {
             + polynomials()
                 .map(|c| c.numerators().len() as u64)
                 .sum::<u64>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn has_a_field(text: &str) -> bool {
+        let input = Input { name: "", text };
+        let items = parse_list(input).expect(text);
+        let constants = items.iter().map(|item| item.constant(input).expect(text));
+        let constants: Vec<Constant> = constants.collect();
+        Constants::containing(&constants).is_some()
+    }
+
+    /// Exact arithmetic with `(π − 355/113)¹⁰⁰`, a polynomial of degree 100 with coefficients of 800 bits, takes minutes.
+    #[test]
+    fn powers_of_sums_are_as_long_as_they_are_written_out() {
+        assert!(has_a_field("(pi - 22/7)^2, pi^3"));
+        assert!(has_a_field("(1 + sqrt(2))^20"));
+        assert!(!has_a_field("(pi - 355/113)^100"));
+        assert!(!has_a_field("(1 + pi)^200"));
     }
 }

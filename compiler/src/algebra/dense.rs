@@ -260,6 +260,18 @@ impl<F: Field> StageAlgebra for Dense<F> {
         })
     }
 
+    fn ends_of_steps(&self, m: &Matrix<F>, b: &Vector<F>) -> Vec<usize> {
+        let zero = self.field.rational(&BigRational::default());
+        let is_end = |end: &usize| {
+            let (before, after) = m.split_at(*end);
+            before
+                .iter()
+                .all(|row| row[*end..].iter().all(|x| *x == zero))
+                && after.iter().all(|row| row[..*end] == b[..*end])
+        };
+        (1..self.stages).filter(is_end).collect()
+    }
+
     fn partial_sums(&self, f: &Vector<F>, own: bool) -> Option<Vector<F>> {
         let mut sum = self.field.rational(&BigRational::default());
         let step = |x: &F::Element| {

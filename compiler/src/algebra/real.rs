@@ -8,7 +8,7 @@ use num_traits::{One, Zero as _};
 
 use super::{Field, Number, Zero};
 use crate::arithmetic::interval::{Interval, more_places};
-use crate::arithmetic::rational::length;
+use crate::arithmetic::rational::{add, length, multiply};
 use crate::certify::{Certificate, Coefficient};
 use crate::symbolic::Constant;
 
@@ -198,6 +198,14 @@ impl PartialEq for Real {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Reals;
 
+/// The bits of a rational beyond which enclosures take less time than lowest terms.
+const LONGEST: u64 = 4096;
+
+/// Whether the sum of two rationals has at most so many bits, or no more than they have.
+fn is_short_sum(p: &BigRational, q: &BigRational) -> bool {
+    p.denom() == q.denom() || length(p) + length(q) <= LONGEST
+}
+
 impl Field for Reals {
     type Element = Real;
 
@@ -215,29 +223,31 @@ impl Field for Reals {
 
     fn add(&self, x: &Real, y: &Real) -> Real {
         match (x.as_rational(), y.as_rational()) {
-            (Some(p), Some(q)) => self.rational(&(p + q)),
             (Some(p), _) if p.is_zero() => y.clone(),
             (_, Some(q)) if q.is_zero() => x.clone(),
+            (Some(p), Some(q)) if is_short_sum(p, q) => self.rational(&add(p, q)),
             _ => Real::new(Operation::Add(x.clone(), y.clone())),
         }
     }
 
     fn subtract(&self, x: &Real, y: &Real) -> Real {
         match (x.as_rational(), y.as_rational()) {
-            (Some(p), Some(q)) => self.rational(&(p - q)),
             (_, Some(q)) if q.is_zero() => x.clone(),
             _ if x == y => self.rational(&BigRational::default()),
+            (Some(p), Some(q)) if is_short_sum(p, q) => self.rational(&add(p, &-q)),
             _ => Real::new(Operation::Subtract(x.clone(), y.clone())),
         }
     }
 
     fn multiply(&self, x: &Real, y: &Real) -> Real {
         match (x.as_rational(), y.as_rational()) {
-            (Some(p), Some(q)) => self.rational(&(p * q)),
             (Some(p), _) if p.is_zero() => x.clone(),
             (_, Some(q)) if q.is_zero() => y.clone(),
             (Some(p), _) if p.is_one() => y.clone(),
             (_, Some(q)) if q.is_one() => x.clone(),
+            (Some(p), Some(q)) if length(p) + length(q) <= LONGEST => {
+                self.rational(&multiply(p, q))
+            }
             _ => Real::new(Operation::Multiply(x.clone(), y.clone())),
         }
     }

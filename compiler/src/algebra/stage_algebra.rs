@@ -93,6 +93,12 @@ pub trait StageAlgebra: Debug + PartialEq + Sized {
         None
     }
 
+    /// The numbers of stages after which a step of several ends: `m_ij` is `b_j` for the stages `j` before and `i` after, and
+    /// zero for `i` before and `j` after; all of that as elements. An algebra may not look.
+    fn ends_of_steps(&self, _m: &Self::Matrix, _b: &Self::Vector) -> Vec<usize> {
+        Vec::new()
+    }
+
     /// Groups the stages whose rows are equal when the columns of each group are added.
     fn equal_rows(&self, m: &Self::Matrix, columns: &[Vec<usize>]) -> Vec<Vec<usize>>;
     /// Whether [`Self::equal_rows`] looks at this stage, or leaves it alone unseen.

@@ -30,6 +30,21 @@ pub(crate) fn more_places(guard: u32, bits: u32, found: Option<&Interval>) -> u3
     })
 }
 
+/// `(ac, bd)` for `0 ≤ a ≤ b` and `0 ≤ c ≤ d`. Where the intervals are narrow, the second product is the first one and
+/// products of long numbers with short ones.
+fn products(a: &BigInt, b: &BigInt, c: &BigInt, d: &BigInt) -> (BigInt, BigInt) {
+    const SHORT: u64 = 4;
+    let low = a * c;
+    let (v, w) = (b - a, d - c);
+    let shortest = a.bits().min(c.bits());
+    if v.bits().max(w.bits()) * SHORT > shortest {
+        return (low, b * d);
+    }
+    // (a + v)(c + w)
+    let high = &low + v * d + w * a;
+    (low, high)
+}
+
 impl Interval {
     /// The smallest interval with `bits` binary places around a rational.
     pub fn enclosing(value: &BigRational, bits: u32) -> Self {
@@ -116,21 +131,16 @@ impl Interval {
     pub fn multiply(&self, other: &Interval) -> Interval {
         debug_assert_eq!(self.bits, other.bits);
         let (low, high) = if !self.low.is_negative() && !other.low.is_negative() {
-            (&self.low * &other.low, &self.high * &other.high)
+            products(&self.low, &self.high, &other.low, &other.high)
+        } else if !self.high.is_positive() && !other.low.is_negative() {
+            let (low, high) = products(&-&self.high, &-&self.low, &other.low, &other.high);
+            (-high, -low)
+        } else if !other.high.is_positive() && !self.low.is_negative() {
+            return other.multiply(self);
+        } else if !self.high.is_positive() && !other.high.is_positive() {
+            return self.negate().multiply(&other.negate());
         } else if !other.low.is_negative() {
-            let low = &self.low
-                * if self.low.is_negative() {
-                    &other.high
-                } else {
-                    &other.low
-                };
-            let high = &self.high
-                * if self.high.is_negative() {
-                    &other.low
-                } else {
-                    &other.high
-                };
-            (low, high)
+            (&self.low * &other.high, &self.high * &other.high)
         } else {
             let products = [
                 &self.low * &other.low,
@@ -280,6 +290,20 @@ impl Interval {
             high: self.high.clone(),
             bits: self.bits,
         })
+    }
+
+    /// The value of a polynomial from enclosures of the powers of a number, from the power 0 on, as many as there are
+    /// coefficients.
+    pub(crate) fn combination(powers: &[Interval], polynomial: &Polynomial) -> Interval {
+        let bits = powers[0].bits;
+        let (mut low, mut high) = (BigInt::zero(), BigInt::zero());
+        for (power, n) in powers.iter().zip(polynomial.numerators()) {
+            let (a, b) = (&power.low * n, &power.high * n);
+            let (below, above) = if n.is_negative() { (b, a) } else { (a, b) };
+            low += below;
+            high += above;
+        }
+        Interval::quotient(low, high, polynomial.denominator(), bits)
     }
 
     /// The values of a polynomial on this interval.

@@ -5,6 +5,8 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
+use super::gcd::gcd;
+
 /// The rational `numerator/denominator`. The denominator must not be zero.
 pub fn ratio(numerator: i64, denominator: i64) -> BigRational {
     BigRational::new(numerator.into(), denominator.into())
@@ -34,15 +36,29 @@ fn places(value: &BigRational) -> Option<u32> {
 
 /// The sum. Dyadic numbers are added without a greatest common divisor, which is slow for long ones.
 pub(crate) fn add(a: &BigRational, b: &BigRational) -> BigRational {
-    let (Some(m), Some(n)) = (places(a), places(b)) else {
+    if let (Some(m), Some(n)) = (places(a), places(b)) {
+        let most = m.max(n);
+        return dyadic(
+            &((a.numer() << (most - m)) + (b.numer() << (most - n))),
+            most,
+        );
+    }
+    if a.denom().bits().min(b.denom().bits()) < LONG {
         return a + b;
-    };
-    let most = m.max(n);
-    dyadic(
-        &((a.numer() << (most - m)) + (b.numer() << (most - n))),
-        most,
-    )
+    }
+    // What the sum may have in common with its denominator divides the common divisor of the two.
+    let common = gcd(a.denom(), b.denom());
+    let (left, right) = (a.denom() / &common, b.denom() / &common);
+    let numerator = a.numer() * &right + b.numer() * &left;
+    let excess = gcd(&numerator, &common);
+    if numerator.is_zero() {
+        return BigRational::zero();
+    }
+    BigRational::new_raw(numerator / &excess, left * (b.denom() / excess))
 }
+
+/// Longer numbers have a greatest common divisor sooner by Lehmer's algorithm.
+const LONG: u64 = 1024;
 
 /// The product. Whole numbers are multiplied without a greatest common divisor.
 pub(crate) fn multiply(a: &BigRational, b: &BigRational) -> BigRational {
@@ -50,8 +66,16 @@ pub(crate) fn multiply(a: &BigRational, b: &BigRational) -> BigRational {
         BigRational::from_integer(a.numer() * b.numer())
     } else if b.is_integer() && b.numer().magnitude().is_one() {
         BigRational::new_raw(a.numer() * b.numer(), a.denom().clone())
-    } else {
+    } else if a.is_integer() && a.numer().magnitude().is_one() {
+        BigRational::new_raw(a.numer() * b.numer(), b.denom().clone())
+    } else if length(a).max(length(b)) < LONG {
         a * b
+    } else {
+        let (left, right) = (gcd(a.numer(), b.denom()), gcd(b.numer(), a.denom()));
+        BigRational::new_raw(
+            (a.numer() / &left) * (b.numer() / &right),
+            (a.denom() / right) * (b.denom() / left),
+        )
     }
 }
 

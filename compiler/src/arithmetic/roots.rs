@@ -264,14 +264,14 @@ fn narrower<'i>(isolating: &'i Interval, known: Option<&'i Interval>) -> &'i Int
 /// is doubled, otherwise halved (Abbott, *Quadratic interval refinement for real roots*). Only a sign change at exact ends is
 /// believed.
 fn refine(polynomial: &Polynomial, interval: &Interval, target: u32) -> Refined {
-    let degree = polynomial.degree().unwrap_or(0);
     let Interval {
         mut low,
         mut high,
         mut bits,
     } = interval.clone();
-    let [mut below, mut above] = [&low, &high].map(|end| value_at(polynomial, end, bits));
-    let sign = below.sign();
+    let value = |point: &BigInt, bits: u32, wanted: u32| Value::at(polynomial, point, bits, wanted);
+    let [mut below, mut above] = [&low, &high].map(|end| value(end, bits, bits));
+    let sign = below.mantissa.sign();
     let mut parts = 1;
     loop {
         let width: BigInt = &high - &low;
@@ -281,8 +281,6 @@ fn refine(polynomial: &Polynomial, interval: &Interval, target: u32) -> Refined 
         };
         let count = parts.min(missing);
         (low, high, bits) = (low << count, high << count, bits + count);
-        let scale = count as usize * degree;
-        (below, above) = (below << scale, above << scale);
         let (start, last) = (low.clone(), (BigInt::one() << count) - BigInt::one());
         let mut part = chord(&below, &above, count).clamp(BigInt::one(), last.clone());
         // The ends of the part in which the root should be.
@@ -291,11 +289,13 @@ fn refine(polynomial: &Polynomial, interval: &Interval, target: u32) -> Refined 
                 break;
             }
             let point = &start + &width * &part;
-            let value = value_at(polynomial, &point, bits);
-            if value.is_zero() {
+            // As many places as the next chord may be cut into parts.
+            let wanted = bits.saturating_add(2 * count).min(target.max(bits));
+            let value = value(&point, bits, wanted);
+            if value.mantissa.is_zero() {
                 return Refined::Exactly(BigRational::new(point, BigInt::one() << bits));
             }
-            if value.sign() == sign {
+            if value.mantissa.sign() == sign {
                 (low, below) = (point, value);
                 part += 1;
             } else {
@@ -311,11 +311,73 @@ fn refine(polynomial: &Polynomial, interval: &Interval, target: u32) -> Refined 
     }
 }
 
+/// The value of a polynomial at a point: about `m·2ᵉ`, with the sign of the value, and zero only where the value is.
+struct Value {
+    mantissa: BigInt,
+    exponent: i64,
+}
+
+impl Value {
+    /// The value at `point·2⁻ᵇⁱᵗˢ`: with about as many places as are wanted, where these tell the sign, and exactly
+    /// otherwise.
+    fn at(polynomial: &Polynomial, point: &BigInt, bits: u32, wanted: u32) -> Self {
+        let degree = polynomial.degree().unwrap_or(0);
+        let exact = degree as u64 * u64::from(bits);
+        for guard in GUARDS {
+            let places = wanted.saturating_add(guard);
+            // Exact arithmetic takes no longer.
+            if exact <= 2 * u64::from(places) {
+                break;
+            }
+            let (middle, error) = rounded_value_at(polynomial, point, bits, places);
+            if middle.bits() > error.bits() + 1 {
+                return Value {
+                    mantissa: middle,
+                    exponent: -i64::from(places),
+                };
+            }
+        }
+        Value {
+            mantissa: value_at(polynomial, point, bits),
+            exponent: -(exact as i64),
+        }
+    }
+}
+
+/// Places beyond those of a point with which values near a root are computed.
+const GUARDS: [u32; 3] = [128, 512, 4096];
+
+/// The value at `point·2⁻ᵇⁱᵗˢ` in units of `2⁻ᵖˡᵃᶜᵉˢ`, and a bound on its error, by Horner's scheme.
+fn rounded_value_at(
+    polynomial: &Polynomial,
+    point: &BigInt,
+    bits: u32,
+    places: u32,
+) -> (BigInt, BigInt) {
+    // A bound on |x|, rounded up to a whole number.
+    let size: BigInt = (point.abs() >> bits) + 1;
+    let (mut value, mut error) = (BigInt::zero(), BigInt::zero());
+    for numerator in polynomial.numerators().iter().rev() {
+        // The shift rounds by less than one unit.
+        value = ((value * point) >> bits) + (numerator << places);
+        error = error * &size + 1;
+    }
+    (value, error)
+}
+
 /// About where the chord between values at the ends of an interval vanishes, in `2ⁿ` parts of it.
-fn chord(below: &BigInt, above: &BigInt, parts: u32) -> BigInt {
-    let longest = below.bits().max(above.bits());
-    let excess = longest.saturating_sub(u64::from(parts) + 64);
-    let [below, above] = [below, above].map(|value| value.abs() >> excess);
+fn chord(below: &Value, above: &Value, parts: u32) -> BigInt {
+    let top = |value: &Value| value.mantissa.bits() as i64 + value.exponent;
+    let least = top(below).max(top(above)) - i64::from(parts) - 64;
+    let [below, above] = [below, above].map(|value| {
+        let shift = value.exponent - least;
+        let size = value.mantissa.abs();
+        if shift < 0 {
+            size >> -shift
+        } else {
+            size << shift
+        }
+    });
     let sum = &below + above;
     if sum.is_zero() {
         return sum;
@@ -363,6 +425,33 @@ mod tests {
                 finer.with_bits(390),
                 enclose(&p, &roots[3], 400).with_bits(390)
             );
+        }
+    }
+
+    /// Most values on the way are rounded; the ends have different signs exactly.
+    #[test]
+    fn many_places_of_a_root_are_those_of_the_root() {
+        // Legendre's polynomial of degree 6, and one with roots that are 2⁻⁴⁰ apart.
+        let near = BigRational::new(BigInt::one(), BigInt::one() << 80);
+        let close = Polynomial::from_rationals(&[&ratio(2, 1) - &near, ratio(0, 1), ratio(-2, 1)]);
+        let close = &(&close * &Polynomial::from_integers(&[-1, 0, 1]))
+            * &Polynomial::from_integers(&[-7, 1, 0, 3]);
+        for p in [
+            Polynomial::from_integers(&[-5, 0, 105, 0, -315, 0, 231]),
+            close,
+        ] {
+            for root in real_roots(&p) {
+                let mut known = None;
+                for bits in [300, 5000, 20_000] {
+                    let found = enclose_from(&p, &root, known.as_ref(), bits);
+                    assert!(&found.high - &found.low <= BigInt::from(2));
+                    if let Root::Irrational(_) = root {
+                        let ends = [&found.low, &found.high].map(|end| sign_at(&p, end, bits));
+                        assert!(ends[0] != ends[1], "{root:?}");
+                    }
+                    known = Some(found);
+                }
+            }
         }
     }
 

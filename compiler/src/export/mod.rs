@@ -7,6 +7,7 @@
 //! | TOML | [`toml::write`] | [`toml::read`] | all exact data, decimals, the properties |
 
 use crate::coefficients::Coefficients;
+use crate::exact::Exact;
 use crate::tableau::{Tableau, left_out};
 
 mod columns;
@@ -27,6 +28,23 @@ pub const DEFAULT_DIGITS: usize = 40;
 pub const TEXT_DIGITS: usize = 16;
 /// The most significant digits of a decimal that can be asked for.
 pub const MAX_DIGITS: usize = 10_000;
+
+/// The most significant digits that are written of a tableau within about ten seconds, [`MAX_DIGITS`] at most.
+///
+/// An entry of the matrices of `s` algebraic nodes is a sum of `s²` products of numbers with as many digits.
+pub fn most_digits(tableau: &Tableau) -> usize {
+    /// The square of the digits times the cube of the stages.
+    const MOST_WORK: u64 = 2_000_000_000_000;
+    match &tableau.exact {
+        Exact::Nodes(_) => {
+            let stages = tableau.stages().max(1) as u64;
+            let digits = (MOST_WORK / stages.saturating_pow(3)).isqrt();
+            // Rounded down to hundreds, and no fewer than everybody may ask for.
+            usize::try_from(digits / 100 * 100).map_or(MAX_DIGITS, |n| n.clamp(100, MAX_DIGITS))
+        }
+        _ => MAX_DIGITS,
+    }
+}
 
 /// The coefficients without the matrices that are left out.
 fn written<T>(tableau: &Tableau, mut coefficients: Coefficients<T>) -> Coefficients<T> {

@@ -1,11 +1,13 @@
 //! The coefficients of methods one after another, in a field that holds those of all.
 
+use std::ptr;
 use std::sync::Arc;
 
 use num_rational::BigRational;
 
 use crate::algebra::{Constants, Dense, Field, NodeAlgebra, Real, Reals, StageAlgebra};
 use crate::arithmetic::polynomial::Polynomial;
+use crate::arithmetic::rational::length;
 use crate::error::ErrorKind;
 use crate::exact::Exact;
 use crate::pair::Pair;
@@ -37,16 +39,45 @@ pub(crate) fn concatenate(parts: &[(&Constant, &Exact)]) -> Result<Exact, ErrorK
     let fractions: Vec<&Constant> = parts.iter().map(|(fraction, _)| *fraction).collect();
     let needed: Option<Vec<Vec<&Constant>>> = methods.iter().map(Method::constants).collect();
     let field = needed.and_then(|needed| {
+        let needed = needed.into_iter().flatten();
+        let stages = parts.iter().map(|(_, exact)| stages(exact)).sum();
+        let words = longest(fractions.iter().copied()) + longest(needed.clone());
+        let short = work(stages, words) <= MOST_WORK;
         let fractions = fractions.iter().copied();
-        Constants::containing(fractions.chain(needed.into_iter().flatten()))
+        short.then(|| Constants::containing(fractions.chain(needed)))?
     });
+    let same = |i: usize, j: usize| parts[i].0 == parts[j].0 && ptr::eq(parts[i].1, parts[j].1);
     let joined = match field {
-        Some(field) => join(&field, &fractions, &methods, |_| None).map(Exact::Field),
-        None => join(&Reals, &fractions, &methods, |x| Some(x.clone())).map(Exact::Reals),
+        Some(field) => join(&field, &fractions, &methods, |_| None, same).map(Exact::Field),
+        None => join(&Reals, &fractions, &methods, |x| Some(x.clone()), same).map(Exact::Reals),
     };
     joined.ok_or_else(|| ErrorKind::Definition {
         message: "a constant lies outside the field of the coefficients".to_owned(),
     })
+}
+
+/// The products of machine words for all products of two coefficients beyond which exact arithmetic with all that follows
+/// takes more than two seconds or so.
+const MOST_WORK: u64 = 300_000;
+
+fn stages(exact: &Exact) -> usize {
+    match exact {
+        Exact::Nodes(pair) => pair.algebra.stages(),
+        Exact::Field(pair) => pair.algebra.stages(),
+        Exact::Reals(pair) => pair.algebra.stages(),
+    }
+}
+
+/// The products of machine words for a product of each coefficient of a matrix with another.
+fn work(stages: usize, words: u64) -> u64 {
+    let stages = stages as u64;
+    stages.saturating_mul(stages).saturating_mul(words * words)
+}
+
+/// The machine words of the longest rational among constants.
+fn longest<'a>(constants: impl Iterator<Item = &'a Constant>) -> u64 {
+    let lengths = constants.filter_map(|constant| constant.as_rational().map(length));
+    lengths.max().unwrap_or(0) / 64
 }
 
 fn rational_multiple<A: StageAlgebra>(pair: &Pair<A>, fraction: &BigRational) -> Pair<A> {
@@ -208,17 +239,20 @@ fn join<F: Field + Clone>(
     fractions: &[&Constant],
     methods: &[Method<'_>],
     real: impl Fn(&Real) -> Option<F::Element>,
+    same: impl Fn(usize, usize) -> bool,
 ) -> Option<Pair<Dense<F>>> {
     let scaled = |(fraction, method): (&&Constant, &Method<'_>)| {
         let pair = method.over(field, &real)?;
         let fraction = field.constant(fraction)?;
         Some(pair.scaled(&vec![fraction; pair.b.len()]))
     };
-    let steps: Vec<Pair<Dense<F>>> = fractions
-        .iter()
-        .zip(methods)
-        .map(scaled)
-        .collect::<Option<_>>()?;
+    let mut steps: Vec<Pair<Dense<F>>> = Vec::new();
+    for (index, step) in fractions.iter().zip(methods).enumerate() {
+        // Where numbers are expressions, equal steps share theirs.
+        let known = (0..index).find(|&before| same(before, index));
+        let step = known.map_or_else(|| scaled(step), |before| Some(steps[before].clone()))?;
+        steps.push(step);
+    }
     let zero = field.rational(&BigRational::default());
     let b: Vec<F::Element> = steps.iter().flat_map(|step| step.b.clone()).collect();
     let b_tilde: Vec<F::Element> = steps.iter().flat_map(|step| step.b_tilde.clone()).collect();

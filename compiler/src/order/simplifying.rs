@@ -114,10 +114,19 @@ fn assumptions<A: StageAlgebra>(
     mut evidence: Evidence,
 ) -> SimplifyingAssumptions {
     let algebra = &*pair.algebra;
-    // c^k, from k = 0 on. A quadrature with s weights has no higher order than 2s.
+    // c^k, from k = 0 on, as far as they are needed: those of long numbers are long.
     let mut powers = vec![algebra.constant(&BigRational::one())];
-    for k in 0..2 * algebra.stages() {
-        powers.push(algebra.multiply(&powers[k], c));
+    let mut b = 0;
+    // A quadrature with s weights has no higher order than 2s.
+    while b < 2 * algebra.stages() {
+        let wanted = BigRational::new(One::one(), (b + 1).into());
+        match algebra.inner(&pair.b, &powers[b]).difference(&wanted) {
+            Zero::Yes => {}
+            Zero::Within(bits) => evidence = evidence.and(Evidence::Verified { bits }),
+            Zero::No => break,
+        }
+        powers.push(algebra.multiply(&powers[b], c));
+        b += 1;
     }
     let mut largest = |bound: usize, holds: &dyn Fn(usize) -> Option<Evidence>| {
         let mut found = 0;
@@ -133,14 +142,6 @@ fn assumptions<A: StageAlgebra>(
     let fraction = |k: usize| algebra.constant(&BigRational::new(One::one(), k.into()));
     let vanishes =
         |f: &A::Vector, g: &A::Vector| vanishing_vector(algebra, &algebra.subtract(f, g)).ok();
-    let b = largest(2 * algebra.stages(), &|k| {
-        let wanted = BigRational::new(One::one(), k.into());
-        match algebra.inner(&pair.b, &powers[k - 1]).difference(&wanted) {
-            Zero::Yes => Some(Evidence::Proved),
-            Zero::Within(bits) => Some(Evidence::Verified { bits }),
-            Zero::No => None,
-        }
-    });
     // No more than B can be of use.
     let mut rows = |matrix: &A::Matrix| {
         largest(b, &|k| {

@@ -42,6 +42,9 @@ const PRECISIONS: [u32; 7] = [
     1 << 16,
 ];
 
+/// Bits by which a value near a root is told from zero, beside those of the point.
+const NEAR: u32 = 512;
+
 /// So many of [`PRECISIONS`] are tried to tell the roots apart.
 const TRIED: usize = 3;
 
@@ -121,12 +124,13 @@ impl<A: StageAlgebra> Half<A> {
     }
 
     /// The value of an entry of `N` at `x`, if enclosures tell its sign.
+    ///
+    /// Near a root it takes as many bits as the point has; with fewer ones it is not tried.
     fn value_at(&self, entry: usize, x: &BigRational) -> Option<Ball> {
-        let value = |precision: usize| {
-            let bits = PRECISIONS[precision];
+        let value = |precision: usize, bits: u32| {
             let x = Ball::quotient(x, bits);
             let add = |sum: &mut Ball, factor: &Ball, value: &Ball, power| {
-                let product = factor.multiply(value, bits);
+                let product = factor.with_bits(bits).multiply(value, bits);
                 let product = match power {
                     0 => product,
                     _ => product.multiply(&x, bits),
@@ -138,7 +142,13 @@ impl<A: StageAlgebra> Half<A> {
             let value = [a, b, c, d].into_iter().nth(entry)?;
             value.sign().map(|_| value)
         };
-        (0..PRECISIONS.len()).find_map(value)
+        let needed = u32::try_from(x.denom().bits()).unwrap_or(u32::MAX);
+        let needed = needed.saturating_add(NEAR);
+        let last = PRECISIONS.len() - 1;
+        let first = PRECISIONS.iter().position(|&bits| bits >= needed);
+        let first = first.unwrap_or(last);
+        let few = value(first, needed.min(PRECISIONS[first]));
+        few.or_else(|| (first..=last).find_map(|k| value(k, PRECISIONS[k])))
     }
 
     /// The first positive root of the entries of `N`: which of them has it, and an interval in which it is alone, and no

@@ -105,12 +105,14 @@ pub(super) fn monotonic_within(
         if undecided(&shifted) {
             return None;
         }
-        let sum = |first: usize, weighted: bool| {
+        // Σ |c_k| binom(k, m) for the terms from one on.
+        let sum = |first: usize, derivative: usize| {
             let terms = shifted.iter().enumerate().skip(first);
             terms.fold(None, |sum: Option<Ball>, (k, c)| {
-                let size = match weighted {
-                    true => c.size().multiply(&Ball::whole(k), precision),
-                    false => c.size(),
+                let size = match derivative {
+                    0 => c.size(),
+                    1 => c.size().multiply(&Ball::whole(k), precision),
+                    _ => c.size().multiply(&Ball::whole(k * (k - 1) / 2), precision),
                 };
                 Some(match sum {
                     Some(sum) => sum.add(&size, precision),
@@ -118,20 +120,42 @@ pub(super) fn monotonic_within(
                 })
             })
         };
-        let exceeds = |k: usize, rest: Option<Ball>| {
-            let size = shifted[k].size();
+        let excess = |k: usize, rest: Option<Ball>| {
+            let size = shifted.get(k)?.size();
             let difference = match rest {
                 Some(rest) => size.add(&rest.negate(), precision),
                 None => size,
             };
-            difference.sign() == Some(Ordering::Greater)
+            (difference.sign() == Some(Ordering::Greater)).then_some(difference)
         };
-        if exceeds(0, sum(1, false)) {
+        if excess(0, sum(1, 0)).is_some() {
             continue;
         }
-        if exceeds(1, sum(2, true)) {
+        if excess(1, sum(2, 1)).is_some() {
             found.push(Interval { low, high, bits });
             continue;
+        }
+        if let Some(bend) = excess(2, sum(3, 2)) {
+            let exact = local(coefficients, &low, &high, bits, precision);
+            match vertex(&exact, &bend, precision) {
+                Some(Vertex::NoRoot) => continue,
+                Some(Vertex::Outside) => {
+                    found.push(Interval { low, high, bits });
+                    continue;
+                }
+                Some(Vertex::NotTold) => return None,
+                Some(Vertex::Beyond { y, places }) => {
+                    // m + ry in units of 2⁻ᵇⁱᵗˢ⁻ᵖˡᵃᶜᵉˢ⁻¹.
+                    let middle = ((&low + &high) << places) + (&high - &low) * y;
+                    let finer = places + 1;
+                    let bits = bits + finer;
+                    let (low, high) = (low << finer, high << finer);
+                    let ends = [(low, middle.clone()), (middle, high)];
+                    found.extend(ends.map(|(low, high)| Interval { low, high, bits }));
+                    continue;
+                }
+                None => {}
+            }
         }
         left = left.saturating_sub(1);
         if u64::from(depth) > deepest || left == 0 {
@@ -139,15 +163,106 @@ pub(super) fn monotonic_within(
         }
         let (low, high) = (low << 1, high << 1);
         let middle: BigInt = (&low + &high) >> 1;
-        let half = |right: bool| half(&shifted, right, precision);
+        let half = |right: bool| half(&shifted, right, precision.min(COARSE));
         pending.push((middle.clone(), high, bits + 1, half(true)));
         pending.push((low, middle, bits + 1, half(false)));
     }
     Some(found)
 }
 
+/// Places of a point between two roots that are tried first.
+const FIRST_PLACES: u32 = 4;
+
+/// Where a polynomial that is convex or concave for `|y| ≤ 1` is nearest to zero or beyond it.
+enum Vertex {
+    /// It has no root.
+    NoRoot,
+    /// Beyond the ends: the polynomial is monotonic.
+    Outside,
+    /// It is on the other side at `y·2⁻ᵖˡᵃᶜᵉˢ`: at most one root is on either side of that.
+    Beyond { y: BigInt, places: u32 },
+    /// The vertex is not told from zero: the root may be a double one.
+    NotTold,
+}
+
+/// The vertex of a polynomial `f = Σ c_k yᵏ` with `|f''| ≥ 2·bend` for `|y| ≤ 1`; `None` if it is not found in there.
+///
+/// With `f'(z) = s`, the least value is `f(z) − s²/(4·bend)` at least, if `f'' > 0`.
+fn vertex(coefficients: &[Ball], bend: &Ball, precision: u32) -> Option<Vertex> {
+    let derivative = |list: &[Ball]| -> Vec<Ball> {
+        let terms = list.iter().enumerate().skip(1);
+        terms
+            .map(|(k, c)| c.multiply(&Ball::whole(k), precision))
+            .collect()
+    };
+    let at = |list: &[Ball], y: &Ball| {
+        let terms = list.iter().rev().cloned();
+        terms.reduce(|value, c| value.multiply(y, precision).add(&c, precision))
+    };
+    let side = coefficients.get(2)?.sign()?;
+    let slopes = derivative(coefficients);
+    let bends = derivative(&slopes);
+    let one = Ball::whole(1);
+    let slope = |y: &Ball| at(&slopes, y)?.sign();
+    match [slope(&one.negate())?, slope(&one)?] {
+        // Zero at an end.
+        [first, last] if first.is_eq() || last.is_eq() => return None,
+        [first, last] if first == last => return Some(Vertex::Outside),
+        // The slope has one root in there.
+        _ => {}
+    }
+    let dyadic = |y: &BigInt| Ball::dyadic(y.clone(), -i64::from(precision), u32::MAX);
+    let unit = BigInt::one() << precision;
+    let mut y = BigInt::zero();
+    // Newton's iteration doubles the places once it is near.
+    for _ in 0..=2 * precision.ilog2() {
+        let here = dyadic(&y);
+        let change =
+            at(&slopes, &here)?.multiply(&at(&bends, &here)?.inverse(precision)?, precision);
+        let change = change.interval(precision);
+        let change: BigInt = (change.low + change.high) >> 1;
+        if change.is_zero() {
+            break;
+        }
+        y = (y - change).clamp(-&unit, unit.clone());
+    }
+    let here = dyadic(&y);
+    let value = at(coefficients, &here)?;
+    let Some(sign) = value.sign() else {
+        return Some(Vertex::NotTold);
+    };
+    if sign.is_eq() {
+        return None;
+    }
+    if sign != side {
+        // As few places as tell.
+        let mut places = FIRST_PLACES.min(precision);
+        loop {
+            let coarse: BigInt = &y >> (precision - places);
+            let point = Ball::dyadic(coarse.clone(), -i64::from(places), u32::MAX);
+            let beyond = at(coefficients, &point)?.sign() == Some(sign);
+            if beyond && coarse.bits() <= u64::from(places) {
+                return Some(Vertex::Beyond { y: coarse, places });
+            }
+            if places == precision {
+                return None;
+            }
+            places = (2 * places).min(precision);
+        }
+    }
+    let slope = at(&slopes, &here)?.size();
+    let below = slope.multiply(&slope, precision);
+    let below = below
+        .multiply(&bend.inverse(precision)?, precision)
+        .shifted(-2);
+    let least = value.size().add(&below.negate(), precision);
+    (least.sign() == Some(Ordering::Greater)).then_some(Vertex::NoRoot)
+}
+
 /// Halvings after which the coefficients are computed anew: each halving costs one binary place.
 const HALVINGS: u32 = 32;
+/// Bits of the coefficients in between, which have to tell sizes only.
+const COARSE: u32 = 192;
 
 /// Sums of machine words that may be spent on one interval: about a tenth of a second.
 const MOST_WORDS: usize = 1 << 25;
@@ -242,7 +357,7 @@ fn chord(below: &Ball, above: &Ball, parts: u32) -> BigInt {
 fn half(coefficients: &[Ball], right: bool, precision: u32) -> Vec<Ball> {
     let halved = (0..).zip(coefficients).map(|(k, c): (i64, &Ball)| {
         // With −z for z on the left, so that what is added is positive on both sides.
-        let c = c.shifted(-k);
+        let c = c.with_bits(precision).shifted(-k);
         if right || k % 2 == 0 { c } else { c.negate() }
     });
     let mut list: Vec<Ball> = halved.collect();
@@ -348,5 +463,31 @@ mod tests {
     #[test]
     fn double_roots_are_not_told_apart() {
         assert_eq!(found(&[4, -4, 1], 0).map(|i| i.len()), None);
+        // (3x − 1)²(x² + 1)
+        assert_eq!(found(&[1, -6, 10, -6, 9], 0).map(|i| i.len()), None);
+    }
+
+    #[test]
+    fn roots_that_lie_close_are_told_apart_or_seen_not_to_be_there() {
+        // (x² + 1)(9x² − 6x + 1 ∓ 2⁻¹⁰⁰), with roots (1 ± 2⁻⁵⁰)/3 or none.
+        for (sign, count) in [(-1, 2), (1, 0)] {
+            let offset = ratio(sign, 1) / ratio(2, 1).pow(100);
+            let quadratic = [&ratio(1, 1) + &offset, ratio(-6, 1), ratio(9, 1)];
+            let product = [
+                quadratic[0].clone(),
+                quadratic[1].clone(),
+                &quadratic[2] + &quadratic[0],
+                quadratic[1].clone(),
+                quadratic[2].clone(),
+            ];
+            let balls = Balls::new(400);
+            let list: Vec<Ball> = product.iter().map(|c| balls.rational(c)).collect();
+            let intervals = monotonic(&list, 400).expect("told apart");
+            let polynomial = Polynomial::from_rationals(&product);
+            let changes = |interval: &&Interval| {
+                polynomial.sign_at(&interval.low()) != polynomial.sign_at(&interval.high())
+            };
+            assert_eq!(intervals.iter().filter(changes).count(), count);
+        }
     }
 }

@@ -7,6 +7,7 @@
 //! coefficients of the functions are traces.
 
 mod budget;
+mod cascade;
 mod cells;
 mod dispersion;
 mod end_point;

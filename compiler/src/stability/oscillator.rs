@@ -1,8 +1,11 @@
 //! One step for the oscillator `q' = p`, `p' = −ω²q` as a matrix.
 
+use std::ops::Range;
+
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
+use super::cascade;
 use super::fraction::Fraction;
 use super::polynomial::RealPolynomial;
 use super::resolvent::{Resolvent, apply, apply_left, dot};
@@ -79,36 +82,97 @@ fn cost_of_length<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
     };
     let stages = pair.algebra.stages() as u64;
     let length = stages.saturating_mul(total(&pair.a) + total(&pair.a_tilde));
-    length.saturating_mul(length) / 128
+    length.saturating_mul(length) / 16
 }
 
 /// The parts over the field of constants.
 pub(super) fn parts<A: StageAlgebra>(pair: &Pair<A>) -> Parts<Vec<Scalar<A>>> {
-    match pair.flows() {
-        Some(flows) => parts_of_splitting(&*pair.algebra, &flows),
-        None => parts_of_stages(pair),
+    if let Some(flows) = pair.flows() {
+        return parts_of_splitting(&*pair.algebra, &flows);
+    }
+    match &*cascade::steps(pair) {
+        [] | [_] => parts_of_stages(pair),
+        steps => parts_by_steps(pair, steps),
     }
 }
 
+/// The parts of a composition, from those of its steps.
+pub(super) fn parts_by_steps<A: StageAlgebra>(
+    pair: &Pair<A>,
+    steps: &[Range<usize>],
+) -> Parts<Vec<Scalar<A>>> {
+    let coefficients = Operators::of(pair);
+    let part = |stages: &Range<usize>| coefficients.part(stages);
+    let field = pair.algebra.constants();
+    let each: Vec<_> = steps.iter().map(|step| part(step).parts(field)).collect();
+    cascade::joined(field, &each)
+}
+
 /// The parts for any method, from the inverse of `1 + xÃA`.
-fn parts_of_stages<A: StageAlgebra>(pair: &Pair<A>) -> Parts<Vec<Scalar<A>>> {
-    let algebra = &*pair.algebra;
-    let field = algebra.constants();
-    let [a, a_tilde] = [&pair.a, &pair.a_tilde].map(|m| algebra.operator(m));
-    let [b, b_tilde] = [&pair.b, &pair.b_tilde].map(|f| algebra.functional(f));
-    let one = algebra.coordinates(&algebra.constant(&BigRational::one()));
-    let c_tilde = apply(field, &a_tilde, &one);
-    let ab = apply_left(field, &b_tilde, &a);
-    let resolvent = Resolvent::of_product(field, &a_tilde, &a);
-    let [b_one, ab_one] = pair_of(resolvent.adjugate(&[&b, &ab], &one));
-    let [b_c, ab_c] = pair_of(resolvent.adjugate(&[&b, &ab], &c_tilde));
-    Parts {
-        determinant: resolvent.determinant(),
-        b_one,
-        b_c,
-        ab_one,
-        ab_c,
-        b_sum: vec![dot(field, &b_tilde, &one)],
+pub(super) fn parts_of_stages<A: StageAlgebra>(pair: &Pair<A>) -> Parts<Vec<Scalar<A>>> {
+    Operators::of(pair).parts(pair.algebra.constants())
+}
+
+/// The coefficients in a basis over the field.
+struct Operators<T> {
+    a: Vec<Vec<T>>,
+    a_tilde: Vec<Vec<T>>,
+    b: Vec<T>,
+    b_tilde: Vec<T>,
+    one: Vec<T>,
+}
+
+impl<T: Clone> Operators<T> {
+    fn of<A: StageAlgebra>(pair: &Pair<A>) -> Self
+    where
+        A::Constants: Field<Element = T>,
+    {
+        let algebra = &*pair.algebra;
+        let [a, a_tilde] = [&pair.a, &pair.a_tilde].map(|m| algebra.operator(m));
+        let [b, b_tilde] = [&pair.b, &pair.b_tilde].map(|f| algebra.functional(f));
+        let one = algebra.coordinates(&algebra.constant(&BigRational::one()));
+        Operators {
+            a,
+            a_tilde,
+            b,
+            b_tilde,
+            one,
+        }
+    }
+
+    /// Those of some stages alone.
+    fn part(&self, stages: &Range<usize>) -> Self {
+        let vector = |list: &[T]| list[stages.clone()].to_vec();
+        Operators {
+            a: cascade::block(&self.a, stages),
+            a_tilde: cascade::block(&self.a_tilde, stages),
+            b: vector(&self.b),
+            b_tilde: vector(&self.b_tilde),
+            one: vector(&self.one),
+        }
+    }
+
+    fn parts<F: Field<Element = T>>(&self, field: &F) -> Parts<Vec<T>> {
+        let Operators {
+            a,
+            a_tilde,
+            b,
+            b_tilde,
+            one,
+        } = self;
+        let c_tilde = apply(field, a_tilde, one);
+        let ab = apply_left(field, b_tilde, a);
+        let resolvent = Resolvent::of_product(field, a_tilde, a);
+        let [b_one, ab_one] = pair_of(resolvent.adjugate(&[b, &ab], one));
+        let [b_c, ab_c] = pair_of(resolvent.adjugate(&[b, &ab], &c_tilde));
+        Parts {
+            determinant: resolvent.determinant(),
+            b_one,
+            b_c,
+            ab_one,
+            ab_c,
+            b_sum: vec![dot(field, b_tilde, one)],
+        }
     }
 }
 

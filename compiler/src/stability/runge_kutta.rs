@@ -1,10 +1,12 @@
 //! Linear stability of a Runge–Kutta method: the stability function.
 
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use num_rational::BigRational;
 use num_traits::One;
 
+use super::cascade;
 use super::cells::Cells;
 use super::end_point::EndPoint;
 use super::fraction::{Coefficient, Fraction, RationalFunction, Variable};
@@ -33,11 +35,33 @@ pub struct RungeKuttaStability {
 pub(super) fn parts<A: StageAlgebra>(pair: &Pair<A>) -> [Vec<Scalar<A>>; 2] {
     let algebra = &*pair.algebra;
     let field = algebra.constants();
-    let resolvent = Resolvent::new(field, &algebra.operator(&pair.a));
+    let (a, b) = (algebra.operator(&pair.a), algebra.functional(&pair.b));
     let one = algebra.coordinates(&algebra.constant(&BigRational::one()));
-    let numerator = resolvent
-        .adjugate(&[&algebra.functional(&pair.b)], &one)
-        .pop();
+    let steps = cascade::steps(pair);
+    if steps.len() < 2 {
+        return parts_of_stages(field, &a, &b, &one);
+    }
+    let part = |stages: &Range<usize>| {
+        let vector = |list: &[Scalar<A>]| list[stages.clone()].to_vec();
+        parts_of_stages(
+            field,
+            &cascade::block(&a, stages),
+            &vector(&b),
+            &vector(&one),
+        )
+    };
+    cascade::joined_functions(field, &steps.iter().map(part).collect::<Vec<_>>())
+}
+
+/// The same from the matrix for all stages.
+pub(super) fn parts_of_stages<F: Field>(
+    field: &F,
+    a: &[Vec<F::Element>],
+    b: &[F::Element],
+    one: &[F::Element],
+) -> [Vec<F::Element>; 2] {
+    let resolvent = Resolvent::new(field, a);
+    let numerator = resolvent.adjugate(&[b], one).pop();
     // The resolvent has x = −z.
     let minus = field.rational(&ratio(-1, 1));
     [resolvent.determinant(), numerator.unwrap_or_default()].map(|mut list| {

@@ -1,6 +1,7 @@
 //! Quantities with two indices: elements of `K ⊗ K`.
 
 use num_rational::BigRational;
+use num_traits::One;
 
 use super::NodeAlgebra;
 use crate::arithmetic::interval::Interval;
@@ -161,10 +162,17 @@ impl Tensor {
 
     /// Enclosures of the entries in one row, from enclosures of all nodes.
     pub(crate) fn enclose_row(&self, nodes: &[Interval], row: usize) -> Vec<Interval> {
+        // The powers of the node once for all columns, whose coefficients are short.
+        let node = &nodes[row];
+        let length = self.columns.iter().map(|c| c.numerators().len()).max();
+        let mut powers = vec![Interval::enclosing(&BigRational::one(), node.bits())];
+        for k in 1..length.unwrap_or(0) {
+            powers.push(powers[k - 1].multiply(node));
+        }
         let coefficients: Vec<Interval> = self
             .columns
             .iter()
-            .map(|c| nodes[row].evaluate(c))
+            .map(|c| Interval::combination(&powers, c))
             .collect();
         nodes
             .iter()

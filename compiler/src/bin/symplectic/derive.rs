@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     }
     output::warn_if_inconsistent(&tableau);
     output::warn_of_wrong_digits(&tableau);
-    output::print(&arguments.output.write(&tableau))
+    output::print(&arguments.output.write(&tableau)?)
 }
 
 /// The parts of a definition, an option for each [`Key`].

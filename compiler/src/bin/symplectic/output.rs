@@ -48,16 +48,28 @@ impl OutputOptions {
         }
     }
 
-    pub(crate) fn write(&self, tableau: &Tableau) -> String {
+    /// Writes a tableau.
+    ///
+    /// # Errors
+    /// More digits than can be computed in bounded time.
+    pub(crate) fn write(&self, tableau: &Tableau) -> Result<String, Error> {
         let digits = |default| self.digits.unwrap_or(default);
-        match self.format {
+        let most = export::most_digits(tableau);
+        if let Some(wanted) = self.digits.filter(|&wanted| wanted > most) {
+            let stages = tableau.stages();
+            let message = format!(
+                "{wanted} digits of the coefficients of {stages} stages take too long: `--digits` up to {most} are written of this method"
+            );
+            return Err(ErrorKind::Definition { message }.into());
+        }
+        Ok(match self.format {
             Format::Text => {
                 let table = export::text::write(tableau, digits(TEXT_DIGITS));
                 format!("{table}\n{}", export::text::write_facts(tableau))
             }
             Format::Toml => export::toml::write(tableau, digits(DEFAULT_DIGITS)),
             Format::Json => export::json::write(tableau, digits(DEFAULT_DIGITS)),
-        }
+        })
     }
 }
 

@@ -20,5 +20,5 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let name = &arguments.name;
     let entry = catalogue::find(name).ok_or_else(|| catalogue::unknown(name))?;
     let tableau = entry.derive_within(&arguments.output.limits_of(&entry))?;
-    output::print(&arguments.output.write(&tableau))
+    output::print(&arguments.output.write(&tableau)?)
 }
