@@ -227,3 +227,12 @@ fn printed_digits_of_a_claim_are_checked() {
           |         ^^^^^^^^^^^^^^^^^
     "#]].assert_eq(&warnings);
 }
+
+#[test]
+fn an_inconsistent_method_is_named() {
+    let definition = b"[provenance]\na = \"[[1/2]]\"\nb = \"1/3\"\n";
+    let path = file("inconsistent.toml", definition);
+    let text = stdout(&["check", &path]).replace(&path, "file");
+    let wanted = "file: ok but not consistent: the weights sum to 1/3 instead of 1, a tableau without a name";
+    assert!(text.starts_with(wanted), "{text}");
+}

@@ -104,12 +104,17 @@ fn check_file(path: &Path, limits: &Limits) -> Result<Tableau, Error> {
     check(&name, &text, limits)
 }
 
-/// Whether the file is right, and how many of the numbers of its claim are not.
+/// Whether the file is right, how many of the numbers of its claim are not, and whether the method is of no use alone.
 fn verdict(tableau: &Tableau) -> String {
-    match tableau.wrong_digits().len() {
+    let verdict = match tableau.wrong_digits().len() {
         0 => "ok".to_owned(),
         1 => "ok apart from the digits of 1 printed number".to_owned(),
         count => format!("ok apart from the digits of {count} printed numbers"),
+    };
+    let consistent = tableau.properties().consistent;
+    match consistent.witness.filter(|_| !consistent.holds) {
+        Some(witness) => format!("{verdict} but not consistent: {witness}"),
+        None => verdict,
     }
 }
 
