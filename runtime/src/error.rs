@@ -156,20 +156,6 @@ pub enum Error {
         step_size: f64,
     },
 
-    /// The velocity of a system that is to be taken as one of second order is not linear in the momentum.
-    #[error(
-        "component {component} of the velocity is {velocity} in size, and {linear} if it were linear in the momentum: the \
-         system is not q'' = f(q) up to masses; take it by `in_lanes`"
-    )]
-    NotSecondOrder {
-        /// The component, from 0.
-        component: usize,
-        /// Its size.
-        velocity: f64,
-        /// The size that it would have if it were linear in the momentum.
-        linear: f64,
-    },
-
     /// A method whose order holds for quadratic kinetic energy only, and a system whose velocity is not linear in the momentum.
     #[error(
         "`{method}` has order {order} where the kinetic energy is pᵀM⁻¹p/2 with a constant M, and order {lower_order} for other separable systems; \
@@ -203,63 +189,6 @@ pub enum Error {
         velocity: f64,
         /// The size of the momentum there.
         momentum: f64,
-    },
-
-    /// A system makes kicks and a drift in one pass, and what comes out is not what comes out by its force.
-    #[error(
-        "component {component} of the state is {of_pass} in size after `kick_and_drift` and {expected} by `force`: they have to be \
-         the same to the last bit, in the natural layout and in that of `layout`; leave `kick_and_drift` out, or make it from the same \
-         operations"
-    )]
-    NotTheSameForce {
-        /// The component of the position or the momentum, from 0.
-        component: usize,
-        /// Its size after the pass.
-        of_pass: f64,
-        /// Its size by the force.
-        expected: f64,
-    },
-
-    /// A system makes its force component by component or in rows, and what comes out is not its force.
-    #[error(
-        "component {component} of the force is {local} in size by `local_force` or `row_forces` and {expected} by `force`: they have to be the \
-         same to the last bit; leave them and `LOCAL_FORCE = true`, `ROW_FORCES = true` out, or make them from the same operations"
-    )]
-    NotTheSameLocalForce {
-        /// The component, from 0.
-        component: usize,
-        /// Its size component by component, or in rows; not a number where it was not set.
-        local: f64,
-        /// Its size by the force.
-        expected: f64,
-    },
-
-    /// A system that makes its force in rows asks for the positions in a row that there is not, or sets the forces in it.
-    #[error(
-        "`row_forces` asks for row {row} or sets it, and there are {rows}, from 0: ask and set below `rows.count()` only, or leave it and \
-         `ROW_FORCES = true` out"
-    )]
-    NoSuchRow {
-        /// The row.
-        row: usize,
-        /// How many rows there are.
-        rows: usize,
-    },
-
-    /// A system evaluates velocity and force at once, and one of them is not what comes out alone.
-    #[error(
-        "component {component} of the {what} is {at_once} in size by `slopes` and {alone} alone: they have to be the same to the \
-         last bit; leave `slopes` out, or make it from the same operations"
-    )]
-    NotTheSameSlopes {
-        /// The velocity or the force.
-        what: Quantity,
-        /// The component, from 0.
-        component: usize,
-        /// Its size by [`Hamiltonian::slopes`](crate::Hamiltonian::slopes).
-        at_once: f64,
-        /// Its size alone.
-        alone: f64,
     },
 
     /// The system gives no energy, which the generating function is made of.

@@ -86,8 +86,8 @@ pub use number::{Compensated, Plain, Scalar, Summation, Vector};
 pub use output::{Event, Events, Invariant, Moment, Progress};
 pub use state::State;
 pub use system::{
-    Class, General, Hamiltonian, Separable, SeparableHamiltonian, acceleration, hamiltonian,
-    separable,
+    Class, General, Hamiltonian, Separable, SeparableHamiltonian, System, acceleration,
+    hamiltonian, separable,
 };
 
 /// Doubles side by side.

@@ -5,7 +5,7 @@ mod common;
 use common::systems::{Chain, Driven, GeneralChain, Pendulum, Product, point};
 use common::{Midpoint, StoermerVerlet, distance, run, slopes};
 use symplectic::nalgebra::Vector1;
-use symplectic::{Error, Hamiltonian, Integrator, Method, ProvedFor, State, separable, tableau};
+use symplectic::{Error, Integrator, Method, ProvedFor, State, System, separable, tableau};
 
 tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
 tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
@@ -20,7 +20,7 @@ fn assert_order_two(slopes: &[f64]) {
     );
 }
 
-fn assert_converges<M: Method + ProvedFor<S::Class>, S: Hamiltonian<Vector1<f64>>>(
+fn assert_converges<M: Method + ProvedFor<S::Class>, S: System<Vector1<f64>>>(
     method: M,
     system: impl Fn() -> S,
     start: &Point,
@@ -91,7 +91,7 @@ fn verlet_on_the_oscillator_is_the_matrix_it_should_be() -> Result<(), Error> {
 
 #[test]
 fn a_step_back_undoes_a_step() -> Result<(), Error> {
-    fn defect<M: Method + ProvedFor<S::Class>, S: Hamiltonian<Vector1<f64>>>(
+    fn defect<M: Method + ProvedFor<S::Class>, S: System<Vector1<f64>>>(
         method: M,
         system: S,
     ) -> Result<(f64, f64), Error> {

@@ -2,8 +2,8 @@
 
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::{
-    Error, Integrator, Method, Quantity, Retry, SeparableHamiltonian, State, Summation, Vector,
-    acceleration, composition, separable, tableau,
+    Error, Integrator, Method, Quantity, Retry, Separable, State, Summation, System, Vector,
+    acceleration, composition, separable, solver::FixedPoint, tableau,
 };
 
 tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
@@ -16,12 +16,15 @@ composition! { PositionJump { base: position-verlet, weights: triple_jump(4) } }
 /// A driven oscillator in each component.
 struct Driven;
 
-impl<V: Vector<Scalar = f64>> SeparableHamiltonian<V> for Driven {
-    fn velocity(&self, _time: f64, p: &V, velocity: &mut V) {
+impl<V: Vector<Scalar = f64>> System<V> for Driven {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(&self, _time: f64, _q: &V, p: &V, velocity: &mut V) {
         velocity.as_mut_slice().copy_from_slice(p.as_slice());
     }
 
-    fn force(&self, time: f64, q: &V, force: &mut V) {
+    fn force(&self, time: f64, q: &V, _p: &V, force: &mut V) {
         for (k, (force, q)) in force
             .as_mut_slice()
             .iter_mut()
@@ -36,33 +39,39 @@ impl<V: Vector<Scalar = f64>> SeparableHamiltonian<V> for Driven {
 /// The same, which says that its masses are one; its velocity is the momentum so many times.
 struct Unit<const VELOCITY: i32>;
 
-impl<V: Vector<Scalar = f64>, const VELOCITY: i32> SeparableHamiltonian<V> for Unit<VELOCITY> {
+impl<V: Vector<Scalar = f64>, const VELOCITY: i32> System<V> for Unit<VELOCITY> {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
     const UNIT_MASSES: bool = true;
 
-    fn velocity(&self, _time: f64, p: &V, velocity: &mut V) {
+    fn velocity(&self, _time: f64, _q: &V, p: &V, velocity: &mut V) {
         for (velocity, p) in velocity.as_mut_slice().iter_mut().zip(p.as_slice()) {
             *velocity = f64::from(VELOCITY) * p;
         }
     }
 
-    fn force(&self, time: f64, q: &V, force: &mut V) {
-        SeparableHamiltonian::force(&Driven, time, q, force);
+    fn force(&self, time: f64, q: &V, _p: &V, force: &mut V) {
+        System::force(&Driven, time, q, q, force);
     }
 }
 
 /// The same with masses 1, 2, 3, 1, ….
 struct Heavy;
 
-impl<V: Vector<Scalar = f64>> SeparableHamiltonian<V> for Heavy {
-    fn velocity(&self, _time: f64, p: &V, velocity: &mut V) {
+impl<V: Vector<Scalar = f64>> System<V> for Heavy {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(&self, _time: f64, _q: &V, p: &V, velocity: &mut V) {
         let components = velocity.as_mut_slice().iter_mut().zip(p.as_slice());
         for (k, (velocity, p)) in components.enumerate() {
             *velocity = p / (k % 3 + 1) as f64;
         }
     }
 
-    fn force(&self, time: f64, q: &V, force: &mut V) {
-        SeparableHamiltonian::force(&Driven, time, q, force);
+    fn force(&self, time: f64, q: &V, _p: &V, force: &mut V) {
+        System::force(&Driven, time, q, q, force);
     }
 }
 
@@ -82,7 +91,7 @@ fn same_bits_of<M, S, V, R>(
 ) -> Result<(), Error>
 where
     M: Method,
-    S: SeparableHamiltonian<V>,
+    S: System<V, Class = Separable>,
     V: Vector<Scalar = f64>,
     R: Summation,
 {
@@ -190,7 +199,7 @@ fn a_step_that_fails_among_many_is_found() -> Result<(), Error> {
             |_, q, force| force[0] = q[0].sqrt() - 1.0,
         )
     };
-    fn check<M: Method, S: SeparableHamiltonian<Vector1<f64>>>(
+    fn check<M: Method, S: System<Vector1<f64>, Class = Separable>>(
         method: M,
         well: impl Fn() -> S,
     ) -> Result<(), Error> {

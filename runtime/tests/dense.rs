@@ -4,12 +4,13 @@ mod common;
 
 use common::systems::{Pendulum, Product, point};
 use symplectic::nalgebra::{DVector, SVector, Vector2};
-use symplectic::output::Interpolation;
+use symplectic::solver::{FixedPoint, SimdFixedPoint};
 use symplectic::solver::Solver;
 use symplectic::{
-    Error, Hamiltonian, Integrator, Method, ProvedFor, Scalar, SeparableHamiltonian, State,
-    Summation, Vector, composition, tableau,
+    Error, Integrator, Method, ProvedFor, Scalar, SeparableHamiltonian, State, Summation, Vector,
+    composition, tableau,
 };
+use symplectic::{System, output::Interpolation};
 
 tableau! {
     Midpoint { basis: polynomial(1), nodes: gauss(1) }
@@ -33,12 +34,14 @@ composition! {
 /// H = |p|²/2 − 1/|q|
 struct Kepler;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
-    fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+impl SeparableHamiltonian for Kepler {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;
     }
 
-    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         let square = q.dot(q);
         *force = -q * (square * square.sqrt()).recip();
     }
@@ -52,7 +55,7 @@ fn perihelion() -> State<Vector2<f64>> {
 /// The state after a step of the size `fraction size`, in a hundred steps of Gauss 8.
 fn exact<S, V>(system: S, start: &State<V>, time: f64) -> Result<State<V>, Error>
 where
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector,
 {
     let mut fine = Integrator::new(Gauss8, system, start.clone(), time / 8.0)?;
@@ -73,7 +76,7 @@ fn errors<M, S, V>(
 ) -> Result<[f64; 2], Error>
 where
     M: Method + ProvedFor<S::Class>,
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector<Scalar = f64>,
 {
     let mut integrator = Integrator::new(method, system(), start.clone(), size)?;
@@ -104,7 +107,7 @@ fn shows<M, S, V>(
 ) -> Result<(), Error>
 where
     M: Method + ProvedFor<S::Class>,
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector<Scalar = f64>,
 {
     let runs = [size, size / 2.0].map(|size| {
@@ -132,7 +135,7 @@ where
 fn interpolation<M, S, V>(_method: M, _system: impl Fn() -> S, _start: &State<V>) -> Interpolation
 where
     M: Method + ProvedFor<S::Class>,
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector,
 {
     Integrator::<M, S, V>::INTERPOLATION
@@ -213,7 +216,7 @@ fn ends_are_exact() -> Result<(), Error> {
     fn check<M, V, R, N>(mut integrator: Integrator<M, Kepler, V, R, N>) -> Result<(), Error>
     where
         M: Method,
-        Kepler: Hamiltonian<V>,
+        Kepler: System<V>,
         V: Vector<Scalar = f64>,
         R: Summation,
         N: Solver<V, Kepler>,
@@ -234,7 +237,7 @@ fn ends_are_exact() -> Result<(), Error> {
     fn all<M: Method>(method: M) -> Result<(), Error> {
         check(Integrator::new(method, Kepler, perihelion(), 0.03)?)?;
         check(Integrator::plain(method, Kepler, perihelion(), 0.03)?)?;
-        check(Integrator::new(method, Kepler, perihelion(), 0.03)?.in_lanes())
+        check(Integrator::new(method, Kepler, perihelion(), 0.03)?.with_solver(SimdFixedPoint))
     }
     all(Gauss8)?;
     all(Lobatto3)?;
@@ -262,8 +265,10 @@ fn eight_stages_lose_no_digits() -> Result<(), Error> {
         assert!((state.q[0] - q).abs() < 4.5e-16, "{t}: {} {q}", state.q[0]);
         assert!((state.p[0] - p).abs() < 4.5e-16, "{t}: {} {p}", state.p[0]);
     }
-    let mut one_by_one = Integrator::new(Gauss8, Kepler, perihelion(), 0.2)?;
-    let mut in_lanes = Integrator::new(Gauss8, Kepler, perihelion(), 0.2)?.in_lanes();
+    let mut one_by_one =
+        Integrator::new(Gauss8, Kepler, perihelion(), 0.2)?.with_solver(FixedPoint);
+    let mut in_lanes =
+        Integrator::new(Gauss8, Kepler, perihelion(), 0.2)?.with_solver(SimdFixedPoint);
     one_by_one.step()?;
     in_lanes.step()?;
     for number in 0..=10 {
@@ -323,7 +328,7 @@ fn what_has_no_inside() -> Result<(), Error> {
     integrator.set_state(perihelion())?;
     assert_eq!(integrator.dense().err(), Some(Error::NoStep));
     integrator.step()?;
-    let lanes = integrator.in_lanes();
+    let lanes = integrator.with_solver(SimdFixedPoint);
     assert_eq!(lanes.dense().err(), Some(Error::NoStep));
     Ok(())
 }

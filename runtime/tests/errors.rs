@@ -8,8 +8,8 @@ use common::systems::{Pendulum, Product, point};
 use common::{Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1};
 use symplectic::{
-    Error, Hamiltonian, Integrator, Method, ProvedFor, Quantity, State, Vector, acceleration,
-    hamiltonian, separable,
+    Error, Integrator, Method, ProvedFor, Quantity, Separable, State, System, Vector, acceleration,
+    hamiltonian, separable, solver::FixedPoint,
 };
 
 type Point = Vector1<f64>;
@@ -23,7 +23,7 @@ fn assert_recovers<M, S, V>(
 ) -> Error
 where
     M: Method + ProvedFor<S::Class>,
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector,
 {
     let mut good = Integrator::new(method, system(true), start.clone(), 0.1).expect("good");
@@ -178,17 +178,21 @@ fn evaluations_that_are_not_finite_are_named() {
         }
     }
     struct Split(Broken);
-    impl symplectic::SeparableHamiltonian<Point> for Split {
-        fn velocity(&self, _time: f64, p: &Point, velocity: &mut Point) {
+    impl System<Point> for Split {
+        type Class = Separable;
+        type Solver = FixedPoint;
+
+        fn velocity(&self, _time: f64, _q: &Point, p: &Point, velocity: &mut Point) {
             *velocity = p * self.0.factor(Quantity::Velocity);
         }
-        fn force(&self, _time: f64, q: &Point, force: &mut Point) {
+        fn force(&self, _time: f64, q: &Point, _p: &Point, force: &mut Point) {
             *force = -q * self.0.factor(Quantity::Force);
         }
     }
     struct Whole(Broken);
-    impl Hamiltonian<Point> for Whole {
+    impl System<Point> for Whole {
         type Class = symplectic::General;
+        type Solver = FixedPoint;
         fn velocity(&self, _time: f64, q: &Point, p: &Point, velocity: &mut Point) {
             *velocity = p * (1.0 + q[0] * q[0]) * self.0.factor(Quantity::Velocity);
         }
@@ -315,11 +319,20 @@ fn a_result_resized_by_the_system_is_an_error() {
         good: Cell<bool>,
         to: usize,
     }
-    impl symplectic::SeparableHamiltonian<DVector<f64>> for Resizing {
-        fn velocity(&self, _time: f64, p: &DVector<f64>, velocity: &mut DVector<f64>) {
+    impl System<DVector<f64>> for Resizing {
+        type Class = Separable;
+        type Solver = FixedPoint;
+
+        fn velocity(
+            &self,
+            _time: f64,
+            _q: &DVector<f64>,
+            p: &DVector<f64>,
+            velocity: &mut DVector<f64>,
+        ) {
             velocity.copy_from(p);
         }
-        fn force(&self, _time: f64, q: &DVector<f64>, force: &mut DVector<f64>) {
+        fn force(&self, _time: f64, q: &DVector<f64>, _p: &DVector<f64>, force: &mut DVector<f64>) {
             if self.good.get() {
                 force.copy_from(&-q);
             } else {

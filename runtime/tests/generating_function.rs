@@ -16,7 +16,7 @@ use symplectic::solver::{Coefficient, Coefficients};
 use symplectic::variational::{GeneratingFunction, generating_function};
 use symplectic::{
     Error, General, Hamiltonian, Integrator, Method, Orders, ProvedFor, Quantity, Scalar,
-    SeparableHamiltonian, State, hamiltonian, separable,
+    SeparableHamiltonian, State, System, hamiltonian, separable,
 };
 
 symplectic::tableau! {
@@ -33,17 +33,19 @@ symplectic::tableau! {
 #[derive(Clone, Copy)]
 struct Kepler;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
-    fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+impl SeparableHamiltonian for Kepler {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;
     }
 
-    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         let square = q.dot(q);
         *force = -q * (square * square.sqrt()).recip();
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
         Some(p.dot(p) * T::from_f64(0.5) - q.dot(q).sqrt().recip())
     }
 }
@@ -52,10 +54,11 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
 #[derive(Clone, Copy)]
 struct Degenerate;
 
-impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Degenerate {
+impl Hamiltonian for Degenerate {
     type Class = General;
+    type Vector<T: Scalar> = SVector<T, 1>;
 
-    fn velocity(
+    fn velocity<T: Scalar>(
         &self,
         _time: T,
         q: &SVector<T, 1>,
@@ -65,11 +68,17 @@ impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Degenerate {
         *velocity = *q;
     }
 
-    fn force(&self, _time: T, _q: &SVector<T, 1>, p: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+    fn force<T: Scalar>(
+        &self,
+        _time: T,
+        _q: &SVector<T, 1>,
+        p: &SVector<T, 1>,
+        force: &mut SVector<T, 1>,
+    ) {
         *force = -*p;
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
         Some(q[0] * p[0])
     }
 }
@@ -87,7 +96,7 @@ fn defect<M, S, const N: usize>(
 ) -> Result<f64, Error>
 where
     M: Method + ProvedFor<S::Class>,
-    S: Hamiltonian<SVector<Dual, N>>,
+    S: System<SVector<Dual, N>>,
 {
     let mut worst = 0.0_f64;
     for i in 0..N {
@@ -112,7 +121,7 @@ fn defect_by_differences<M, S, const N: usize>(
 ) -> Result<f64, Error>
 where
     M: Method + ProvedFor<S::Class>,
-    S: Hamiltonian<SVector<f64, N>>,
+    S: System<SVector<f64, N>>,
 {
     const DISTANCE: f64 = 1e-3;
     let (q0, p1) = (SVector::from(q0), SVector::from(p1));
@@ -248,7 +257,7 @@ fn orbit<M, S, const N: usize>(
 ) -> Result<Orbit<N>, Error>
 where
     M: Method + ProvedFor<S::Class>,
-    S: Hamiltonian<SVector<Dual, N>>,
+    S: System<SVector<Dual, N>>,
 {
     let mut start = State::new(0.0, constants(q0), constants(p0));
     start.p[direction].derivative = 1.0;

@@ -3,9 +3,7 @@
 use std::ops::ControlFlow;
 
 use symplectic::nalgebra::{Vector1, Vector2};
-use symplectic::{
-    Error, Event, Hamiltonian, Integrator, Method, Moment, State, acceleration, tableau,
-};
+use symplectic::{Error, Event, Integrator, Method, Moment, State, System, acceleration, tableau};
 
 tableau! {
     Gauss2 { basis: polynomial(2), nodes: gauss(2) }
@@ -18,7 +16,7 @@ type Floor = fn(&Point) -> f64;
 
 const GRAVITY: f64 = 9.8;
 
-fn falling_ball() -> impl Hamiltonian<Vector1<f64>, Class = symplectic::Separable> {
+fn falling_ball() -> impl System<Vector1<f64>, Class = symplectic::Separable> {
     acceleration::<Vector1<f64>, _>(|_, _, acceleration| acceleration[0] = -GRAVITY)
 }
 

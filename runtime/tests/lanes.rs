@@ -3,10 +3,11 @@
 use std::cell::Cell;
 use std::fmt::Debug;
 
+use symplectic::System;
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::simd::{F64x2, F64x4, F64x8, Lanes};
-use symplectic::solver::Solver;
-use symplectic::system::HamiltonianInLanes;
+use symplectic::solver::{FixedPoint, SimdFixedPoint, SimdJacobi, Solver};
+use symplectic::system::SystemInLanes;
 use symplectic::{
     Compensated, Error, General, Hamiltonian, Integrator, Method, Plain, ProvedFor, Quantity,
     Scalar, Separable, SeparableHamiltonian, State, Summation, Vector, tableau,
@@ -27,12 +28,14 @@ tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
 #[derive(Clone, Copy)]
 struct Kepler;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
-    fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+impl SeparableHamiltonian for Kepler {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;
     }
 
-    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         let square = q.dot(q);
         *force = -q * (square * square.sqrt()).recip();
     }
@@ -44,8 +47,9 @@ struct Coupled;
 
 macro_rules! coupled {
     ($V:ty, $($parameter:tt)*) => {
-        impl<$($parameter)*> Hamiltonian<$V> for Coupled {
+        impl<$($parameter)*> System<$V> for Coupled {
             type Class = General;
+            type Solver = FixedPoint;
 
             fn velocity(&self, _time: T, q: &$V, p: &$V, velocity: &mut $V) {
                 for k in 0..q.len() {
@@ -72,12 +76,14 @@ fn compare<M, S, V>(
     h: f64,
 ) -> Result<(), Error>
 where
-    M: Method + ProvedFor<<S as Hamiltonian<V>>::Class>,
-    S: HamiltonianInLanes<V>,
+    M: Method + ProvedFor<<S as System<V>>::Class>,
+    S: SystemInLanes<V>,
     V: Vector<Scalar = f64> + Debug,
 {
-    let mut one_by_one = Integrator::new(method, system(), start.clone(), h)?;
-    let mut in_lanes = Integrator::new(method, system(), start.clone(), h)?.in_lanes();
+    let mut one_by_one =
+        Integrator::new(method, system(), start.clone(), h)?.with_solver(FixedPoint);
+    let mut in_lanes =
+        Integrator::new(method, system(), start.clone(), h)?.with_solver(SimdFixedPoint);
     for step in 0..100 {
         let expected = one_by_one.step()?;
         assert_eq!(in_lanes.step()?, expected, "{} step {step}", M::NAME);
@@ -89,8 +95,10 @@ where
         "{}",
         M::NAME
     );
-    let mut one_by_one = Integrator::plain(method, system(), start.clone(), h)?;
-    let mut in_lanes = Integrator::plain(method, system(), start.clone(), h)?.in_lanes();
+    let mut one_by_one =
+        Integrator::plain(method, system(), start.clone(), h)?.with_solver(FixedPoint);
+    let mut in_lanes =
+        Integrator::plain(method, system(), start.clone(), h)?.with_solver(SimdFixedPoint);
     for _ in 0..100 {
         assert_eq!(in_lanes.step()?, one_by_one.step()?, "{} plain", M::NAME);
     }
@@ -180,8 +188,10 @@ fn functions_are_taken_lane_by_lane() {
 fn methods_with_stages_at_the_ends_agree_up_to_rounding() -> Result<(), Error> {
     fn check<M: Method>(method: M) -> Result<(), Error> {
         let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
-        let mut one_by_one = Integrator::new(method, Kepler, start.clone(), 0.03)?;
-        let mut in_lanes = Integrator::new(method, Kepler, start, 0.03)?.in_lanes();
+        let mut one_by_one =
+            Integrator::new(method, Kepler, start.clone(), 0.03)?.with_solver(FixedPoint);
+        let mut in_lanes =
+            Integrator::new(method, Kepler, start, 0.03)?.with_solver(SimdFixedPoint);
         for _ in 0..100 {
             let (expected, found) = (one_by_one.step()?, in_lanes.step()?);
             // Ten units in the last place, growing with the steps as errors on a Kepler orbit do.
@@ -198,12 +208,14 @@ fn methods_with_stages_at_the_ends_agree_up_to_rounding() -> Result<(), Error> {
 /// A force that is not finite beyond q = 1.
 struct Wall;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for Wall {
-    fn velocity(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+impl SeparableHamiltonian for Wall {
+    type Vector<T: Scalar> = SVector<T, 1>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
         *velocity = *p;
     }
 
-    fn force(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
         force[0] = (T::one() - q[0]).ln();
     }
 }
@@ -211,20 +223,22 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for Wall {
 /// [`Wall`], said to have masses of one.
 struct LightWall;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for LightWall {
+impl SeparableHamiltonian for LightWall {
+    type Vector<T: Scalar> = SVector<T, 1>;
+
     const UNIT_MASSES: bool = true;
 
-    fn velocity(&self, time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+    fn velocity<T: Scalar>(&self, time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
         SeparableHamiltonian::velocity(&Wall, time, p, velocity);
     }
 
-    fn force(&self, time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+    fn force<T: Scalar>(&self, time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
         SeparableHamiltonian::force(&Wall, time, q, force);
     }
 }
 
 /// The third stage of a step of 0.15 from 0.9 with the velocity 1 is beyond 1, the second is not.
-fn third_force_is_named<S: Hamiltonian<Vector1<f64>>, N: Solver<Vector1<f64>, S>>(
+fn third_force_is_named<S: System<Vector1<f64>>, N: Solver<Vector1<f64>, S>>(
     mut integrator: Integrator<Gauss3, S, Vector1<f64>, Compensated, N>,
 ) {
     let start = integrator.state().clone();
@@ -247,12 +261,12 @@ fn third_force_is_named<S: Hamiltonian<Vector1<f64>>, N: Solver<Vector1<f64>, S>
 fn what_is_not_finite_is_named_with_its_stage() -> Result<(), Error> {
     let start = || State::new(0.0, SVector::from([0.9]), SVector::from([1.0]));
     third_force_is_named(Integrator::new(Gauss3, Wall, start(), 0.15)?);
-    third_force_is_named(Integrator::new(Gauss3, Wall, start(), 0.15)?.in_lanes());
-    third_force_is_named(Integrator::new(Gauss3, Wall, start(), 0.15)?.in_second_order_lanes()?);
-    third_force_is_named(Integrator::new(Gauss3, LightWall, start(), 0.15)?.in_lanes());
+    third_force_is_named(Integrator::new(Gauss3, Wall, start(), 0.15)?.with_solver(SimdFixedPoint));
+    third_force_is_named(Integrator::new(Gauss3, Wall, start(), 0.15)?);
     third_force_is_named(
-        Integrator::new(Gauss3, LightWall, start(), 0.15)?.in_second_order_lanes()?,
+        Integrator::new(Gauss3, LightWall, start(), 0.15)?.with_solver(SimdFixedPoint),
     );
+    third_force_is_named(Integrator::new(Gauss3, LightWall, start(), 0.15)?);
     Ok(())
 }
 
@@ -260,7 +274,7 @@ fn what_is_not_finite_is_named_with_its_stage() -> Result<(), Error> {
 fn without_momentum_stages<M, S>(method: M, system: S) -> Result<(), Error>
 where
     M: Method,
-    S: HamiltonianInLanes<Vector2<f64>> + Hamiltonian<Vector2<f64>, Class = Separable> + Copy,
+    S: SystemInLanes<Vector2<f64>> + System<Vector2<f64>, Class = Separable> + Copy,
 {
     without_momentum_stages_by::<Compensated, M, S>(method, system)?;
     without_momentum_stages_by::<Plain, M, S>(method, system)
@@ -270,12 +284,12 @@ where
 fn without_momentum_stages_by<R: Summation, M, S>(method: M, system: S) -> Result<(), Error>
 where
     M: Method,
-    S: HamiltonianInLanes<Vector2<f64>> + Hamiltonian<Vector2<f64>, Class = Separable> + Copy,
+    S: SystemInLanes<Vector2<f64>> + System<Vector2<f64>, Class = Separable> + Copy,
 {
     let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
     let made = || Integrator::<_, _, _, R>::with_summation(method, system, start.clone(), 0.03);
-    let mut whole = made()?.in_lanes();
-    let mut half = made()?.in_second_order_lanes()?;
+    let mut whole = made()?.with_solver(SimdFixedPoint);
+    let mut half = made()?;
     for _ in 0..100 {
         let (expected, found) = (whole.step()?, half.step()?);
         assert!((found.q - expected.q).norm() < 1e-12, "{}", M::NAME);
@@ -312,10 +326,13 @@ fn at_once<R: Summation, M: Method + ProvedFor<General>, V>(
 ) -> Result<(), Error>
 where
     V: Vector<Scalar = f64> + Debug,
-    Coupled: HamiltonianInLanes<V> + Hamiltonian<V, Class = General>,
+    Coupled: SystemInLanes<V> + System<V, Class = General>,
 {
     let made = || Integrator::<_, _, _, R>::with_summation(method, Coupled, start.clone(), 0.05);
-    let (mut in_turn, mut at_once) = (made()?.in_lanes(), made()?.at_once_in_lanes());
+    let (mut in_turn, mut at_once) = (
+        made()?.with_solver(SimdFixedPoint),
+        made()?.with_solver(SimdJacobi),
+    );
     let check = |expected: &State<V>, found: &State<V>| {
         for (expected, found) in [(&expected.q, &found.q), (&expected.p, &found.p)] {
             for (expected, found) in expected.as_slice().iter().zip(found.as_slice()) {
@@ -333,7 +350,7 @@ where
         );
     }
     // Steps by themselves and in blocks.
-    let mut block = made()?.at_once_in_lanes();
+    let mut block = made()?.with_solver(SimdJacobi);
     assert_eq!(block.take_steps(100)?, at_once.state(), "{}", M::NAME);
     assert_eq!(block.statistics(), at_once.statistics(), "{}", M::NAME);
     Ok(())
@@ -365,8 +382,9 @@ fn halves_at_once_are_those_in_turn_up_to_rounding() -> Result<(), Error> {
 #[test]
 fn halves_of_separable_systems_are_taken_in_turn() -> Result<(), Error> {
     let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
-    let mut in_turn = Integrator::new(Gauss3, Kepler, start.clone(), 0.03)?.in_lanes();
-    let mut at_once = Integrator::new(Gauss3, Kepler, start, 0.03)?.at_once_in_lanes();
+    let mut in_turn =
+        Integrator::new(Gauss3, Kepler, start.clone(), 0.03)?.with_solver(SimdFixedPoint);
+    let mut at_once = Integrator::new(Gauss3, Kepler, start, 0.03)?.with_solver(SimdJacobi);
     assert_eq!(at_once.take_steps(100)?, in_turn.take_steps(100)?);
     assert_eq!(at_once.statistics(), in_turn.statistics());
     Ok(())
@@ -378,30 +396,45 @@ struct Counting<'a, S> {
     calls: &'a Cell<u64>,
 }
 
-impl<T: Scalar> Hamiltonian<SVector<T, 3>> for Counting<'_, Coupled> {
+impl Hamiltonian for Counting<'_, Coupled> {
     type Class = General;
+    type Vector<T: Scalar> = SVector<T, 3>;
 
-    fn velocity(&self, t: T, q: &SVector<T, 3>, p: &SVector<T, 3>, velocity: &mut SVector<T, 3>) {
+    fn velocity<T: Scalar>(
+        &self,
+        t: T,
+        q: &SVector<T, 3>,
+        p: &SVector<T, 3>,
+        velocity: &mut SVector<T, 3>,
+    ) {
         self.calls.set(self.calls.get() + 1);
-        self.system.velocity(t, q, p, velocity);
+        System::velocity(&self.system, t, q, p, velocity);
     }
 
-    fn force(&self, t: T, q: &SVector<T, 3>, p: &SVector<T, 3>, force: &mut SVector<T, 3>) {
+    fn force<T: Scalar>(
+        &self,
+        t: T,
+        q: &SVector<T, 3>,
+        p: &SVector<T, 3>,
+        force: &mut SVector<T, 3>,
+    ) {
         self.calls.set(self.calls.get() + 1);
-        self.system.force(t, q, p, force);
+        System::force(&self.system, t, q, p, force);
     }
 }
 
 /// Kepler's problem.
 struct CountingKepler<'a>(&'a Cell<u64>);
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for CountingKepler<'_> {
-    fn velocity(&self, time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+impl SeparableHamiltonian for CountingKepler<'_> {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn velocity<T: Scalar>(&self, time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         self.0.set(self.0.get() + 1);
         SeparableHamiltonian::velocity(&Kepler, time, p, velocity);
     }
 
-    fn force(&self, time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(&self, time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         self.0.set(self.0.get() + 1);
         SeparableHamiltonian::force(&Kepler, time, q, force);
     }
@@ -424,7 +457,7 @@ fn evaluations_are_counted_for_every_stage() -> Result<(), Error> {
     ) -> Result<(), Error>
     where
         M: Method + ProvedFor<S::Class>,
-        S: Hamiltonian<V>,
+        S: System<V>,
         V: Vector,
         R: Summation,
         N: Solver<V, S>,
@@ -445,16 +478,16 @@ fn evaluations_are_counted_for_every_stage() -> Result<(), Error> {
             let system = Counting { system, calls };
             Integrator::new(method, system, start.clone(), 0.05)
         };
-        check(calls, stages, 0, coupled()?.in_lanes())?;
-        check(calls, stages, 0, coupled()?.at_once_in_lanes())?;
+        check(calls, stages, 0, coupled()?.with_solver(SimdFixedPoint))?;
+        check(calls, stages, 0, coupled()?.with_solver(SimdJacobi))?;
         let system = Counting { system, calls };
         let plain = Integrator::plain(method, system, start.clone(), -0.05)?;
-        check(calls, stages, 0, plain.at_once_in_lanes())?;
+        check(calls, stages, 0, plain.with_solver(SimdJacobi))?;
         let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
         let kepler = || Integrator::new(method, CountingKepler(calls), start.clone(), 0.03);
-        check(calls, stages, 0, kepler()?.in_lanes())?;
+        check(calls, stages, 0, kepler()?.with_solver(SimdFixedPoint))?;
         let plain = || Integrator::plain(method, CountingKepler(calls), start.clone(), 0.03);
-        check(calls, stages, 0, plain()?.in_lanes())
+        check(calls, stages, 0, plain()?.with_solver(SimdFixedPoint))
     }
     all(Gauss3, 3)?;
     all(Gauss8, 8)?;
@@ -464,9 +497,9 @@ fn evaluations_are_counted_for_every_stage() -> Result<(), Error> {
     let calls = &Cell::new(0);
     let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
     let half = Integrator::new(Gauss3, CountingKepler(calls), start.clone(), 0.03)?;
-    check(calls, 3, 2, half.in_second_order_lanes()?)?;
+    check(calls, 3, 2, half)?;
     let half = Integrator::plain(Gauss3, CountingKepler(calls), start, 0.03)?;
-    check(calls, 3, 1, half.in_second_order_lanes()?)
+    check(calls, 3, 1, half)
 }
 
 /// Lanes at once that are not finite are named too.
@@ -475,20 +508,33 @@ fn what_is_not_finite_at_once_is_named_with_its_stage() -> Result<(), Error> {
     /// H = p²/2 + q²/2, beyond q = 1 nothing.
     struct Disc;
 
-    impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Disc {
+    impl Hamiltonian for Disc {
         type Class = General;
+        type Vector<T: Scalar> = SVector<T, 1>;
 
-        fn velocity(&self, _time: T, _q: &SVector<T, 1>, p: &SVector<T, 1>, v: &mut SVector<T, 1>) {
+        fn velocity<T: Scalar>(
+            &self,
+            _time: T,
+            _q: &SVector<T, 1>,
+            p: &SVector<T, 1>,
+            v: &mut SVector<T, 1>,
+        ) {
             *v = *p;
         }
 
-        fn force(&self, _time: T, q: &SVector<T, 1>, _p: &SVector<T, 1>, f: &mut SVector<T, 1>) {
+        fn force<T: Scalar>(
+            &self,
+            _time: T,
+            q: &SVector<T, 1>,
+            _p: &SVector<T, 1>,
+            f: &mut SVector<T, 1>,
+        ) {
             f[0] = -q[0] + T::from_f64(0.0) * (T::one() - q[0]).ln();
         }
     }
 
     let start = State::new(0.0, SVector::from([0.9]), SVector::from([1.0]));
-    third_force_is_named(Integrator::new(Gauss3, Disc, start, 0.15)?.at_once_in_lanes());
+    third_force_is_named(Integrator::new(Gauss3, Disc, start, 0.15)?.with_solver(SimdJacobi));
     Ok(())
 }
 
@@ -496,13 +542,15 @@ fn what_is_not_finite_at_once_is_named_with_its_stage() -> Result<(), Error> {
 #[derive(Clone, Copy)]
 struct Heavy;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Heavy {
-    fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+impl SeparableHamiltonian for Heavy {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         velocity[0] = p[0] / T::from_f64(2.0);
         velocity[1] = p[1] / T::from_f64(3.0);
     }
 
-    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         *force = -q;
     }
 }
@@ -518,14 +566,16 @@ fn second_order_systems_may_have_masses() -> Result<(), Error> {
 #[derive(Clone, Copy)]
 struct UnitKepler;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for UnitKepler {
+impl SeparableHamiltonian for UnitKepler {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
     const UNIT_MASSES: bool = true;
 
-    fn velocity(&self, time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+    fn velocity<T: Scalar>(&self, time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         SeparableHamiltonian::velocity(&Kepler, time, p, velocity);
     }
 
-    fn force(&self, time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(&self, time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         SeparableHamiltonian::force(&Kepler, time, q, force);
     }
 }
@@ -541,8 +591,8 @@ fn unit_masses_change_no_bit_of_second_order_lanes() -> Result<(), Error> {
         let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));
         let asked = Integrator::<_, _, _, R>::with_summation(method, Kepler, start.clone(), 0.03)?;
         let known = Integrator::<_, _, _, R>::with_summation(method, UnitKepler, start, 0.03)?;
-        let mut asked = asked.in_second_order_lanes()?;
-        let mut known = known.in_second_order_lanes()?;
+        let mut asked = asked;
+        let mut known = known;
         assert_eq!(known.take_steps(300)?, asked.take_steps(300)?);
         assert_eq!(known.statistics(), asked.statistics());
         let time = known.state().time - 0.01;
@@ -558,12 +608,14 @@ fn unit_masses_change_no_bit_of_second_order_lanes() -> Result<(), Error> {
 #[derive(Clone, Copy)]
 struct Relativistic;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Relativistic {
-    fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+impl SeparableHamiltonian for Relativistic {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = p / (T::one() + p.dot(p)).sqrt();
     }
 
-    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         *force = -q;
     }
 }
@@ -572,38 +624,84 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Relativistic {
 #[derive(Clone, Copy)]
 struct Rocket;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Rocket {
-    fn velocity(&self, time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+impl SeparableHamiltonian for Rocket {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn velocity<T: Scalar>(&self, time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = p / (T::from_f64(2.0) - time);
     }
 
-    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         *force = -q;
     }
 }
 
+/// Velocities that are not linear are taken with the momenta of the stages.
 #[test]
-fn other_velocities_are_refused() -> Result<(), Error> {
-    fn refused<S: HamiltonianInLanes<Vector2<f64>>>(system: S) -> Result<Error, Error> {
+fn other_velocities_need_momentum_stages() -> Result<(), Error> {
+    fn check<S: SystemInLanes<Vector2<f64>> + System<Vector2<f64>, Class = Separable> + Copy>(
+        system: S,
+    ) -> Result<(), Error> {
         // At rest they are linear.
         let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::zeros());
-        let integrator = Integrator::new(Gauss2, system, start, 0.1)?;
-        Ok(integrator.in_second_order_lanes().expect_err("no masses"))
+        let made = || Integrator::new(Gauss3, system, start.clone(), 0.05);
+        let (mut automatic, mut whole) = (made()?, made()?.with_solver(SimdFixedPoint));
+        assert_eq!(automatic.take_steps(30)?, whole.take_steps(30)?);
+        assert_eq!(automatic.statistics(), whole.statistics());
+        let time = whole.state().time - 0.02;
+        assert_eq!(automatic.dense()?.state(time)?, whole.dense()?.state(time)?);
+        Ok(())
     }
-    let error = refused(Relativistic)?;
-    assert!(
-        matches!(error, Error::NotSecondOrder { component: 0, .. }),
-        "{error:?}"
-    );
-    let (velocity, linear) = (0.75, 0.375);
-    let component = 0;
+    check(Relativistic)?;
+    check(Rocket)
+}
+
+/// `H = (q² + 1)(p² + 1)/2` for every scalar.
+#[derive(Clone, Copy)]
+struct Product;
+
+impl Hamiltonian for Product {
+    type Class = General;
+    type Vector<T: Scalar> = SVector<T, 1>;
+
+    fn velocity<T: Scalar>(
+        &self,
+        _time: T,
+        q: &SVector<T, 1>,
+        p: &SVector<T, 1>,
+        velocity: &mut SVector<T, 1>,
+    ) {
+        velocity[0] = p[0] * (q[0] * q[0] + T::one());
+    }
+
+    fn force<T: Scalar>(
+        &self,
+        _time: T,
+        q: &SVector<T, 1>,
+        p: &SVector<T, 1>,
+        force: &mut SVector<T, 1>,
+    ) {
+        force[0] = -q[0] * (p[0] * p[0] + T::one());
+    }
+}
+
+/// What is not separable is taken at once, with the bits of [`SimdJacobi`]; other scalars one stage after another.
+#[test]
+fn the_types_choose_the_solver() -> Result<(), Error> {
+    let start = State::new(0.0, Vector1::new(0.5), Vector1::new(1.0));
+    let made = || Integrator::new(Gauss3, Product, start.clone(), 0.05);
+    let (mut automatic, mut at_once) = (made()?, made()?.with_solver(SimdJacobi));
+    assert_eq!(automatic.take_steps(100)?, at_once.take_steps(100)?);
+    assert_eq!(automatic.statistics(), at_once.statistics());
+
+    let start = State::new(0.0, Vector1::new(0.5_f32), Vector1::new(1.0));
+    let made = || Integrator::new(Gauss3, Product, start.clone(), 0.05);
+    let (mut automatic, mut one_by_one) = (made()?, made()?.with_solver(FixedPoint));
+    assert_eq!(automatic.take_steps(100)?, one_by_one.take_steps(100)?);
+    let time = one_by_one.state().time - 0.02;
     assert_eq!(
-        refused(Rocket)?,
-        Error::NotSecondOrder {
-            component,
-            velocity,
-            linear
-        }
+        automatic.dense()?.state(time)?,
+        one_by_one.dense()?.state(time)?
     );
     Ok(())
 }
@@ -624,16 +722,16 @@ impl<const UNIT_MASSES: bool> Resizing<UNIT_MASSES> {
     }
 }
 
-impl<T: Scalar, const UNIT_MASSES: bool> SeparableHamiltonian<DVector<T>>
-    for Resizing<UNIT_MASSES>
-{
+impl<const UNIT_MASSES: bool> SeparableHamiltonian for Resizing<UNIT_MASSES> {
+    type Vector<T: Scalar> = DVector<T>;
+
     const UNIT_MASSES: bool = UNIT_MASSES;
 
-    fn velocity(&self, _time: T, p: &DVector<T>, velocity: &mut DVector<T>) {
+    fn velocity<T: Scalar>(&self, _time: T, p: &DVector<T>, velocity: &mut DVector<T>) {
         self.write(Quantity::Velocity, p.clone(), velocity);
     }
 
-    fn force(&self, _time: T, q: &DVector<T>, force: &mut DVector<T>) {
+    fn force<T: Scalar>(&self, _time: T, q: &DVector<T>, force: &mut DVector<T>) {
         self.write(Quantity::Force, -q, force);
     }
 }
@@ -683,12 +781,12 @@ fn a_resized_result_is_an_error_in_lanes() -> Result<(), Error> {
         }
         Ok(())
     }
-    check::<false, Plain, _>(|made| Ok(made.in_lanes()))?;
-    check::<false, Compensated, _>(|made| Ok(made.in_lanes()))?;
-    check::<true, Plain, _>(|made| Ok(made.in_lanes()))?;
-    check::<true, Compensated, _>(|made| Ok(made.in_lanes()))?;
-    check::<false, Plain, _>(Integrator::in_second_order_lanes)?;
-    check::<false, Compensated, _>(Integrator::in_second_order_lanes)?;
-    check::<true, Plain, _>(Integrator::in_second_order_lanes)?;
-    check::<true, Compensated, _>(Integrator::in_second_order_lanes)
+    check::<false, Plain, _>(|made| Ok(made.with_solver(SimdFixedPoint)))?;
+    check::<false, Compensated, _>(|made| Ok(made.with_solver(SimdFixedPoint)))?;
+    check::<true, Plain, _>(|made| Ok(made.with_solver(SimdFixedPoint)))?;
+    check::<true, Compensated, _>(|made| Ok(made.with_solver(SimdFixedPoint)))?;
+    check::<false, Plain, _>(Ok)?;
+    check::<false, Compensated, _>(Ok)?;
+    check::<true, Plain, _>(Ok)?;
+    check::<true, Compensated, _>(Ok)
 }

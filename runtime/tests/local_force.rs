@@ -1,15 +1,11 @@
 //! Forces component by component: second-order stages along a chain.
 
 use std::cell::Cell;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::rc::Rc;
 
-use symplectic::emitted::copy;
+use symplectic::System;
 use symplectic::nalgebra::DVector;
-use symplectic::simd::F64x8;
-use symplectic::system::{
-    Bonds, Chain, Components, HamiltonianInLanes, MOST_ROW_STAGES, StageRows,
-};
+use symplectic::solver::Automatic;
+use symplectic::system::{Bonds, Chain, Components, OverEveryScalar, StageRows};
 use symplectic::{
     Compensated, Error, Hamiltonian, Integrator, Method, Plain, Scalar, Separable,
     SeparableHamiltonian, State, Statistics, Summation, Vector, tableau,
@@ -45,35 +41,49 @@ impl Bonds for Breaking {
 /// What its force does not show: that it is local, or how it is.
 struct Global<S>(S);
 
-impl<V: Vector, S: SeparableHamiltonian<V>> SeparableHamiltonian<V> for Global<S> {
+impl<V: Vector, B: Bonds> OverEveryScalar<V> for Global<Chain<B>> {
+    type Doubles = V::With<f64>;
+}
+
+impl<V: Vector, B: Bonds> System<V> for Global<Chain<B>> {
+    type Class = Separable;
+    type Solver = Automatic;
+
     const UNIT_MASSES: bool = true;
 
-    fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V) {
-        self.0.velocity(time, p, velocity);
+    fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
+        self.0.velocity(time, q, p, velocity);
     }
 
-    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
-        self.0.force(time, q, force);
+    fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
+        self.0.force(time, q, p, force);
     }
 }
 
 /// What makes its force component by component, and not in rows.
 struct ByComponents<S>(S);
 
-impl<V: Vector, S: SeparableHamiltonian<V>> SeparableHamiltonian<V> for ByComponents<S> {
+impl<V: Vector, B: Bonds> OverEveryScalar<V> for ByComponents<Chain<B>> {
+    type Doubles = V::With<f64>;
+}
+
+impl<V: Vector, B: Bonds> System<V> for ByComponents<Chain<B>> {
+    type Class = Separable;
+    type Solver = Automatic;
+
     const UNIT_MASSES: bool = true;
     const LOCAL_FORCE: bool = true;
 
-    fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V) {
-        self.0.velocity(time, p, velocity);
+    fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
+        self.0.velocity(time, q, p, velocity);
     }
 
-    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
-        self.0.force(time, q, force);
+    fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
+        self.0.force(time, q, p, force);
     }
 
     fn local_force(&self, time: V::Scalar, components: &mut impl Components<V::Scalar>) {
-        self.0.local_force(time, components);
+        System::<V>::local_force(&self.0, time, components);
     }
 }
 
@@ -83,26 +93,33 @@ struct InRows<'a, S> {
     made: &'a Cell<u64>,
 }
 
-impl<V: Vector, S: SeparableHamiltonian<V>> SeparableHamiltonian<V> for InRows<'_, S> {
+impl<V: Vector, B: Bonds> OverEveryScalar<V> for InRows<'_, Chain<B>> {
+    type Doubles = V::With<f64>;
+}
+
+impl<V: Vector, B: Bonds> System<V> for InRows<'_, Chain<B>> {
+    type Class = Separable;
+    type Solver = Automatic;
+
     const UNIT_MASSES: bool = true;
     const LOCAL_FORCE: bool = true;
     const ROW_FORCES: bool = true;
 
-    fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V) {
-        self.system.velocity(time, p, velocity);
+    fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
+        self.system.velocity(time, q, p, velocity);
     }
 
-    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
-        self.system.force(time, q, force);
+    fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
+        self.system.force(time, q, p, force);
     }
 
     fn local_force(&self, time: V::Scalar, components: &mut impl Components<V::Scalar>) {
-        self.system.local_force(time, components);
+        System::<V>::local_force(&self.system, time, components);
     }
 
     fn row_forces(&self, rows: &mut impl StageRows) {
         self.made.set(self.made.get() + 1);
-        self.system.row_forces(rows);
+        System::<V>::row_forces(&self.system, rows);
     }
 }
 
@@ -113,22 +130,29 @@ struct Counted<'a, S> {
     local_forces: &'a Cell<u64>,
 }
 
-impl<V: Vector, S: SeparableHamiltonian<V>> SeparableHamiltonian<V> for Counted<'_, S> {
+impl<V: Vector, B: Bonds> OverEveryScalar<V> for Counted<'_, Chain<B>> {
+    type Doubles = V::With<f64>;
+}
+
+impl<V: Vector, B: Bonds> System<V> for Counted<'_, Chain<B>> {
+    type Class = Separable;
+    type Solver = Automatic;
+
     const UNIT_MASSES: bool = true;
     const LOCAL_FORCE: bool = true;
 
-    fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V) {
-        self.system.velocity(time, p, velocity);
+    fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
+        self.system.velocity(time, q, p, velocity);
     }
 
-    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
+    fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
         self.forces.set(self.forces.get() + 1);
-        self.system.force(time, q, force);
+        self.system.force(time, q, p, force);
     }
 
     fn local_force(&self, time: V::Scalar, components: &mut impl Components<V::Scalar>) {
         self.local_forces.set(self.local_forces.get() + 1);
-        self.system.local_force(time, components);
+        System::<V>::local_force(&self.system, time, components);
     }
 }
 
@@ -147,7 +171,7 @@ fn start(n: usize) -> State<DVector<f64>> {
 
 const STEP_SIZE: f64 = 0.2;
 
-/// The state after 25 steps in second-order lanes, and what they took.
+/// The state after 25 steps, and what they took.
 fn run<M: Method, S, R: Summation>(
     method: M,
     system: S,
@@ -156,11 +180,10 @@ fn run<M: Method, S, R: Summation>(
     set: impl Fn(&mut Integrator<M, S, DVector<f64>, R>) -> Result<(), Error>,
 ) -> Result<(State<DVector<f64>>, Statistics), Error>
 where
-    S: HamiltonianInLanes<DVector<f64>> + Hamiltonian<DVector<f64>, Class = Separable>,
+    S: System<DVector<f64>, Class = Separable>,
 {
     let mut integrator = Integrator::with_summation(method, system, start(n), step_size)?;
     set(&mut integrator)?;
-    let mut integrator = integrator.in_second_order_lanes()?;
     let end = integrator.take_steps(25)?.clone();
     Ok((end, *integrator.statistics()))
 }
@@ -191,7 +214,7 @@ macro_rules! compare {
 fn stages_along_the_components_are_those_of_the_force() -> Result<(), Error> {
     fn plain<M: Method, S>(made: &mut Integrator<M, S, DVector<f64>, Plain>) -> Result<(), Error>
     where
-        S: HamiltonianInLanes<DVector<f64>> + Hamiltonian<DVector<f64>, Class = Separable>,
+        S: System<DVector<f64>, Class = Separable>,
     {
         made.set_tolerance(1e-14)
     }
@@ -199,7 +222,7 @@ fn stages_along_the_components_are_those_of_the_force() -> Result<(), Error> {
     where
         M: Method,
         V: Vector,
-        S: Hamiltonian<V>,
+        S: System<V>,
         R: Summation,
     {
         Ok(())
@@ -259,7 +282,7 @@ fn rows_are_made_where_components_fill_them() -> Result<(), Error> {
         (rows(Lobatto3, 8)?, true),
         (rows(Gauss7, 40)?, true),
         (rows(Gauss2, 17)?, false),
-        // Eight stages fill the lanes; that they are looked at when the solver is made counts one.
+        // Eight stages fill the lanes.
         (rows(Gauss8, 16)?, false),
     ] {
         assert_eq!(made > 25, expected, "{made}");
@@ -271,10 +294,10 @@ fn rows_are_made_where_components_fill_them() -> Result<(), Error> {
 fn steps_may_change_and_have_states_inside() -> Result<(), Error> {
     fn check<M: Method, S, R: Summation>(method: M, system: S, n: usize) -> Result<Vec<f64>, Error>
     where
-        S: HamiltonianInLanes<DVector<f64>> + Hamiltonian<DVector<f64>, Class = Separable>,
+        S: System<DVector<f64>, Class = Separable>,
     {
-        let integrator = Integrator::<_, _, _, R>::with_summation(method, system, start(n), 0.2)?;
-        let mut integrator = integrator.in_second_order_lanes()?;
+        let mut integrator =
+            Integrator::<_, _, _, R>::with_summation(method, system, start(n), 0.2)?;
         let mut seen = Vec::new();
         for step_size in [0.2, 0.15, -0.1] {
             integrator.set_step_size(step_size)?;
@@ -322,9 +345,8 @@ fn counts<M: Method, R: Summation>(method: M, step_size: f64) -> Result<(u64, u6
         forces,
         local_forces,
     };
-    let integrator =
+    let mut integrator =
         Integrator::<_, _, _, R>::with_summation(method, counted, start(20), step_size)?;
-    let mut integrator = integrator.in_second_order_lanes()?;
     // That of the first step comes from no step before.
     integrator.step()?;
     let before = (forces.get(), local_forces.get(), *integrator.statistics());
@@ -381,12 +403,11 @@ fn failure<M: Method, S>(
     iterations: u32,
 ) -> (Error, State<DVector<f64>>)
 where
-    S: HamiltonianInLanes<DVector<f64>> + Hamiltonian<DVector<f64>, Class = Separable>,
+    S: System<DVector<f64>, Class = Separable>,
 {
     let mut start = start(n);
     start.p *= 3.0;
-    let integrator = Integrator::new(method, system, start, STEP_SIZE).expect("a start");
-    let mut integrator = integrator.in_second_order_lanes().expect("second order");
+    let mut integrator = Integrator::new(method, system, start, STEP_SIZE).expect("a start");
     integrator.step().expect("a step");
     integrator.set_max_iterations(iterations);
     let error = loop {
@@ -448,11 +469,11 @@ impl Bonds for Bounded {
 /// The force at the last stage of Lobatto 3 is in no stage: it shows in the result only.
 #[test]
 fn what_shows_in_the_result_only_is_named_too() {
-    fn fault<S: HamiltonianInLanes<DVector<f64>>>(system: S, step_size: f64) -> Error {
+    fn fault<S: System<DVector<f64>, Class = Separable>>(system: S, step_size: f64) -> Error {
         let mut start = State::new(0.0, DVector::zeros(8), DVector::zeros(8));
         start.p[0] = 3.0;
-        let integrator = Integrator::plain(Lobatto3, system, start, step_size).expect("a start");
-        let mut integrator = integrator.in_second_order_lanes().expect("second order");
+        let mut integrator =
+            Integrator::plain(Lobatto3, system, start, step_size).expect("a start");
         integrator.take_steps(20).expect_err("out of bounds")
     }
     for step_size in [0.04, 0.1, 0.2, 0.35, 0.54, 0.66] {
@@ -460,225 +481,6 @@ fn what_shows_in_the_result_only_is_named_too() {
         let in_rows = fault(chain(), step_size);
         assert!(matches!(in_rows, Error::NonFinite { .. }), "{in_rows:?}");
         assert_eq!(in_rows, fault(ByComponents(chain()), step_size));
-    }
-}
-
-/// Springs, with faults in the force component by component.
-#[derive(Clone, Copy, PartialEq)]
-enum Faulty {
-    None,
-    OtherBits,
-    LastMissing,
-    AsksTooLate,
-    AsksBeyond,
-    NotWritten,
-    SetTwice,
-    SimdFixedPoint,
-}
-
-struct FaultySprings(Faulty);
-
-impl<V: Vector> SeparableHamiltonian<V> for FaultySprings {
-    const UNIT_MASSES: bool = true;
-    const LOCAL_FORCE: bool = true;
-
-    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
-        copy(velocity, p);
-    }
-
-    fn force(&self, _time: V::Scalar, q: &V, force: &mut V) {
-        for (force, &q) in force.as_mut_slice().iter_mut().zip(q.as_slice()) {
-            *force = q * V::Scalar::from_f64(-3.0);
-        }
-    }
-
-    fn local_force(&self, _time: V::Scalar, components: &mut impl Components<V::Scalar>) {
-        let fault = self.0;
-        let n = components.dimension();
-        let last = if fault == Faulty::LastMissing {
-            n - 1
-        } else {
-            n
-        };
-        for k in 0..last {
-            if fault == Faulty::NotWritten {
-                return;
-            }
-            let at = match fault {
-                Faulty::AsksTooLate => k.saturating_sub(1),
-                Faulty::AsksBeyond => k + 1,
-                _ => k,
-            };
-            let q = components.position(at);
-            let in_lanes = size_of::<V::Scalar>() > size_of::<f64>();
-            let force = match fault {
-                Faulty::SimdFixedPoint if in_lanes => V::Scalar::from_f64(0.0),
-                Faulty::OtherBits => q * V::Scalar::from_f64(-3.0 - f64::EPSILON * 2.0),
-                _ => q * V::Scalar::from_f64(-3.0),
-            };
-            components.set_force(k, force);
-            if fault == Faulty::SetTwice {
-                components.set_force(k, force);
-            }
-            // Nowhere.
-            components.set_force(n + k, force);
-        }
-    }
-}
-
-#[test]
-fn another_force_component_by_component_is_refused() {
-    let made = |fault| {
-        let integrator =
-            Integrator::plain(Gauss2, FaultySprings(fault), start(5), STEP_SIZE).expect("a start");
-        integrator.in_second_order_lanes()
-    };
-    let mut sound = made(Faulty::None).expect("no fault");
-    sound.take_steps(10).expect("steps");
-    for (fault, at) in [
-        (Faulty::OtherBits, None),
-        (Faulty::LastMissing, Some(4)),
-        (Faulty::AsksTooLate, Some(1)),
-        (Faulty::AsksBeyond, Some(0)),
-        (Faulty::NotWritten, Some(0)),
-        (Faulty::SetTwice, Some(0)),
-        (Faulty::SimdFixedPoint, Some(0)),
-    ] {
-        match made(fault) {
-            Err(Error::NotTheSameLocalForce { component, .. }) => {
-                assert!(at.is_none_or(|at| at == component), "{component}");
-            }
-            other => panic!("{:?}", other.map(|_| ())),
-        }
-    }
-}
-
-/// Faults in the force in rows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum FaultyRows {
-    None,
-    OtherBits,
-    OtherBitsOfTheLastStage,
-    LastStageMissing,
-    OneTime,
-    LastRowMissing,
-    AsksTooLate,
-    AsksBeyond,
-    AsksBeyondInVain,
-    SetsBeyond,
-    NotWritten,
-    SetTwice,
-}
-
-/// Springs that grow stronger, with a fault in the force in rows that may come later.
-struct SpringsInRows(Rc<Cell<FaultyRows>>);
-
-impl SpringsInRows {
-    fn force_on<T: Scalar>(time: T, q: T) -> T {
-        time * q * T::from_f64(-3.0)
-    }
-}
-
-impl<V: Vector> SeparableHamiltonian<V> for SpringsInRows {
-    const UNIT_MASSES: bool = true;
-    const LOCAL_FORCE: bool = true;
-    const ROW_FORCES: bool = true;
-
-    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
-        copy(velocity, p);
-    }
-
-    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
-        for (force, &q) in force.as_mut_slice().iter_mut().zip(q.as_slice()) {
-            *force = Self::force_on(time, q);
-        }
-    }
-
-    fn local_force(&self, time: V::Scalar, components: &mut impl Components<V::Scalar>) {
-        for k in 0..components.dimension() {
-            let q = components.position(k);
-            components.set_force(k, Self::force_on(time, q));
-        }
-    }
-
-    fn row_forces(&self, rows: &mut impl StageRows) {
-        let fault = self.0.get();
-        if fault == FaultyRows::NotWritten {
-            return;
-        }
-        let (count, stages) = (rows.count(), rows.stages());
-        let other = F64x8::from_f64(1.0 + 4.0 * f64::EPSILON);
-        for row in 0..count - usize::from(fault == FaultyRows::LastRowMissing) {
-            let at = match fault {
-                FaultyRows::AsksTooLate => row.saturating_sub(1),
-                FaultyRows::AsksBeyond => row + 1,
-                _ => row,
-            };
-            let positions = rows.positions(at);
-            let mut forces = [F64x8::from_f64(0.0); MOST_ROW_STAGES];
-            let made = stages - usize::from(fault == FaultyRows::LastStageMissing);
-            for stage in 0..made {
-                let of_time = if fault == FaultyRows::OneTime {
-                    0
-                } else {
-                    stage
-                };
-                forces[stage] = Self::force_on(rows.time(of_time), positions[stage]);
-                let is_last = stage + 1 == stages;
-                if fault == FaultyRows::OtherBits
-                    || is_last && fault == FaultyRows::OtherBitsOfTheLastStage
-                {
-                    forces[stage] *= other;
-                }
-            }
-            if fault == FaultyRows::AsksBeyondInVain {
-                rows.positions(row + 1);
-            }
-            if fault == FaultyRows::SetsBeyond {
-                rows.set_forces(row + count, forces);
-            }
-            rows.set_forces(row, forces);
-            if fault == FaultyRows::SetTwice {
-                rows.set_forces(row, forces);
-            }
-        }
-    }
-}
-
-#[test]
-fn another_force_in_rows_is_refused() {
-    let made = |fault, start| {
-        let system = SpringsInRows(Rc::new(Cell::new(fault)));
-        let integrator = Integrator::plain(Gauss2, system, start, STEP_SIZE).expect("a start");
-        integrator.in_second_order_lanes()
-    };
-    let at_rest = || State::new(0.0, DVector::zeros(16), DVector::zeros(16));
-    for start in [start(16), at_rest()] {
-        let mut sound = made(FaultyRows::None, start.clone()).expect("no fault");
-        sound.take_steps(10).expect("steps");
-        for fault in [
-            FaultyRows::OtherBits,
-            FaultyRows::OtherBitsOfTheLastStage,
-            FaultyRows::LastStageMissing,
-            FaultyRows::OneTime,
-            FaultyRows::LastRowMissing,
-            FaultyRows::AsksTooLate,
-            FaultyRows::AsksBeyond,
-            FaultyRows::AsksBeyondInVain,
-            FaultyRows::SetsBeyond,
-            FaultyRows::NotWritten,
-            FaultyRows::SetTwice,
-        ] {
-            let is_beyond = matches!(
-                fault,
-                FaultyRows::AsksBeyond | FaultyRows::AsksBeyondInVain | FaultyRows::SetsBeyond
-            );
-            match made(fault, start.clone()) {
-                Err(Error::NotTheSameLocalForce { .. }) if !is_beyond => {}
-                Err(Error::NoSuchRow { row: 2, rows: 2 }) if is_beyond => {}
-                other => panic!("{fault:?}: {:?}", other.map(|_| ())),
-            }
-        }
     }
 }
 
@@ -704,7 +506,7 @@ fn steps_after_hard_ones_take_few_sweeps_again() -> Result<(), Error> {
             let chain = Chain::ring(Softening);
             let mut made = Integrator::with_summation(method, chain, state, 0.1)?;
             set(&mut made)?;
-            made.in_second_order_lanes()
+            Ok::<_, Error>(made)
         };
         let sweeps = |integrator: &mut Integrator<M, _, _, R, _>, steps: u64| {
             let before = integrator.statistics().iterations;
@@ -734,21 +536,5 @@ fn steps_after_hard_ones_take_few_sweeps_again() -> Result<(), Error> {
         check::<_, Plain>(Gauss8, n, |_| Ok(()))?;
         check::<_, Compensated>(Gauss8, n, |_| Ok(()))?;
     }
-    Ok(())
-}
-
-#[test]
-fn a_row_that_is_asked_for_too_late_is_a_panic_that_leaves_the_state() -> Result<(), Error> {
-    let fault = Rc::new(Cell::new(FaultyRows::None));
-    let system = SpringsInRows(Rc::clone(&fault));
-    let made = Integrator::new(Gauss2, system, start(16), STEP_SIZE)?;
-    let mut integrator = made.in_second_order_lanes()?;
-    let before = integrator.take_steps(5)?.clone();
-    fault.set(FaultyRows::AsksBeyondInVain);
-    let steps = AssertUnwindSafe(|| integrator.take_steps(5).map(|_| ()));
-    assert!(catch_unwind(steps).is_err());
-    fault.set(FaultyRows::None);
-    assert_eq!(*integrator.state(), before);
-    integrator.take_steps(5)?;
     Ok(())
 }

@@ -10,7 +10,7 @@ use symplectic::solver::{
 };
 use symplectic::{
     Error, General, Hamiltonian, Integrator, Method, ProvedFor, Quantity, Scalar, Separable,
-    SeparableHamiltonian, State, Vector, separable, tableau,
+    SeparableHamiltonian, State, System, Vector, separable, solver::FixedPoint, tableau,
 };
 
 tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
@@ -30,22 +30,24 @@ const fn newton() -> Newton<ByDifferences> {
 
 struct Kepler;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
-    fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+impl SeparableHamiltonian for Kepler {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;
     }
 
-    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         let square = q.dot(q);
         *force = -q * (square * square.sqrt()).recip();
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
         Some(p.dot(p) * T::from_f64(0.5) - q.dot(q).sqrt().recip())
     }
 }
 
-fn oscillator(omega: f64) -> impl Hamiltonian<Vector1<f64>, Class = Separable> {
+fn oscillator(omega: f64) -> impl System<Vector1<f64>, Class = Separable> {
     separable::<Vector1<f64>, _, _>(
         |_, p, velocity| *velocity = *p,
         move |_, q, force| *force = q * (-omega * omega),
@@ -54,7 +56,7 @@ fn oscillator(omega: f64) -> impl Hamiltonian<Vector1<f64>, Class = Separable> {
 }
 
 /// H = p²/2 + k(|q| − 1)²/2 + q₂, a pendulum on a spring with ω = √k.
-fn spring_pendulum(omega: f64) -> impl Hamiltonian<Vector2<f64>, Class = Separable> {
+fn spring_pendulum(omega: f64) -> impl System<Vector2<f64>, Class = Separable> {
     let stiffness = omega * omega;
     separable::<Vector2<f64>, _, _>(
         |_, p, velocity| *velocity = *p,
@@ -77,7 +79,7 @@ fn compare<M, S, V>(
 ) -> Result<f64, Error>
 where
     M: Method + ProvedFor<S::Class>,
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector<Scalar = f64>,
 {
     let mut fixed_point = Integrator::new(method, system(), start.clone(), h)?;
@@ -229,8 +231,9 @@ fn changes_at_the_level_of_rounding_are_the_last() -> Result<(), Error> {
 fn the_noise_of_evaluations_is_measured() -> Result<(), Error> {
     struct Spring;
 
-    impl Hamiltonian<Vector2<f64>> for Spring {
+    impl System<Vector2<f64>> for Spring {
         type Class = General;
+        type Solver = FixedPoint;
 
         fn velocity(
             &self,
@@ -337,12 +340,15 @@ fn the_energy_does_not_drift() -> Result<(), Error> {
 #[derive(Clone, Copy)]
 struct Chain(f64);
 
-impl<V: Vector> SeparableHamiltonian<V> for Chain {
-    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
+impl<V: Vector> System<V> for Chain {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(&self, _time: V::Scalar, _q: &V, p: &V, velocity: &mut V) {
         velocity.as_mut_slice().copy_from_slice(p.as_slice());
     }
 
-    fn force(&self, _time: V::Scalar, q: &V, force: &mut V) {
+    fn force(&self, _time: V::Scalar, q: &V, _p: &V, force: &mut V) {
         let (stiffness, q) = (V::Scalar::from_f64(self.0), q.as_slice());
         for (i, force) in force.as_mut_slice().iter_mut().enumerate() {
             *force = -q[i] * q[i] * q[i];
@@ -424,16 +430,17 @@ fn bands_give_what_full_matrices_give() -> Result<(), Error> {
 /// A general system over a band: H = Σ (1 + q_i²) p_i²/2 + k (q_i − q_{i+1})²/2
 struct Rotors(f64);
 
-impl<T: Scalar> Hamiltonian<DVector<T>> for Rotors {
+impl Hamiltonian for Rotors {
     type Class = General;
+    type Vector<T: Scalar> = DVector<T>;
 
-    fn velocity(&self, _: T, q: &DVector<T>, p: &DVector<T>, velocity: &mut DVector<T>) {
+    fn velocity<T: Scalar>(&self, _: T, q: &DVector<T>, p: &DVector<T>, velocity: &mut DVector<T>) {
         for i in 0..q.len() {
             velocity[i] = p[i] * (T::one() + q[i] * q[i]);
         }
     }
 
-    fn force(&self, _: T, q: &DVector<T>, p: &DVector<T>, force: &mut DVector<T>) {
+    fn force<T: Scalar>(&self, _: T, q: &DVector<T>, p: &DVector<T>, force: &mut DVector<T>) {
         let stiffness = T::from_f64(self.0);
         for i in 0..q.len() {
             force[i] = -q[i] * p[i] * p[i];
@@ -493,12 +500,21 @@ fn factors_are_kept_from_step_to_step() -> Result<(), Error> {
 fn a_singular_matrix_is_an_error() -> Result<(), Error> {
     struct Repulsion;
 
-    impl SeparableHamiltonian<DVector<f64>> for Repulsion {
-        fn velocity(&self, _time: f64, p: &DVector<f64>, velocity: &mut DVector<f64>) {
+    impl System<DVector<f64>> for Repulsion {
+        type Class = Separable;
+        type Solver = FixedPoint;
+
+        fn velocity(
+            &self,
+            _time: f64,
+            _q: &DVector<f64>,
+            p: &DVector<f64>,
+            velocity: &mut DVector<f64>,
+        ) {
             velocity.copy_from(p);
         }
 
-        fn force(&self, _time: f64, q: &DVector<f64>, force: &mut DVector<f64>) {
+        fn force(&self, _time: f64, q: &DVector<f64>, _p: &DVector<f64>, force: &mut DVector<f64>) {
             force.copy_from(q);
         }
     }
@@ -542,12 +558,21 @@ fn a_singular_matrix_is_an_error() -> Result<(), Error> {
 fn derivatives_that_are_not_finite_are_an_error() -> Result<(), Error> {
     struct Broken;
 
-    impl SeparableHamiltonian<Vector1<f64>> for Broken {
-        fn velocity(&self, _time: f64, p: &Vector1<f64>, velocity: &mut Vector1<f64>) {
+    impl System<Vector1<f64>> for Broken {
+        type Class = Separable;
+        type Solver = FixedPoint;
+
+        fn velocity(
+            &self,
+            _time: f64,
+            _q: &Vector1<f64>,
+            p: &Vector1<f64>,
+            velocity: &mut Vector1<f64>,
+        ) {
             *velocity = *p;
         }
 
-        fn force(&self, _time: f64, q: &Vector1<f64>, force: &mut Vector1<f64>) {
+        fn force(&self, _time: f64, q: &Vector1<f64>, _p: &Vector1<f64>, force: &mut Vector1<f64>) {
             *force = -q;
         }
     }
@@ -615,12 +640,27 @@ fn newton_helps_the_fixed_point_iteration_out() -> Result<(), Error> {
 fn wrong_dimensions_are_an_error() -> Result<(), Error> {
     struct Resizing;
 
-    impl SeparableHamiltonian<DVector<f64>> for Resizing {
-        fn velocity(&self, _time: f64, p: &DVector<f64>, velocity: &mut DVector<f64>) {
+    impl System<DVector<f64>> for Resizing {
+        type Class = Separable;
+        type Solver = FixedPoint;
+
+        fn velocity(
+            &self,
+            _time: f64,
+            _q: &DVector<f64>,
+            p: &DVector<f64>,
+            velocity: &mut DVector<f64>,
+        ) {
             *velocity = p.clone();
         }
 
-        fn force(&self, _time: f64, _q: &DVector<f64>, force: &mut DVector<f64>) {
+        fn force(
+            &self,
+            _time: f64,
+            _q: &DVector<f64>,
+            _p: &DVector<f64>,
+            force: &mut DVector<f64>,
+        ) {
             *force = DVector::zeros(5);
         }
     }

@@ -2,7 +2,7 @@
 
 use symplectic::nalgebra::Vector1;
 use symplectic::{
-    Error, Integrator, Method, ProvedFor, SeparableHamiltonian, State, acceleration, hamiltonian,
+    Error, Integrator, Method, ProvedFor, Separable, State, System, acceleration, hamiltonian,
     separable,
 };
 
@@ -21,8 +21,8 @@ fn start() -> State<V> {
 /// The energy at the start and after 1000 steps.
 fn energies<M, S>(method: M, system: S, step_size: f64) -> Result<[f64; 2], Error>
 where
-    M: Method + ProvedFor<symplectic::Separable>,
-    S: SeparableHamiltonian<V>,
+    M: Method + ProvedFor<Separable>,
+    S: System<V, Class = Separable>,
 {
     let mut integrator = Integrator::new(method, system, start(), step_size)?;
     let before = integrator.energy().expect("an energy");
@@ -31,7 +31,7 @@ where
 }
 
 /// `H = √(1 + p²) + q²/2`: separable, with a kinetic energy that is not quadratic.
-fn relativistic() -> impl SeparableHamiltonian<V> {
+fn relativistic() -> impl System<V, Class = Separable> {
     separable::<V, _, _>(
         |_, p, v| v[0] = p[0] / (1.0 + p[0] * p[0]).sqrt(),
         |_, q, f| f[0] = -q[0],
@@ -76,7 +76,7 @@ fn a_nystrom_method_is_refused_where_the_velocity_is_not_linear() -> Result<(), 
     Ok(())
 }
 
-fn error_text(system: impl SeparableHamiltonian<V>) -> String {
+fn error_text(system: impl System<V, Class = Separable>) -> String {
     let refused = Integrator::plain(McLachlanAtela, system, start(), 0.1);
     refused.expect_err("not quadratic").to_string()
 }

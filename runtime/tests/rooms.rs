@@ -15,8 +15,14 @@ const ROOMS: &[&[&str]] = &[
     &["output", "variational"],
 ];
 
-/// The one import that runs up: the class of a system chooses the plan of a method, so that each names the other.
-const UPWARD: &[(&str, &str)] = &[("system/class.rs", "method")];
+/// The imports that run up. A system chooses how it is stepped: its class the plan of a method, and its type the solver.
+const UPWARD: &[(&str, &str)] = &[
+    ("system/class.rs", "method"),
+    ("system/over_vectors.rs", "method"),
+    ("system/over_vectors.rs", "solver"),
+    ("system/closures.rs", "solver"),
+    ("system/chain.rs", "solver"),
+];
 
 fn level(room: &str) -> Option<usize> {
     ROOMS.iter().position(|rooms| rooms.contains(&room))

@@ -7,8 +7,7 @@ use common::systems::{Pendulum, Product, point};
 use common::{Midpoint, StoermerVerlet, run};
 use symplectic::nalgebra::{DVector, SVector, Vector1};
 use symplectic::{
-    Error, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State, Vector, hamiltonian,
-    separable,
+    Error, Integrator, Method, ProvedFor, Scalar, State, System, Vector, hamiltonian, separable,
 };
 
 #[test]
@@ -48,9 +47,9 @@ fn dual_numbers_differentiate_the_flow() -> Result<(), Error> {
     fn check<M, S>(method: M, system: impl Fn() -> S) -> Result<(), Error>
     where
         M: Method
-            + ProvedFor<<S as Hamiltonian<Vector1<f64>>>::Class>
-            + ProvedFor<<S as Hamiltonian<Vector1<Dual>>>::Class>,
-        S: Hamiltonian<Vector1<f64>> + Hamiltonian<Vector1<Dual>>,
+            + ProvedFor<<S as System<Vector1<f64>>>::Class>
+            + ProvedFor<<S as System<Vector1<Dual>>>::Class>,
+        S: System<Vector1<f64>> + System<Vector1<Dual>>,
     {
         let q = |q0: f64| Ok(run(method, system(), point(q0, 0.3), 2.0, 50)?.q[0]);
         let start = State::new(

@@ -2,7 +2,8 @@
 
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
 use symplectic::solver::{Dense, Differences, Newton, Solver};
-use symplectic::system::HamiltonianInLanes;
+use symplectic::solver::{FixedPoint, SimdFixedPoint, SimdJacobi};
+use symplectic::system::SystemInLanes;
 use symplectic::{
     Error, Integrator, Method, Plain, Quantity, Scalar, SeparableHamiltonian, State, tableau,
 };
@@ -17,12 +18,14 @@ tableau! { Lobatto4 { basis: polynomial(4), nodes: lobatto(4) } }
 /// q'' = −q/|q|³
 struct Kepler;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
-    fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+impl SeparableHamiltonian for Kepler {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;
     }
 
-    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         let square = q.dot(q);
         *force = -q * (square * square.sqrt()).recip();
     }
@@ -69,8 +72,8 @@ fn a_tolerance_saves_sweeps_and_bounds_the_change() -> Result<(), Error> {
     fn all<M: Method>(method: M) -> Result<(), Error> {
         let made = || Integrator::plain(method, Kepler, kepler(), 0.05);
         check(made)?;
-        check(|| Ok(made()?.in_lanes()))?;
-        check(|| made()?.in_second_order_lanes())?;
+        check(|| Ok(made()?.with_solver(SimdFixedPoint)))?;
+        check(|| Ok(made()?.with_solver(FixedPoint)))?;
         check(|| Ok(made()?.with_solver(Newton::<Dense<Differences>>::new())))
     }
     all(Gauss2)?;
@@ -80,13 +83,14 @@ fn a_tolerance_saves_sweeps_and_bounds_the_change() -> Result<(), Error> {
 
 #[test]
 fn lanes_end_where_single_stages_do() -> Result<(), Error> {
-    fn check<S: HamiltonianInLanes<V>, V: symplectic::Vector<Scalar = f64>>(
+    fn check<S: SystemInLanes<V>, V: symplectic::Vector<Scalar = f64>>(
         system: impl Fn() -> S,
         start: &State<V>,
     ) -> Result<(), Error> {
         for tolerance in [1e-3, 1e-8, 1e-13] {
             let made = || Integrator::plain(Gauss8, system(), start.clone(), 0.1);
-            let (mut alone, mut in_lanes) = (made()?, made()?.in_lanes());
+            let mut alone = made()?.with_solver(FixedPoint);
+            let mut in_lanes = made()?.with_solver(SimdFixedPoint);
             alone.set_tolerance(tolerance)?;
             in_lanes.set_tolerance(tolerance)?;
             assert_eq!(alone.take_steps(50)?, in_lanes.take_steps(50)?);
@@ -105,7 +109,7 @@ fn both_halves_of_a_general_system_are_within_it() -> Result<(), Error> {
     let made = || Integrator::plain(Gauss8, Product, start.clone(), 0.1);
     let mut exact = made()?;
     let exact = exact.step()?;
-    let mut at_once = made()?.at_once_in_lanes();
+    let mut at_once = made()?.with_solver(SimdJacobi);
     at_once.set_tolerance(1e-9)?;
     let found = at_once.step()?;
     assert!((found.q - exact.q).amax() < 1e-9 && (found.p - exact.p).amax() < 1e-9);
@@ -128,7 +132,7 @@ fn a_tolerance_that_is_none_is_refused() -> Result<(), Error> {
     let loose = integrator.iterations();
     let mut again = Integrator::plain(Gauss2, Pendulum::default(), start, 0.1)?;
     again.set_tolerance(1e-3)?;
-    let mut again = again.in_lanes();
+    let mut again = again.with_solver(SimdFixedPoint);
     again.take_steps(20)?;
     assert_eq!(again.iterations(), loose);
     Ok(())
@@ -137,12 +141,14 @@ fn a_tolerance_that_is_none_is_refused() -> Result<(), Error> {
 /// A force that is not a number beyond q = 1.
 struct Wall;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for Wall {
-    fn velocity(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+impl SeparableHamiltonian for Wall {
+    type Vector<T: Scalar> = SVector<T, 1>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
         *velocity = *p;
     }
 
-    fn force(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
         force[0] = -q[0] + T::from_f64(0.0) * (T::one() - q[0]).ln();
     }
 }
@@ -165,6 +171,6 @@ fn what_is_not_finite_is_not_within_a_tolerance() -> Result<(), Error> {
     let start = State::new(0.0, Vector1::new(0.0), Vector1::new(1.5));
     let made = || Integrator::plain(Gauss2, Wall, start.clone(), 0.1);
     check(made()?)?;
-    check(made()?.in_lanes())?;
-    check(made()?.in_second_order_lanes()?)
+    check(made()?.with_solver(SimdFixedPoint))?;
+    check(made()?)
 }

@@ -4,11 +4,9 @@
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
-use symplectic::system::HamiltonianInLanes;
-use symplectic::{
-    Class, Compensated, Error, Hamiltonian, Integrator, Method, Plain, ProvedFor, State, Summation,
-    Vector,
-};
+use symplectic::solver::SimdFixedPoint;
+use symplectic::{Error, Integrator, Method, ProvedFor, State, Vector};
+use symplectic::{System, system::SystemInLanes};
 use symplectic_tests::drift::{Sample, ensemble, exponent};
 use symplectic_tests::methods::{Gauss6, Gauss8};
 use symplectic_tests::scenes::fput_chain;
@@ -63,10 +61,8 @@ fn main() -> Result<(), Error> {
         system: fput_chain::system(),
         starts: &chains,
     };
-    chain.second_order::<_, Compensated>(Gauss6, "compensated", 1.0 / 8.0, &steps)?;
-    chain.second_order::<_, Plain>(Gauss6, "plain", 1.0 / 8.0, &steps)?;
-    chain.second_order::<_, Compensated>(Gauss8, "compensated", 1.0 / 4.0, &steps)?;
-    chain.second_order::<_, Plain>(Gauss8, "plain", 1.0 / 4.0, &steps)
+    chain.compensated_and_plain(Gauss6, 1.0 / 8.0, &steps)?;
+    chain.compensated_and_plain(Gauss8, 1.0 / 4.0, &steps)
 }
 
 /// The start of every orbit.
@@ -87,52 +83,35 @@ struct Ensemble<'a, S, V> {
     starts: &'a [State<V>],
 }
 
-impl<S: HamiltonianInLanes<V> + Copy, V: Vector<Scalar = f64>> Ensemble<'_, S, V> {
-    /// A row for each kind of sums, and one for the step without momentum stages where the Hamiltonian is separable, or for that with
-    /// positions and momenta at once where it is not.
-    fn rows<M: Method + ProvedFor<<S as Hamiltonian<V>>::Class>>(
+impl<S: SystemInLanes<V> + Copy, V: Vector<Scalar = f64>> Ensemble<'_, S, V> {
+    /// A row for each kind of sums, and one with both halves of the stages in turn.
+    fn rows<M: Method + ProvedFor<<S as System<V>>::Class>>(
         &self,
         method: M,
         step_size: f64,
         steps: &[u64],
     ) -> Result<(), Error> {
         let system = self.system;
-        let row = |sums, samples: Vec<Sample>| self.row::<M>(sums, &samples);
-        // In lanes they are the same to the last bit, and faster.
-        let compensated = |start| Ok(Integrator::new(method, system, start, step_size)?.in_lanes());
-        row("compensated", ensemble(compensated, self.starts, steps)?);
-        if <S as Hamiltonian<V>>::Class::SEPARABLE {
-            self.second_order::<M, Compensated>(method, "compensated", step_size, steps)?;
-        } else {
-            let at_once =
-                |start| Ok(Integrator::new(method, system, start, step_size)?.at_once_in_lanes());
-            row(
-                "compensated, at once",
-                ensemble(at_once, self.starts, steps)?,
-            );
-        }
-        let plain = |start| Ok(Integrator::plain(method, system, start, step_size)?.in_lanes());
-        row("plain", ensemble(plain, self.starts, steps)?);
-        Ok(())
+        let in_turn = |start| {
+            Ok(Integrator::new(method, system, start, step_size)?.with_solver(SimdFixedPoint))
+        };
+        let in_turn = ensemble(in_turn, self.starts, steps)?;
+        self.row::<M>("compensated, in turn", &in_turn);
+        self.compensated_and_plain(method, step_size, steps)
     }
 
-    /// A row for the step without momentum stages.
-    fn second_order<M: Method + ProvedFor<<S as Hamiltonian<V>>::Class>, R: Summation>(
+    /// A row for each kind of sums, by the solver that the types choose.
+    fn compensated_and_plain<M: Method + ProvedFor<<S as System<V>>::Class>>(
         &self,
         method: M,
-        sums: &str,
         step_size: f64,
         steps: &[u64],
     ) -> Result<(), Error> {
-        let made = |start| {
-            let made =
-                Integrator::<_, _, _, R>::with_summation(method, self.system, start, step_size)?;
-            made.in_second_order_lanes()
-        };
-        self.row::<M>(
-            &format!("{sums}, second order"),
-            &ensemble(made, self.starts, steps)?,
-        );
+        let system = self.system;
+        let compensated = |start| Integrator::new(method, system, start, step_size);
+        self.row::<M>("compensated", &ensemble(compensated, self.starts, steps)?);
+        let plain = |start| Integrator::plain(method, system, start, step_size);
+        self.row::<M>("plain", &ensemble(plain, self.starts, steps)?);
         Ok(())
     }
 

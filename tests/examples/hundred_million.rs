@@ -15,12 +15,14 @@ symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
 
 struct Oscillator;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for Oscillator {
-    fn velocity(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+impl SeparableHamiltonian for Oscillator {
+    type Vector<T: Scalar> = SVector<T, 1>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
         *velocity = *p;
     }
 
-    fn force(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
         *force = -q;
     }
 }

@@ -28,7 +28,7 @@ fn main() -> Result<(), Error> {
     let start = to_barycentre(&start());
     let mut energy = Invariant::energy(OuterSolarSystem, &start);
     let mut momentum = Invariant::new(length, &start);
-    let mut integrator = Integrator::new(Gauss8, OuterSolarSystem, start, STEP_SIZE)?.in_lanes();
+    let mut integrator = Integrator::new(Gauss8, OuterSolarSystem, start, STEP_SIZE)?;
     for line in 1..=LINES {
         let years = YEARS / LINES * line;
         integrator.integrate_with(f64::from(years) * YEAR, |state| {

@@ -58,7 +58,7 @@ fn main() -> Result<(), Error> {
 /// The first points of an orbit on the section.
 fn section(q2: f64, p2: f64) -> Result<Vec<State<SVector<f64, 2>>>, Error> {
     let start = on_section(ENERGY, q2, p2);
-    let mut integrator = Integrator::new(Gauss8, HenonHeiles, start, STEP_SIZE)?.in_lanes();
+    let mut integrator = Integrator::new(Gauss8, HenonHeiles, start, STEP_SIZE)?;
     let mut points = Vec::new();
     // By steps, so that the points are as good as the states between the steps.
     let event = Event::rising(|state: &State<SVector<f64, 2>>| state.q[0]).by_steps();

@@ -2,7 +2,8 @@
 
 use std::cell::Cell;
 
-use symplectic::{SeparableHamiltonian, Vector};
+use symplectic::solver::FixedPoint;
+use symplectic::{System, Vector};
 
 /// Counts of evaluations.
 #[derive(Debug, Default)]
@@ -27,7 +28,7 @@ impl Counts {
     }
 }
 
-/// A separable system that counts what is asked of it.
+/// A system that counts what is asked of it; its stages are found one by one.
 #[derive(Debug)]
 pub struct Counting<'a, S> {
     system: S,
@@ -41,17 +42,20 @@ impl<'a, S> Counting<'a, S> {
     }
 }
 
-impl<V: Vector, S: SeparableHamiltonian<V>> SeparableHamiltonian<V> for Counting<'_, S> {
+impl<V: Vector, S: System<V>> System<V> for Counting<'_, S> {
+    type Class = S::Class;
+    type Solver = FixedPoint;
+
     #[inline]
-    fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V) {
+    fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
         Counts::count(&self.counts.velocities);
-        self.system.velocity(time, p, velocity);
+        self.system.velocity(time, q, p, velocity);
     }
 
     #[inline]
-    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
+    fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
         Counts::count(&self.counts.forces);
-        self.system.force(time, q, force);
+        self.system.force(time, q, p, force);
     }
 
     fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {

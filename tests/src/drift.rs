@@ -4,8 +4,8 @@
 //! spread grows like the square root of the number of steps (Brouwer's law). A drift is a mean that is many of its own
 //! standard errors away from zero, and that grows with the number of steps itself.
 
-use symplectic::solver::Solver;
-use symplectic::{Error, Hamiltonian, Integrator, Method, ProvedFor, State, Summation, Vector};
+use symplectic::{Error, Integrator, Method, ProvedFor, State, Summation, Vector};
+use symplectic::{System, solver::Solver};
 
 /// The relative energy errors of an ensemble after a number of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub fn ensemble<M, S, V, R, N>(
 ) -> Result<Vec<Sample>, Error>
 where
     M: Method + ProvedFor<S::Class>,
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector<Scalar = f64>,
     R: Summation,
     N: Solver<V, S>,

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use symplectic::{Error, Integrator, Method, SeparableHamiltonian, State, Vector};
+use symplectic::{Error, Integrator, Method, Separable, State, System, Vector};
 
 use crate::counting::{Counting, Counts};
 
@@ -20,7 +20,7 @@ pub fn integrate<M, S, V>(
 ) -> Result<State<V>, Error>
 where
     M: Method,
-    S: SeparableHamiltonian<V>,
+    S: System<V, Class = Separable>,
     V: Vector,
 {
     let mut integrator = Integrator::new(method, system, start.clone(), step_size)?;
@@ -76,7 +76,7 @@ pub fn measure<M, S, V>(
 ) -> Result<Measurement<V>, Error>
 where
     M: Method,
-    S: SeparableHamiltonian<V> + Clone,
+    S: System<V, Class = Separable> + Clone,
     V: Vector<Scalar = f64>,
 {
     let mut time = Duration::MAX;
@@ -105,7 +105,7 @@ pub fn observe<M, S, V>(
 ) -> Result<Measurement<V>, Error>
 where
     M: Method,
-    S: SeparableHamiltonian<V> + Clone,
+    S: System<V, Class = Separable> + Clone,
     V: Vector<Scalar = f64>,
 {
     let counts = Counts::default();

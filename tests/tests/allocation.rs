@@ -13,9 +13,7 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use symplectic::solver::{
     Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Newton, Solver,
 };
-use symplectic::{
-    Error, Hamiltonian, Integrator, Method, ProvedFor, State, hamiltonian, separable,
-};
+use symplectic::{Error, Integrator, Method, ProvedFor, State, hamiltonian, separable};
 use symplectic_tests::methods::{Gauss4, Lobatto3, StoermerVerlet};
 
 symplectic::composition! {
@@ -29,7 +27,7 @@ static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 /// Allocations in a hundred steps and one run to an end.
 fn allocations<
     M: Method + ProvedFor<S::Class>,
-    S: Hamiltonian<DVector<f64>>,
+    S: symplectic::System<DVector<f64>>,
     N: Solver<DVector<f64>, S>,
 >(
     method: M,

@@ -2,8 +2,8 @@
 
 use symplectic::nalgebra::{Vector1, Vector2};
 use symplectic::{
-    Error, General, Hamiltonian, Integrator, Method, ProvedFor, Quantity, State, Summation,
-    separable,
+    Error, General, Integrator, Method, ProvedFor, Quantity, State, Summation, System, separable,
+    solver::FixedPoint,
 };
 use symplectic_tests::counting::{Counting, Counts};
 use symplectic_tests::measure::{integrate, position_error};
@@ -106,8 +106,9 @@ fn a_substep_finds_its_own_stages_and_keeps_the_last_force() -> Result<(), Error
 fn different_methods_follow_one_another() -> Result<(), Error> {
     #[derive(Clone, Copy)]
     struct Coupled;
-    impl Hamiltonian<Vector1<f64>> for Coupled {
+    impl System<Vector1<f64>> for Coupled {
         type Class = General;
+        type Solver = FixedPoint;
         fn velocity(
             &self,
             _: f64,
@@ -121,12 +122,12 @@ fn different_methods_follow_one_another() -> Result<(), Error> {
             force[0] = -q[0] * (p[0] * p[0] + 1.0);
         }
     }
-    fn by_hand<S: Hamiltonian<V> + Copy, V: symplectic::Vector>(
+    fn by_hand<S: System<V> + Copy, V: symplectic::Vector>(
         system: S,
         start: &State<V>,
         h: f64,
     ) -> Result<State<V>, Error> {
-        fn one<M: Method + ProvedFor<S::Class>, S: Hamiltonian<V>, V: symplectic::Vector>(
+        fn one<M: Method + ProvedFor<S::Class>, S: System<V>, V: symplectic::Vector>(
             method: M,
             system: S,
             start: State<V>,

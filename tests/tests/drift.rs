@@ -47,7 +47,7 @@ fn compensated_sums_leave_a_small_random_walk() -> Result<(), Error> {
 #[test]
 fn without_the_momentum_stages_it_is_as_small() -> Result<(), Error> {
     let second_order = ensemble(
-        |start| Integrator::new(Gauss6, HenonHeiles, start, STEP_SIZE)?.in_second_order_lanes(),
+        |start| Integrator::new(Gauss6, HenonHeiles, start, STEP_SIZE),
         &starts(),
         &STEPS,
     )?[0];

@@ -3,7 +3,9 @@
 use std::cell::RefCell;
 
 use symplectic::nalgebra::{Vector1, Vector2};
-use symplectic::{Error, General, Hamiltonian, Integrator, Method, SeparableHamiltonian, State};
+use symplectic::{
+    Error, General, Integrator, Method, Separable, State, System, solver::FixedPoint,
+};
 use symplectic_tests::counting::{Counting, Counts};
 use symplectic_tests::measure::{integrate, position_error};
 use symplectic_tests::methods::{Gauss4, Gauss8, Lobatto3, StoermerVerlet, SymplecticEuler};
@@ -85,12 +87,21 @@ fn a_new_state_and_a_new_step_size_cost_what_they_must() -> Result<(), Error> {
 /// An oscillator that notes when it is asked for its force.
 struct Times<'a>(&'a RefCell<Vec<f64>>);
 
-impl SeparableHamiltonian<Vector1<f64>> for Times<'_> {
-    fn velocity(&self, _time: f64, p: &Vector1<f64>, velocity: &mut Vector1<f64>) {
+impl System<Vector1<f64>> for Times<'_> {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(
+        &self,
+        _time: f64,
+        _q: &Vector1<f64>,
+        p: &Vector1<f64>,
+        velocity: &mut Vector1<f64>,
+    ) {
         *velocity = *p;
     }
 
-    fn force(&self, time: f64, q: &Vector1<f64>, force: &mut Vector1<f64>) {
+    fn force(&self, time: f64, q: &Vector1<f64>, _p: &Vector1<f64>, force: &mut Vector1<f64>) {
         self.0.borrow_mut().push(time);
         *force = -q;
     }
@@ -120,8 +131,9 @@ fn lobatto_3_evaluates_the_force_once_a_step_at_its_end_and_never_at_its_start()
 /// Kepler's problem, not known to be separable.
 struct Whole<'a>(Counting<'a, kepler::Kepler>);
 
-impl Hamiltonian<Vector2<f64>> for Whole<'_> {
+impl System<Vector2<f64>> for Whole<'_> {
     type Class = General;
+    type Solver = FixedPoint;
 
     fn velocity(
         &self,
@@ -130,11 +142,11 @@ impl Hamiltonian<Vector2<f64>> for Whole<'_> {
         p: &Vector2<f64>,
         velocity: &mut Vector2<f64>,
     ) {
-        SeparableHamiltonian::velocity(&self.0, time, p, velocity);
+        System::velocity(&self.0, time, p, p, velocity);
     }
 
     fn force(&self, time: f64, q: &Vector2<f64>, _p: &Vector2<f64>, force: &mut Vector2<f64>) {
-        SeparableHamiltonian::force(&self.0, time, q, force);
+        System::force(&self.0, time, q, q, force);
     }
 }
 
@@ -170,12 +182,21 @@ fn point(q: f64, p: f64) -> State<Vector1<f64>> {
 #[derive(Clone, Copy)]
 struct Driven;
 
-impl SeparableHamiltonian<Vector1<f64>> for Driven {
-    fn velocity(&self, _time: f64, p: &Vector1<f64>, velocity: &mut Vector1<f64>) {
+impl System<Vector1<f64>> for Driven {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(
+        &self,
+        _time: f64,
+        _q: &Vector1<f64>,
+        p: &Vector1<f64>,
+        velocity: &mut Vector1<f64>,
+    ) {
         *velocity = *p;
     }
 
-    fn force(&self, time: f64, q: &Vector1<f64>, force: &mut Vector1<f64>) {
+    fn force(&self, time: f64, q: &Vector1<f64>, _p: &Vector1<f64>, force: &mut Vector1<f64>) {
         force[0] = (3.0 * time).cos() - q[0];
     }
 }
@@ -191,12 +212,21 @@ fn driven(time: f64) -> State<Vector1<f64>> {
 #[derive(Clone, Copy)]
 struct Breathing;
 
-impl SeparableHamiltonian<Vector1<f64>> for Breathing {
-    fn velocity(&self, time: f64, p: &Vector1<f64>, velocity: &mut Vector1<f64>) {
+impl System<Vector1<f64>> for Breathing {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(
+        &self,
+        time: f64,
+        _q: &Vector1<f64>,
+        p: &Vector1<f64>,
+        velocity: &mut Vector1<f64>,
+    ) {
         *velocity = *p * (1.0 + time.sin() / 2.0);
     }
 
-    fn force(&self, time: f64, q: &Vector1<f64>, force: &mut Vector1<f64>) {
+    fn force(&self, time: f64, q: &Vector1<f64>, _p: &Vector1<f64>, force: &mut Vector1<f64>) {
         force[0] = (3.0 * time).cos() - q[0];
     }
 }
@@ -209,7 +239,7 @@ fn order<M, S>(
 ) -> Result<ObservedOrder, Error>
 where
     M: Method,
-    S: SeparableHamiltonian<Vector1<f64>> + Copy,
+    S: System<Vector1<f64>, Class = Separable> + Copy,
 {
     let mut errors = Vec::new();
     for steps in [64.0, 128.0, 256.0, 512.0] {

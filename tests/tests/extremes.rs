@@ -3,8 +3,7 @@
 
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
 use symplectic::{
-    Error, Hamiltonian, Integrator, Method, ProvedFor, Quantity, Separable, State, Vector,
-    separable,
+    Error, Integrator, Method, ProvedFor, Quantity, Separable, State, System, Vector, separable,
 };
 use symplectic_tests::methods::{Gauss4, Lobatto3, StoermerVerlet};
 use symplectic_tests::scenes::kepler::{Kepler, start};
@@ -15,7 +14,7 @@ symplectic::tableau! {
 }
 
 /// H = (p² + ω² q²)/2
-fn oscillator(omega: f64) -> impl Hamiltonian<Vector1<f64>, Class = Separable> {
+fn oscillator(omega: f64) -> impl System<Vector1<f64>, Class = Separable> {
     separable::<Vector1<f64>, _, _>(
         |_, p, velocity| *velocity = *p,
         move |_, q, force| *force = q * (-omega * omega),
@@ -35,7 +34,7 @@ enum Outcome {
 }
 
 /// Steps until the end or an error. After every step, and after an error, the state has to be finite.
-fn run<M: Method + ProvedFor<S::Class>, S: Hamiltonian<V>, V: Vector<Scalar = f64>>(
+fn run<M: Method + ProvedFor<S::Class>, S: System<V>, V: Vector<Scalar = f64>>(
     method: M,
     system: S,
     start: State<V>,
@@ -106,7 +105,7 @@ fn an_oscillator_from_slow_to_stiff() -> Result<(), Error> {
 }
 
 /// H = p²/2 + k(|q| − 1)²/2 + q₂, a pendulum on a spring with ω = √k.
-fn spring_pendulum(omega: f64) -> impl Hamiltonian<Vector2<f64>, Class = Separable> {
+fn spring_pendulum(omega: f64) -> impl System<Vector2<f64>, Class = Separable> {
     let stiffness = omega * omega;
     separable::<Vector2<f64>, _, _>(
         |_, p, velocity| *velocity = *p,

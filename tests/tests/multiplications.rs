@@ -4,18 +4,33 @@ mod strict;
 
 use strict::{Strict, products};
 use symplectic::nalgebra::Vector1;
-use symplectic::{Error, Integrator, Method, SeparableHamiltonian, State};
+use symplectic::{Error, Integrator, Method, Separable, State, System, solver::FixedPoint};
 use symplectic_tests::methods::{Lobatto3, StoermerVerlet, SymplecticEuler};
 
 /// A free particle under a constant force: its evaluations multiply nothing.
 struct Falling;
 
-impl SeparableHamiltonian<Vector1<Strict>> for Falling {
-    fn velocity(&self, _time: Strict, p: &Vector1<Strict>, velocity: &mut Vector1<Strict>) {
+impl System<Vector1<Strict>> for Falling {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(
+        &self,
+        _time: Strict,
+        _q: &Vector1<Strict>,
+        p: &Vector1<Strict>,
+        velocity: &mut Vector1<Strict>,
+    ) {
         *velocity = *p;
     }
 
-    fn force(&self, _time: Strict, _q: &Vector1<Strict>, force: &mut Vector1<Strict>) {
+    fn force(
+        &self,
+        _time: Strict,
+        _q: &Vector1<Strict>,
+        _p: &Vector1<Strict>,
+        force: &mut Vector1<Strict>,
+    ) {
         force[0] = Strict(-1.0);
     }
 }

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use symplectic::nalgebra::Vector2;
-use symplectic::{Error, Event, Integrator, SeparableHamiltonian, State};
+use symplectic::{Error, Event, Hamiltonian, Integrator, State};
 use symplectic_tests::methods::{Gauss4, Gauss8, StoermerVerlet};
 use symplectic_tests::scenes::henon_heiles::{HenonHeiles, on_section};
 
@@ -19,7 +19,7 @@ fn energy_error(state: &Point) -> f64 {
 /// The first points on the section, with Gauss 8 in lanes.
 fn section(event: Event<impl Fn(&Point) -> f64>, step_size: f64) -> Result<Vec<Point>, Error> {
     let start = on_section(ENERGY, 0.2, 0.0);
-    let mut integrator = Integrator::new(Gauss8, HenonHeiles, start, step_size)?.in_lanes();
+    let mut integrator = Integrator::new(Gauss8, HenonHeiles, start, step_size)?;
     let mut points = Vec::new();
     integrator.integrate_with_events(1000.0, &event, |state| {
         points.push(state.clone());

@@ -3,7 +3,7 @@
 
 use std::error::Error;
 
-use symplectic::{Hamiltonian, Integrator, State, Vector};
+use symplectic::{Integrator, State, System, Vector};
 use symplectic_tests::methods::Gauss8;
 use symplectic_tests::references::{ALL, Collocation, Record, find, records};
 use symplectic_tests::scenes::*;
@@ -79,7 +79,7 @@ fn error<V, S>(
 ) -> Result<f64, Box<dyn Error>>
 where
     V: Vector<Scalar = f64>,
-    S: Hamiltonian<V>,
+    S: System<V>,
 {
     let recorded = recorded.ok_or("not recorded")?;
     let mut integrator = Integrator::new(Gauss8, system, start, step_size)?;

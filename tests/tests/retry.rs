@@ -1,12 +1,12 @@
 //! Steps that fail and are taken again in parts.
 
 use symplectic::nalgebra::{Vector1, Vector2};
-use symplectic::{Error, Integrator, Retry, SeparableHamiltonian, State, separable};
+use symplectic::{Error, Integrator, Retry, Separable, State, System, separable};
 use symplectic_tests::methods::{Gauss4, Gauss8};
 use symplectic_tests::scenes::kepler::{Kepler, start};
 
 /// An oscillator that is stiff for a while: ω² = 1 + 2500 exp(−(t − 5)²).
-fn stiff_for_a_while() -> impl SeparableHamiltonian<Vector1<f64>> {
+fn stiff_for_a_while() -> impl System<Vector1<f64>, Class = Separable> {
     separable::<Vector1<f64>, _, _>(
         |_, p, velocity| *velocity = *p,
         |time, q, force| *force = -q * (1.0 + 2500.0 * (-(time - 5.0) * (time - 5.0)).exp()),

@@ -313,7 +313,7 @@ const _: () = {
         fn begin<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
@@ -420,7 +420,7 @@ const _: () = {
         fn sweep<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
@@ -703,7 +703,7 @@ const _: () = {
         fn finish<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
             W: ::symplectic::emitted::EvaluationObserver,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
@@ -881,7 +881,7 @@ const _: () = {
         fn apply<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
             K: ::symplectic::emitted::KickDrift,
             W: ::symplectic::emitted::EvaluationObserver,
         >(

@@ -123,7 +123,7 @@ const _: () = {
         fn begin<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
@@ -290,7 +290,7 @@ const _: () = {
         fn sweep<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
@@ -535,7 +535,7 @@ const _: () = {
         fn finish<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
             W: ::symplectic::emitted::EvaluationObserver,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
@@ -633,7 +633,7 @@ const _: () = {
         fn begin<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
@@ -756,7 +756,7 @@ const _: () = {
         fn sweep<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
@@ -1001,7 +1001,7 @@ const _: () = {
         fn finish<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
             W: ::symplectic::emitted::EvaluationObserver,
         >(
             step: &::symplectic::emitted::Step<'_, V>,

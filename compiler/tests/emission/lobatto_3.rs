@@ -206,7 +206,7 @@ const _: () = {
         fn begin<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
@@ -372,7 +372,7 @@ const _: () = {
         fn sweep<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
@@ -691,7 +691,7 @@ const _: () = {
         fn finish<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
             W: ::symplectic::emitted::EvaluationObserver,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
@@ -839,7 +839,7 @@ const _: () = {
         fn begin<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
@@ -947,7 +947,7 @@ const _: () = {
         fn sweep<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
@@ -1224,7 +1224,7 @@ const _: () = {
         fn finish<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
             W: ::symplectic::emitted::EvaluationObserver,
         >(
             step: &::symplectic::emitted::Step<'_, V>,

@@ -116,7 +116,7 @@ const _: () = {
         fn begin<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
@@ -162,7 +162,7 @@ const _: () = {
         fn sweep<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
             system: &S,
@@ -297,7 +297,7 @@ const _: () = {
         fn finish<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
             W: ::symplectic::emitted::EvaluationObserver,
         >(
             step: &::symplectic::emitted::Step<'_, V>,
@@ -399,7 +399,7 @@ const _: () = {
         fn apply<
             R: ::symplectic::emitted::Summation,
             V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+            S: ::symplectic::emitted::System<V, Class = Self::Class>,
             K: ::symplectic::emitted::KickDrift,
             W: ::symplectic::emitted::EvaluationObserver,
         >(

@@ -5,8 +5,8 @@ use core::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::{Kind, Ladder, MethodRecord};
-use symplectic::solver::Solver;
-use symplectic::{Error, Hamiltonian, Integrator, Method, State, Statistics, Summation, Vector};
+use symplectic::{Error, Integrator, Method, State, Statistics, Summation, Vector};
+use symplectic::{System, solver::Solver};
 
 /// Who is shown the states of a run.
 pub type Observe<'a, V> = &'a mut dyn FnMut(&State<V>);
@@ -80,7 +80,7 @@ impl<V: Vector> Contestant<V> {
     ) -> Self
     where
         M: Method,
-        S: Hamiltonian<V> + 'static,
+        S: System<V> + 'static,
         R: Summation + 'static,
         N: Solver<V, S> + 'static,
     {
@@ -170,7 +170,7 @@ fn run_observed<M, S, V, R, N>(
 ) -> Result<Finish<V>, Stop>
 where
     M: Method,
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector,
     R: Summation,
     N: Solver<V, S>,

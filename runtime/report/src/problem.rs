@@ -3,8 +3,8 @@
 use super::contestant::{Contestant, Finish, Observe};
 use super::text;
 use super::{Ladder, Measured};
-use symplectic::solver::Solver;
-use symplectic::{Error, Hamiltonian, Integrator, Method, ProvedFor, State, Summation, Vector};
+use symplectic::{Error, Integrator, Method, ProvedFor, State, Summation, Vector};
+use symplectic::{System, solver::Solver};
 
 /// A system with a start, the state at the end, and the methods that are run on it.
 ///
@@ -27,7 +27,7 @@ type Invariant<V> = dyn Fn(&State<V>) -> f64;
 impl<V, S> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: Hamiltonian<V> + Clone + 'static,
+    S: System<V> + Clone + 'static,
 {
     /// The problem of getting from `start` to the end of `reference`, with steps of about `step_size` and smaller.
     ///
@@ -198,7 +198,7 @@ impl<V: Vector<Scalar = f64>> Reference<V> {
     ) -> Result<Self, Error>
     where
         M: Method + ProvedFor<S::Class>,
-        S: Hamiltonian<V>,
+        S: System<V>,
     {
         let mut integrator = Integrator::new(method, system, start.clone(), 1.5 * step_size)?;
         let coarse = integrator.integrate_to(end)?.clone();

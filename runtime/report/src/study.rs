@@ -9,7 +9,7 @@ use super::{
     Curve, Kind, Measured, Measurements, MethodRecord, Outcome, Parameter, Point, Problem,
     ProblemRecord, Trace, text,
 };
-use symplectic::{Hamiltonian, State, Vector};
+use symplectic::{State, System, Vector};
 
 /// How much is measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,7 +65,7 @@ impl Study {
     pub fn problem<V, S>(mut self, problem: Problem<V, S>) -> Self
     where
         V: Vector<Scalar = f64>,
-        S: Hamiltonian<V> + Clone + 'static,
+        S: System<V> + Clone + 'static,
     {
         self.problems.push(Box::new(problem));
         self
@@ -133,7 +133,7 @@ trait Contest {
 impl<V, S> Contest for Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: Hamiltonian<V> + Clone + 'static,
+    S: System<V> + Clone + 'static,
 {
     fn retain_methods(&mut self, keep: &mut dyn FnMut(&str) -> bool) {
         self.contestants.retain(|contestant| keep(&contestant.name));
@@ -204,7 +204,7 @@ const OBSERVED: u32 = 4;
 impl<V, S> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: Hamiltonian<V> + Clone + 'static,
+    S: System<V> + Clone + 'static,
 {
     /// Runs a method down its ladder.
     fn explore(&self, contestant: &Contestant<V>, settings: &Settings) -> Explored {

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::observer::Deviation;
 use super::text;
 use super::{Fact, Measured};
-use symplectic::solver::Solver;
-use symplectic::{Error, Hamiltonian, Integrator, Method, State, Summation, Vector};
+use symplectic::{Error, Integrator, Method, State, Summation, Vector};
+use symplectic::{System, solver::Solver};
 
 /// What became of a run of equal steps.
 ///
@@ -90,7 +90,7 @@ impl Verdict {
     ) -> Self
     where
         M: Method,
-        S: Hamiltonian<V>,
+        S: System<V>,
         V: Vector<Scalar = f64>,
         R: Summation,
         N: Solver<V, S>,

@@ -9,7 +9,7 @@ use crate::method::kick_drift::FusedKicks;
 use crate::method::{KickDrift, Method, Outcome, Plan, Solver, Span, StageStorage, WarmStart};
 use crate::number::vector::{LIGHT, SHORT, is_in_place};
 use crate::number::{Summation, Vector, copy};
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 /// Steps of vectors of this dimension that are taken in place before what comes out is looked at: what that costs does not
 /// show beside them, and where something is not finite, few of them are in vain.
@@ -23,9 +23,7 @@ const LONG: usize = 1 << 6;
 /// Bytes of a vector of a few components, or of one whose components are elsewhere.
 const FEW: usize = 1 << 6;
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
-    Integrator<M, S, V, R, N>
-{
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Steps of one size by a clock; the last one to the time `end`, if it is given.
     #[inline]
     pub(super) fn advance_by(

@@ -10,7 +10,7 @@ use crate::method::{
 use crate::number::vector::{SHORT, is_in_place};
 use crate::number::{Summation, Vector, copy};
 use crate::state::State;
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 /// What steps change: the state, and what a step leaves behind for the next one.
 pub(super) struct StepMemory<V, T> {
@@ -31,11 +31,13 @@ pub(super) struct StepMemory<V, T> {
     /// Time at the start of the step before.
     pub(super) last_time: f64,
     pub(super) statistics: Statistics,
+    /// What every [step](Step::linear_velocity) says of the system.
+    pub(super) linear_velocity: bool,
 }
 
 impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
     /// That which begins at a state.
-    pub(super) fn new(state: State<V>) -> Self {
+    pub(super) fn new(linear_velocity: bool, state: State<V>) -> Self {
         let zeros = || (state.q.zeros_like(), state.q.zeros_like());
         Self {
             low: zeros(),
@@ -47,6 +49,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
             last_size: 0.0,
             last_time: state.time,
             statistics: Statistics::default(),
+            linear_velocity,
             state,
         }
     }
@@ -56,12 +59,12 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         Self {
             low: self.low.clone(),
             statistics: self.statistics,
-            ..Self::new(self.state.clone())
+            ..Self::new(self.linear_velocity, self.state.clone())
         }
     }
 
     /// The same with a memory of another kind.
-    pub(super) fn with_memory<U: StageStorage<V>>(self) -> StepMemory<V, U> {
+    pub(super) fn with_memory<U: StageStorage<V>>(self, linear_velocity: bool) -> StepMemory<V, U> {
         StepMemory {
             memory: U::like(&self.state.q),
             kept: WarmStart::default(),
@@ -73,6 +76,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
             last_size: self.last_size,
             last_time: self.last_time,
             statistics: self.statistics,
+            linear_velocity,
         }
     }
 
@@ -105,7 +109,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
     where
         P: Plan<Class = S::Class, Memory<V, S, N> = T>,
         R: Summation,
-        S: Hamiltonian<V>,
+        S: System<V>,
         N: Solver<V, S>,
     {
         // Nothing is kept until the step is accepted: the system may panic.
@@ -168,6 +172,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
             q_low: &self.low.0,
             p: &self.state.p,
             p_low: &self.low.1,
+            linear_velocity: self.linear_velocity,
         };
         let outcome = Outcome {
             q: &mut self.next.0,

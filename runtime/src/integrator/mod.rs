@@ -24,9 +24,8 @@ use crate::method::{Inside, Interpolation, Method, Plan, ProvedFor, Solver, Stop
 #[cfg(feature = "alloc")]
 use crate::method::{Step, WarmStart};
 use crate::number::{Compensated, Plain, Scalar, Summation, Vector};
-use crate::solver::FixedPoint;
 use crate::state::State;
-use crate::system::{Class, Hamiltonian};
+use crate::system::{Class, System};
 
 mod many_steps;
 mod memory;
@@ -37,11 +36,11 @@ pub(crate) mod validation;
 
 use memory::StepMemory;
 use validation::{
-    check_masses, check_pass, check_quadratic_kinetic, check_slopes, check_state, check_step_size,
+    check_masses, check_quadratic_kinetic, check_state, check_step_size, has_linear_velocity,
 };
 
 /// The plan of the method `M` for the class of the system `S`.
-pub(crate) type PlanOf<M, S, V> = <<S as Hamiltonian<V>>::Class as Class>::Plan<M>;
+pub(crate) type PlanOf<M, S, V> = <<S as System<V>>::Class as Class>::Plan<M>;
 
 /// The memory of that plan with the solver `N`.
 type MemoryOf<M, S, V, N> = <PlanOf<M, S, V> as Plan>::Memory<V, S, N>;
@@ -81,10 +80,10 @@ type MemoryOf<M, S, V, N> = <PlanOf<M, S, V> as Plan>::Memory<V, S, N>;
 /// ```
 pub struct Integrator<
     M: Method,
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector,
     R: Summation = Compensated,
-    N: Solver<V, S> = FixedPoint,
+    N: Solver<V, S> = <S as System<V>>::Solver,
 > {
     system: S,
     course: StepMemory<V, MemoryOf<M, S, V, N>>,
@@ -96,14 +95,14 @@ pub struct Integrator<
     method: PhantomData<(M, R, N)>,
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
+impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V> {
     /// An integrator at `state`, with steps of size `step_size`, negative to go backward, and with [`Compensated`]
     /// sums.
     ///
     /// # Errors
     ///
     /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`],
-    /// [`Error::NotQuadraticKinetic`], [`Error::NotUnitMasses`], [`Error::NotTheSameForce`], [`Error::NotTheSameSlopes`].
+    /// [`Error::NotQuadraticKinetic`], [`Error::NotUnitMasses`].
     pub fn new(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error>
     where
         M: ProvedFor<S::Class>,
@@ -112,7 +111,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V> {
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V, Plain> {
+impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V, Plain> {
     /// [`new`](Integrator::new) with [`Plain`] sums.
     ///
     /// # Errors
@@ -141,7 +140,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector> Integrator<M, S, V, Plain> {
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> Integrator<M, S, V, Plain, N> {
+impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> Integrator<M, S, V, Plain, N> {
     /// Sets how far a sweep may move the coupled stages and be the last one: no position by more than `tolerance` in its unit, nor,
     /// where the Hamiltonian is not separable or the iteration is Newton's, a momentum. Where changes
     /// shrink by `κ` a sweep, `κ/(1 − κ)` of the last one is left of the error. Zero, as it is at first, and anything below eight
@@ -179,9 +178,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> Integrator<M, S, 
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
-    Integrator<M, S, V, R, N>
-{
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// A bound on the sweeps of one step, for [`set_max_iterations`](Self::set_max_iterations). An iteration that
     /// needs more gains less than a factor of 1.2 a sweep.
     pub const DEFAULT_MAX_ITERATIONS: u32 = Stopping::DEFAULT.max_iterations;
@@ -193,7 +190,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     /// # use symplectic::nalgebra::Vector1;
     /// # use symplectic::{Error, Integrator, Hamiltonian, Method, acceleration};
     /// # use symplectic::output::Interpolation;
-    /// fn order<M: Method, S: Hamiltonian<Vector1<f64>>>(_method: M, _system: S) -> u32 {
+    /// fn order<M: Method, S: System<Vector1<f64>>>(_method: M, _system: S) -> u32 {
     ///     Integrator::<M, S, Vector1<f64>>::INTERPOLATION.order()
     /// }
     /// assert_eq!(order(Gauss4, acceleration(|_, q: &Vector1<f64>, acceleration| *acceleration = -q)), 5);
@@ -218,14 +215,11 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
         check_masses(&system, &state)?;
         check_quadratic_kinetic::<M, V, S>(&system, &state)?;
-        if !R::COMPENSATED {
-            check_pass(&system, &state, step_size)?;
-        }
-        check_slopes(&system, &state)?;
+        let clock = Clock::new(state.time, step_size);
         Ok(Self {
+            course: StepMemory::new(has_linear_velocity::<V, S, N>(&system, &state), state),
             system,
-            clock: Clock::new(state.time, step_size),
-            course: StepMemory::new(state),
+            clock,
             step_size,
             stopping: Stopping::DEFAULT,
             retry: Retry::default(),
@@ -296,6 +290,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
             q_low: &self.course.low.0,
             p: &self.course.next.1,
             p_low: &self.course.next_low.1,
+            linear_velocity: self.course.linear_velocity,
         };
         let number = self.course.statistics.steps + 1;
         let outcome = solve(&self.system, &step, number, self.stopping);
@@ -550,6 +545,11 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
         })
     }
 
+    /// What every step says of the system.
+    pub(crate) const fn has_linear_velocity(&self) -> bool {
+        self.course.linear_velocity
+    }
+
     /// When the iteration of one step stops.
     pub(crate) const fn stopping(&self) -> Stopping {
         self.stopping
@@ -565,7 +565,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Debug
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Debug
     for Integrator<M, S, V, R, N>
 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {

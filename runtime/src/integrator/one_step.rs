@@ -7,11 +7,9 @@ use crate::error::Error;
 use crate::method::diagnosis::{Attempt, FirstFault};
 use crate::method::{Failure, Method, Plan, Solver};
 use crate::number::{Summation, Vector};
-use crate::system::Hamiltonian;
+use crate::system::System;
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
-    Integrator<M, S, V, R, N>
-{
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// One step of size `size`, to the time `time`. The clock is the caller's.
     #[inline]
     pub(crate) fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {

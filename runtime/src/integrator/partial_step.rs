@@ -7,15 +7,15 @@ use crate::method::diagnosis::{Attempt, FirstFault};
 use crate::method::{Method, Outcome, Plan, Solver, StageStorage, Step, WarmStart};
 use crate::number::{Summation, Vector, copy};
 use crate::state::State;
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 /// What steps need that an integrator takes beside its own ones.
-pub(crate) struct PartialSteps<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> {
+pub(crate) struct PartialSteps<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> {
     memory: <PlanOf<M, S, V> as Plan>::Memory<V, S, N>,
     low: (V, V),
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, N> {
+impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, N> {
     /// Memory for vectors like this one.
     pub(crate) fn like(prototype: &V) -> Self {
         Self {
@@ -46,6 +46,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S
             q_low,
             p,
             p_low,
+            linear_velocity: integrator.has_linear_velocity(),
         };
         let taken = <PlanOf<M, S, V> as Plan>::take::<R, V, S, N>(
             &step,

@@ -9,11 +9,9 @@ use crate::integrator::Retry;
 use crate::integrator::clock::Clock;
 use crate::method::{Method, Solver, WarmStart};
 use crate::number::{Summation, Vector};
-use crate::system::Hamiltonian;
+use crate::system::System;
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
-    Integrator<M, S, V, R, N>
-{
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// [`take_again`](Self::take_again), and once more for `see` when it is known in how many parts.
     #[cold]
     pub(super) fn take_again_in_sight<B>(

@@ -2,25 +2,21 @@
 
 use core::marker::PhantomData;
 
-use super::validation::check_local_forces;
-use crate::error::Error;
+use super::validation::has_linear_velocity;
 use crate::integrator::Integrator;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 #[cfg(feature = "alloc")]
 use crate::solver::{Dense, Differences, Newton};
-use crate::solver::{SimdFixedPoint, SimdJacobi, SimdNystrom};
-use crate::state::State;
-use crate::system::{Hamiltonian, HamiltonianInLanes};
+use crate::system::System;
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
-    Integrator<M, S, V, R, N>
-{
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// The same integrator with another [`Solver`] for coupled stages: from here on, with the counts so far.
     pub fn with_solver<O: Solver<V, S>>(self, _solver: O) -> Integrator<M, S, V, R, O> {
+        let linear_velocity = has_linear_velocity::<V, S, O>(&self.system, &self.course.state);
         Integrator {
+            course: (self.course).with_memory(linear_velocity),
             system: self.system,
-            course: self.course.with_memory(),
             clock: self.clock,
             step_size: self.step_size,
             stopping: self.stopping,
@@ -49,64 +45,5 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     #[cfg(feature = "alloc")]
     pub fn by_newton(self) -> Integrator<M, S, V, R, Newton<Dense<Differences>>> {
         self.with_solver(Newton::new())
-    }
-}
-
-impl<M: Method, S: HamiltonianInLanes<V>, V: Vector<Scalar = f64>, R: Summation>
-    Integrator<M, S, V, R>
-{
-    /// The same integrator with coupled stages side by side, [`SimdFixedPoint`]: for a system that is generic over its
-    /// scalar. Vectors may be long. An explicit method stays what it is.
-    ///
-    /// ```
-    /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
-    /// use symplectic::nalgebra::SVector;
-    /// use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, State};
-    ///
-    /// struct Kepler;
-    ///
-    /// impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
-    ///     fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
-    ///         *velocity = *p;
-    ///     }
-    ///
-    ///     fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
-    ///         let square = q.dot(q);
-    ///         *force = -q * (square * square.sqrt()).recip();
-    ///     }
-    /// }
-    ///
-    /// # fn main() -> Result<(), Error> {
-    /// let start = || State::new(0.0, SVector::from([0.4, 0.0]), SVector::from([0.0, 2.0]));
-    /// let mut one_by_one = Integrator::new(Gauss4, Kepler, start(), 0.05)?;
-    /// let mut side_by_side = Integrator::new(Gauss4, Kepler, start(), 0.05)?.in_lanes();
-    /// // The same to the last bit.
-    /// assert_eq!(one_by_one.integrate_to(10.0)?, side_by_side.integrate_to(10.0)?);
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub fn in_lanes(self) -> Integrator<M, S, V, R, SimdFixedPoint> {
-        self.with_solver(SimdFixedPoint)
-    }
-
-    /// [`in_lanes`](Self::in_lanes) for a Hamiltonian that is not separable, with positions and momenta iterated at once:
-    /// [`SimdJacobi`], which says where that pays.
-    pub fn at_once_in_lanes(self) -> Integrator<M, S, V, R, SimdJacobi> {
-        self.with_solver(SimdJacobi)
-    }
-
-    /// [`in_lanes`](Self::in_lanes) for a second-order system `q'' = M⁻¹ f(q)`, one whose velocity `M⁻¹ p` is linear in the
-    /// momentum: by [`SimdNystrom`], which iterates the positions only.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::NotSecondOrder`], where the velocity is not linear in the momentum, or depends on time;
-    /// [`Error::NotTheSameLocalForce`], where the force component by component, or in rows, is another one, and [`Error::NoSuchRow`], where
-    /// there is no such row.
-    pub fn in_second_order_lanes(self) -> Result<Integrator<M, S, V, R, SimdNystrom>, Error> {
-        check_local_forces(&self.system, &self.course.state, self.step_size)?;
-        let State { time, q, p } = &self.course.state;
-        let solver = SimdNystrom::new(&self.system, *time, q, p)?;
-        Ok(self.with_solver(solver))
     }
 }

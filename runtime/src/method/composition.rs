@@ -10,7 +10,7 @@ use crate::method::{
     StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Coefficient, Summation, Vector};
-use crate::system::{Class, Hamiltonian};
+use crate::system::{Class, System};
 
 /// A step `Φ_{γh}` of a composition.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +30,7 @@ pub trait Substeps {
     /// The class of systems that they step.
     type Class: Class;
     /// The memory of the plans that they are taken by.
-    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>>: StageStorage<V>;
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>>: StageStorage<V>;
 
     /// The steps in their order.
     const SUBSTEPS: &'static [Substep];
@@ -52,7 +52,7 @@ pub trait Substeps {
     where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = Self::Class>,
+        S: System<V, Class = Self::Class>,
         N: Solver<V, S>;
 
     /// [`Plan::observe`] of the substep with this number, from 0.
@@ -66,7 +66,7 @@ pub trait Substeps {
     ) where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = Self::Class>,
+        S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
         W: EvaluationObserver;
 }
@@ -108,7 +108,7 @@ impl<V: Vector, T: StageStorage<V>> StageStorage<V> for CompositionMemory<V, T> 
 
 impl<L: Substeps> Plan for Composition<L> {
     type Class = L::Class;
-    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>> =
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> =
         CompositionMemory<V, L::Memory<V, S, N>>;
 
     #[inline]
@@ -123,7 +123,7 @@ impl<L: Substeps> Plan for Composition<L> {
     where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = Self::Class>,
+        S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
     {
         let CompositionMemory {
@@ -153,6 +153,7 @@ impl<L: Substeps> Plan for Composition<L> {
                 q_low,
                 p,
                 p_low,
+                linear_velocity: step.linear_velocity,
             };
             let kept = WarmStart {
                 evaluation: substep.kept.evaluation && (number > 0 || kept.evaluation),
@@ -200,7 +201,7 @@ impl<L: Substeps> Plan for Composition<L> {
     ) where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = Self::Class>,
+        S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
         W: EvaluationObserver,
     {
@@ -212,7 +213,7 @@ impl<L: Substeps> Plan for Composition<L> {
     fn extend<V, S, N>(_memory: &Self::Memory<V, S, N>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
     where
         V: Vector,
-        S: Hamiltonian<V, Class = Self::Class>,
+        S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
     {
     }

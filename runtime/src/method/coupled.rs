@@ -7,7 +7,7 @@ use crate::method::{
     StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Summation, Vector};
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 /// The plan of a step some stages of which depend on each other: a [`Solver`] finds them.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +15,7 @@ pub struct Coupled<P>(PhantomData<P>);
 
 impl<P: StageTableau> Plan for Coupled<P> {
     type Class = P::Class;
-    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>> = N::Memory<P>;
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = N::Memory<P>;
 
     #[inline(always)]
     fn take<R, V, S, N>(
@@ -29,7 +29,7 @@ impl<P: StageTableau> Plan for Coupled<P> {
     where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
         N: Solver<V, S>,
     {
         N::take::<P, R>(step, system, memory, kept, stopping, outcome)
@@ -45,7 +45,7 @@ impl<P: StageTableau> Plan for Coupled<P> {
     ) where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
         N: Solver<V, S>,
         W: EvaluationObserver,
     {
@@ -57,7 +57,7 @@ impl<P: StageTableau> Plan for Coupled<P> {
     fn extend<V, S, N>(memory: &N::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V)
     where
         V: Vector,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
         N: Solver<V, S>,
     {
         N::extend::<P>(memory, at, q, p);

@@ -7,7 +7,7 @@ use crate::method::{
     StageStorage, Step, StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Summation, Vector};
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 /// The plan of a step in which every stage is computed from the ones before it. There is no solver in its code.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +15,7 @@ pub struct Explicit<P>(PhantomData<P>);
 
 impl<P: StagePlan> Plan for Explicit<P> {
     type Class = P::Class;
-    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>> = P::Stages<V>;
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = P::Stages<V>;
 
     #[inline(always)]
     fn take<R, V, S, N>(
@@ -29,7 +29,7 @@ impl<P: StagePlan> Plan for Explicit<P> {
     where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
         N: Solver<V, S>,
     {
         P::begin::<R, V, S>(step, system, memory, kept);
@@ -49,7 +49,7 @@ impl<P: StagePlan> Plan for Explicit<P> {
     ) where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
         N: Solver<V, S>,
         W: EvaluationObserver,
     {
@@ -64,7 +64,7 @@ impl<P: StagePlan> Plan for Explicit<P> {
     fn extend<V, S, N>(_memory: &P::Stages<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
     where
         V: Vector,
-        S: Hamiltonian<V, Class = Self::Class>,
+        S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
     {
     }

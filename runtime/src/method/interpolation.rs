@@ -8,6 +8,7 @@
 //! ```
 
 use crate::method::{StagePolynomial, StoredEvaluations};
+use crate::number::vector::same;
 use crate::number::{Scalar, Vector};
 
 /// What values inside a step are computed from.
@@ -89,6 +90,17 @@ impl<V> Clone for Inside<'_, V> {
 }
 
 impl<V> Copy for Inside<'_, V> {}
+
+impl<'a, V: Vector> Inside<'a, V> {
+    /// The same of vectors of another type, if that is the same type.
+    pub(crate) fn same<W: Vector>(self) -> Option<Inside<'a, W>> {
+        Some(Inside {
+            fraction: self.fraction,
+            size: self.size,
+            momentum: same(self.momentum)?,
+        })
+    }
+}
 
 impl<V: Vector> Inside<'_, V> {
     /// By what the evaluation of a stage, from 0, is multiplied in the part that vanishes at both ends

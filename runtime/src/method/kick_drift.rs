@@ -6,7 +6,7 @@ use crate::error::Quantity;
 use crate::method::{EvaluationObserver, Span};
 use crate::number::linear_combination::{advance, kick_and_drift};
 use crate::number::{Coefficient, Scalar, Summation, Vector};
-use crate::system::{Hamiltonian, Layout};
+use crate::system::{Layout, System};
 
 /// The velocity of a splitting that makes a drift.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +37,7 @@ pub struct Force {
 /// How the kicks and drifts of a splitting are made: one by one, `()`, or so that they wait for the drift after them.
 pub trait KickDrift {
     /// Evaluates the force, for the kicks that come next.
-    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: EvaluationObserver>(
+    fn force<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
         force: Force,
         system: &S,
@@ -48,7 +48,7 @@ pub trait KickDrift {
     );
 
     /// Adds `(h weight) force` to the momentum.
-    fn kick<R: Summation, V: Vector, S: Hamiltonian<V>>(
+    fn kick<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         h: f64,
         weight: Coefficient,
@@ -59,7 +59,7 @@ pub trait KickDrift {
     );
 
     /// Evaluates the velocity, and adds it to the position.
-    fn drift<R: Summation, V: Vector, S: Hamiltonian<V>, W: EvaluationObserver>(
+    fn drift<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
         drift: Drift,
         system: &S,
@@ -70,7 +70,7 @@ pub trait KickDrift {
     );
 
     /// Makes what waits: before there is another force, and in the end.
-    fn settle<R: Summation, V: Vector, S: Hamiltonian<V>>(
+    fn settle<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         system: &S,
         force: &mut V,
@@ -81,7 +81,7 @@ pub trait KickDrift {
 
 impl KickDrift for () {
     #[inline(always)]
-    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: EvaluationObserver>(
+    fn force<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
         Force { span, stage, time }: Force,
         system: &S,
@@ -95,7 +95,7 @@ impl KickDrift for () {
     }
 
     #[inline(always)]
-    fn kick<R: Summation, V: Vector, S: Hamiltonian<V>>(
+    fn kick<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         h: f64,
         weight: Coefficient,
@@ -108,7 +108,7 @@ impl KickDrift for () {
     }
 
     #[inline(always)]
-    fn drift<R: Summation, V: Vector, S: Hamiltonian<V>, W: EvaluationObserver>(
+    fn drift<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
         Drift {
             span,
@@ -129,7 +129,7 @@ impl KickDrift for () {
     }
 
     #[inline(always)]
-    fn settle<R: Summation, V: Vector, S: Hamiltonian<V>>(
+    fn settle<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         _system: &S,
         _force: &mut V,
@@ -182,7 +182,7 @@ impl FusedKicks {
 
     /// Kicks and a drift in one pass; `false`, and positions and momenta in their order, where the system cannot.
     #[inline(always)]
-    fn pass<V: Vector, S: Hamiltonian<V>>(
+    fn pass<V: Vector, S: System<V>>(
         &mut self,
         system: &S,
         time: V::Scalar,
@@ -227,7 +227,7 @@ impl FusedKicks {
 
     /// Evaluates the force that waits.
     #[inline(always)]
-    fn evaluate<V: Vector, S: Hamiltonian<V>>(&mut self, system: &S, place: &mut V, q: &V, p: &V) {
+    fn evaluate<V: Vector, S: System<V>>(&mut self, system: &S, place: &mut V, q: &V, p: &V) {
         if let Some(Force { span, time, .. }) = self.force.take() {
             system.force(span.at(time), q, p, place);
         }
@@ -237,7 +237,7 @@ impl FusedKicks {
 impl KickDrift for FusedKicks {
     /// Shows no evaluation to the witness.
     #[inline(always)]
-    fn force<R: Summation, V: Vector, S: Hamiltonian<V>, W: EvaluationObserver>(
+    fn force<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
         force: Force,
         system: &S,
@@ -253,7 +253,7 @@ impl KickDrift for FusedKicks {
     }
 
     #[inline(always)]
-    fn kick<R: Summation, V: Vector, S: Hamiltonian<V>>(
+    fn kick<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         h: f64,
         weight: Coefficient,
@@ -274,7 +274,7 @@ impl KickDrift for FusedKicks {
     }
 
     #[inline(always)]
-    fn drift<R: Summation, V: Vector, S: Hamiltonian<V>, W: EvaluationObserver>(
+    fn drift<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
         drift: Drift,
         system: &S,
@@ -315,7 +315,7 @@ impl KickDrift for FusedKicks {
     }
 
     #[inline(always)]
-    fn settle<R: Summation, V: Vector, S: Hamiltonian<V>>(
+    fn settle<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         system: &S,
         force: &mut V,
@@ -336,7 +336,7 @@ impl KickDrift for FusedKicks {
 /// The velocity of a drift: the momentum itself where [masses are one](Hamiltonian::UNIT_MASSES), else what is in `place`,
 /// which is evaluated unless it is `known`.
 #[inline(always)]
-fn velocity<'a, V: Vector, S: Hamiltonian<V>>(
+fn velocity<'a, V: Vector, S: System<V>>(
     system: &S,
     time: V::Scalar,
     q: &V,
@@ -386,7 +386,7 @@ mod tests {
     }
 
     impl Places {
-        fn force(&mut self, moves: &mut impl KickDrift, system: &impl Hamiltonian<Long>) {
+        fn force(&mut self, moves: &mut impl KickDrift, system: &impl System<Long>) {
             let force = Force {
                 span: SPAN,
                 stage: 1,
@@ -396,18 +396,13 @@ mod tests {
             moves.force::<Plain, _, _, _>(force, system, place, &mut self.q.0, p, &mut ());
         }
 
-        fn kick(
-            &mut self,
-            moves: &mut impl KickDrift,
-            system: &impl Hamiltonian<Long>,
-            weight: f64,
-        ) {
+        fn kick(&mut self, moves: &mut impl KickDrift, system: &impl System<Long>, weight: f64) {
             let (weight, p) = (Coefficient::exact(weight), (&mut self.p.0, &mut self.p.1));
             let (force, q) = (&mut self.force, &mut self.q.0);
             moves.kick::<Plain, _, _>(SPAN.size, weight, system, force, q, p);
         }
 
-        fn drift(&mut self, moves: &mut impl KickDrift, system: &impl Hamiltonian<Long>) {
+        fn drift(&mut self, moves: &mut impl KickDrift, system: &impl System<Long>) {
             let drift = Drift {
                 span: SPAN,
                 stage: 1,
@@ -423,7 +418,7 @@ mod tests {
             moves.drift::<Plain, _, _, _>(drift, system, evaluations, q, p, &mut ());
         }
 
-        fn settle(&mut self, moves: &mut impl KickDrift, system: &impl Hamiltonian<Long>) {
+        fn settle(&mut self, moves: &mut impl KickDrift, system: &impl System<Long>) {
             let p = (&mut self.p.0, &mut self.p.1);
             moves.settle::<Plain, _, _>(system, &mut self.force, &mut self.q.0, p);
         }
@@ -435,7 +430,7 @@ mod tests {
         fn all(
             mut moves: impl KickDrift,
             mut places: Places,
-            system: &impl Hamiltonian<Long>,
+            system: &impl System<Long>,
         ) -> Places {
             for (forces, kicks) in [
                 (0, 1),
@@ -465,7 +460,7 @@ mod tests {
             }
             places
         }
-        fn check(system: &impl Hamiltonian<Long>) {
+        fn check(system: &impl System<Long>) {
             let zero = Long::zeros();
             let waves = |phase: f64| Long::from_fn(|i, _| 0.1 * (i as f64 + phase).sin());
             let start = Places {

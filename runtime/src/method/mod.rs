@@ -42,7 +42,7 @@ pub use work::{Failure, StepStatistics};
 use core::fmt::Debug;
 
 use crate::number::{Coefficients, Summation, Vector};
-use crate::system::{Class, General, Hamiltonian, Separable};
+use crate::system::{Class, General, Separable, System};
 
 /// A symplectic partitioned Runge–Kutta method: a type without a value, emitted from a proved tableau.
 ///
@@ -103,7 +103,7 @@ pub trait Plan {
     /// The class of systems that it steps.
     type Class: Class;
     /// What it needs beside the state, made once and used for every step.
-    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>>: StageStorage<V>;
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>>: StageStorage<V>;
 
     /// The evaluations of a step that is [taken in place](Self::take_in_place); `None` where steps cannot be.
     const EVALUATIONS_IN_PLACE: Option<u32> = None;
@@ -124,7 +124,7 @@ pub trait Plan {
     where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = Self::Class>,
+        S: System<V, Class = Self::Class>,
         N: Solver<V, S>;
 
     /// Takes a step from `state`, in place, with the evaluations [kept](WarmStart::evaluation) by the step before; nothing where
@@ -139,7 +139,7 @@ pub trait Plan {
     ) where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = Self::Class>,
+        S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
         K: KickDrift,
     {
@@ -155,7 +155,7 @@ pub trait Plan {
     ) where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = Self::Class>,
+        S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
         K: KickDrift,
     {
@@ -171,7 +171,7 @@ pub trait Plan {
     ) where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = Self::Class>,
+        S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
         W: EvaluationObserver;
 
@@ -183,7 +183,7 @@ pub trait Plan {
     fn extend<V, S, N>(memory: &Self::Memory<V, S, N>, at: Inside<'_, V>, q: &mut V, p: &mut V)
     where
         V: Vector,
-        S: Hamiltonian<V, Class = Self::Class>,
+        S: System<V, Class = Self::Class>,
         N: Solver<V, S>;
 }
 
@@ -211,7 +211,7 @@ pub trait StagePlan {
 
     /// Evaluates what is explicit before the coupled stages, and gives these their starting values: extrapolated from
     /// the stages of the step before where they are [kept](WarmStart::stages), the start of the step elsewhere.
-    fn begin<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
+    fn begin<R: Summation, V: Vector, S: System<V, Class = Self::Class>>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Self::Stages<V>,
@@ -223,7 +223,7 @@ pub trait StagePlan {
     ///
     /// For a separable system one half comes after the other and uses its new evaluations: the stopping rule of
     /// [`FixedPoint`](crate::solver::FixedPoint) relies on it.
-    fn sweep<R: Summation, V: Vector, S: Hamiltonian<V, Class = Self::Class>>(
+    fn sweep<R: Summation, V: Vector, S: System<V, Class = Self::Class>>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Self::Stages<V>,
@@ -238,12 +238,7 @@ pub trait StagePlan {
     /// Evaluates what comes after the coupled stages, and writes the result of the step.
     ///
     /// A splitting makes all its evaluations here, and shows them to `witness`.
-    fn finish<
-        R: Summation,
-        V: Vector,
-        S: Hamiltonian<V, Class = Self::Class>,
-        W: EvaluationObserver,
-    >(
+    fn finish<R: Summation, V: Vector, S: System<V, Class = Self::Class>, W: EvaluationObserver>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Self::Stages<V>,

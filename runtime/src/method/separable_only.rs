@@ -5,7 +5,7 @@ use crate::method::{
     StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Summation, Vector};
-use crate::system::{General, Hamiltonian};
+use crate::system::{General, System};
 
 /// The matrix with the entries `weights[j]` in the row `i` for `j < i`, and for `j = i` where they are its `own`, and `zero`
 /// elsewhere: `a` and `ã` of a splitting.
@@ -64,7 +64,7 @@ impl SeparableOnly {
 
 impl Plan for SeparableOnly {
     type Class = General;
-    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>> = crate::method::Evaluations<V>;
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = crate::method::Evaluations<V>;
 
     fn take<R, V, S, N>(
         _step: &Step<'_, V>,
@@ -77,7 +77,7 @@ impl Plan for SeparableOnly {
     where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = General>,
+        S: System<V, Class = General>,
         N: Solver<V, S>,
     {
         const { Self::refuse::<V>() };
@@ -93,7 +93,7 @@ impl Plan for SeparableOnly {
     ) where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = General>,
+        S: System<V, Class = General>,
         N: Solver<V, S>,
         W: EvaluationObserver,
     {
@@ -109,7 +109,7 @@ impl Plan for SeparableOnly {
         _p: &mut V,
     ) where
         V: Vector,
-        S: Hamiltonian<V, Class = General>,
+        S: System<V, Class = General>,
         N: Solver<V, S>,
     {
     }

@@ -6,12 +6,15 @@ use crate::method::{
     Failure, Inside, Outcome, StageStorage, StageTableau, Step, StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Summation, Vector};
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 /// Finds the stages of a [`Coupled`](crate::emitted::Coupled) plan, for a system `S` over the vectors `V`.
 ///
 /// [`FixedPoint`](crate::solver::FixedPoint) is the one that every system has.
-pub trait Solver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
+pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
+    /// Whether it is tried, when an integrator is made, if the velocity is [linear](Step::linear_velocity) in the momentum.
+    const TRIES_LINEARITY: bool = false;
+
     /// What it needs for one plan, made once and used for every step.
     type Memory<P: StageTableau>: StageStorage<V>;
 
@@ -31,7 +34,7 @@ pub trait Solver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
     where
         P: StageTableau,
         R: Summation,
-        S: Hamiltonian<V, Class = P::Class>;
+        S: System<V, Class = P::Class>;
 
     /// Adds to `q` and `p` how far they are inside the last step from the straight line between its ends, by the
     /// [polynomials](crate::solver::HalfTableau::polynomial) through the evaluations in `memory`.

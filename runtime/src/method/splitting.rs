@@ -7,7 +7,7 @@ use crate::method::{
     Solver, Span, StageStorage, Step, StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Summation, Vector, copy};
-use crate::system::{Class, Hamiltonian};
+use crate::system::{Class, System};
 
 /// How a splitting goes through one step of a system of one [`Class`]: each evaluation is in the later stages in full, so
 /// it is applied to the state at once, and no stage is stored.
@@ -24,7 +24,7 @@ pub trait SplittingPlan {
     fn apply<
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = Self::Class>,
+        S: System<V, Class = Self::Class>,
         K: KickDrift,
         W: EvaluationObserver,
     >(
@@ -57,7 +57,7 @@ impl<P: SplittingPlan> Splitting<P> {
 
 impl<P: SplittingPlan> Plan for Splitting<P> {
     type Class = P::Class;
-    type Memory<V: Vector, S: Hamiltonian<V>, N: Solver<V, S>> = Evaluations<V>;
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = Evaluations<V>;
 
     const EVALUATIONS_IN_PLACE: Option<u32> = Some(P::EVALUATIONS - P::CARRIED);
 
@@ -73,7 +73,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
     where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
         N: Solver<V, S>,
     {
         Self::start::<R, V>(step, &mut outcome);
@@ -94,7 +94,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
     ) where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
         N: Solver<V, S>,
         W: EvaluationObserver,
     {
@@ -117,7 +117,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
     fn extend<V, S, N>(_memory: &Evaluations<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
     where
         V: Vector,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
         N: Solver<V, S>,
     {
     }
@@ -132,7 +132,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
     ) where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
         N: Solver<V, S>,
         K: KickDrift,
     {
@@ -149,7 +149,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
     ) where
         R: Summation,
         V: Vector,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
         N: Solver<V, S>,
         K: KickDrift,
     {

@@ -1,6 +1,7 @@
 //! One step, as a plan sees it.
 
 use crate::error::Quantity;
+use crate::number::vector::{same, same_mut};
 use crate::number::{Coefficient, Scalar, Vector};
 
 /// The step that is taken: from `(q, p)` at `time` to `time + size`.
@@ -18,6 +19,9 @@ pub struct Step<'a, V> {
     pub p: &'a V,
     /// What `p` leaves out.
     pub p_low: &'a V,
+    /// Whether the velocity is linear in the momentum, and does not depend on time: the kinetic energy is quadratic. `false` also
+    /// where the [solver](crate::solver::Solver::TRIES_LINEARITY) does not ask.
+    pub linear_velocity: bool,
 }
 
 impl<V: Vector> Step<'_, V> {
@@ -33,6 +37,21 @@ impl<V: Vector> Step<'_, V> {
             q_low: &q_low,
             p: &p,
             p_low: &p_low,
+            linear_velocity: self.linear_velocity,
+        })
+    }
+
+    /// The same step of vectors of another type, if that is the same type.
+    #[inline(always)]
+    pub(crate) fn same<W: Vector>(&self) -> Option<Step<'_, W>> {
+        Some(Step {
+            time: self.time,
+            size: self.size,
+            q: same(self.q)?,
+            q_low: same(self.q_low)?,
+            p: same(self.p)?,
+            p_low: same(self.p_low)?,
+            linear_velocity: self.linear_velocity,
         })
     }
 }
@@ -82,6 +101,19 @@ pub struct Outcome<'a, V> {
     pub p: &'a mut V,
     /// What `p` leaves out; untouched by [`Plain`](crate::Plain) sums.
     pub p_low: &'a mut V,
+}
+
+impl<'a, V: Vector> Outcome<'a, V> {
+    /// The same places for vectors of another type, if that is the same type.
+    #[inline(always)]
+    pub(crate) fn same<W: Vector>(self) -> Option<Outcome<'a, W>> {
+        Some(Outcome {
+            q: same_mut(self.q)?,
+            q_low: same_mut(self.q_low)?,
+            p: same_mut(self.p)?,
+            p_low: same_mut(self.p_low)?,
+        })
+    }
 }
 
 impl<V> Outcome<'_, V> {

@@ -45,6 +45,10 @@ pub trait Scalar:
     /// Distance from 1 to the next larger number: 2⁻⁵² for f64, 2⁻²³ for f32.
     const EPSILON: f64;
 
+    /// Whether it is f64: coupled stages can then be side by side in lanes.
+    #[doc(hidden)]
+    const IS_DOUBLE: bool = false;
+
     /// The scalar nearest to `value`; a constant, that is with all derivatives zero and all lanes equal.
     fn from_f64(value: f64) -> Self;
 
@@ -261,6 +265,8 @@ const fn widen(value: f32) -> f64 {
 }
 
 float!(f64, same, same, double, {
+    const IS_DOUBLE: bool = true;
+
     #[inline(always)]
     fn doubles(numbers: &[f64]) -> Option<&[f64]> {
         Some(numbers)

@@ -1,5 +1,6 @@
 //! The vectors that positions and momenta are.
 
+use core::any::Any;
 use core::fmt::Debug;
 use core::mem;
 
@@ -58,6 +59,18 @@ pub trait Vector: Clone + Debug + PartialEq + 'static {
     fn zeros_like(&self) -> Self;
     /// The zero vector of the same dimension over another scalar.
     fn zeros_with<T: Scalar>(&self) -> Self::With<T>;
+}
+
+/// A vector as one of another type, if that is the same type.
+#[inline(always)]
+pub(crate) fn same<V: Vector, W: Vector>(vector: &V) -> Option<&W> {
+    (vector as &dyn Any).downcast_ref()
+}
+
+/// [`same`], to be written.
+#[inline(always)]
+pub(crate) fn same_mut<V: Vector, W: Vector>(vector: &mut V) -> Option<&mut W> {
+    (vector as &mut dyn Any).downcast_mut()
 }
 
 impl<T: Scalar, const N: usize> Vector for SVector<T, N> {

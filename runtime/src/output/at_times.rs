@@ -7,11 +7,9 @@ use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::output::dense::Ends;
 use crate::state::State;
-use crate::system::Hamiltonian;
+use crate::system::System;
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
-    Integrator<M, S, V, R, N>
-{
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Takes steps until all `times` are behind, and shows `observe` the state at each of them, in their order.
     ///
     /// The steps are those that [`step`](Self::step) takes, of the step size whatever the times; states inside them are
@@ -101,7 +99,7 @@ impl<V: Vector> Output<V> {
     ) -> Result<(), Error>
     where
         M: Method,
-        S: Hamiltonian<V>,
+        S: System<V>,
         R: Summation,
         N: Solver<V, S>,
     {

@@ -9,7 +9,7 @@ use crate::method::{Inside, Interpolation, Method, Solver};
 use crate::number::{Compensated, Scalar, Summation, Vector};
 use crate::solver::FixedPoint;
 use crate::state::State;
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 /// The states at all times of the last step: what [`Integrator::dense`] returns.
 ///
@@ -40,7 +40,7 @@ use crate::system::Hamiltonian;
 pub struct DenseOutput<
     'a,
     M: Method,
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector,
     R: Summation = Compensated,
     N: Solver<V, S> = FixedPoint,
@@ -70,7 +70,7 @@ impl<V: Vector> Ends<V> {
     ) -> Result<(), Error>
     where
         M: Method,
-        S: Hamiltonian<V>,
+        S: System<V>,
         R: Summation,
         N: Solver<V, S>,
     {
@@ -117,7 +117,7 @@ impl<V: Vector> Ends<V> {
     ) -> Result<(), Error>
     where
         M: Method,
-        S: Hamiltonian<V>,
+        S: System<V>,
         R: Summation,
         N: Solver<V, S>,
     {
@@ -156,9 +156,7 @@ impl<V: Vector> Ends<V> {
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
-    Integrator<M, S, V, R, N>
-{
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// The states inside the last step, between its start and the present state.
     ///
     /// Where they are [`Interpolation::Hermite`], the system is evaluated at both ends. The step is the last one that was
@@ -178,7 +176,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>
     DenseOutput<'_, M, S, V, R, N>
 {
     /// The times of the start and of the end of the step; the second is the smaller one where it went backward.
@@ -210,7 +208,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Debug
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Debug
     for DenseOutput<'_, M, S, V, R, N>
 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -2,7 +2,7 @@
 
 use crate::number::Vector;
 use crate::state::State;
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 /// An observer of a function of the state: the energy, a momentum map, anything that the exact flow conserves.
 ///
@@ -106,7 +106,7 @@ impl Invariant<()> {
     ) -> Invariant<impl Fn(&State<V>) -> f64 + use<V, S>>
     where
         V: Vector<Scalar = f64>,
-        S: Hamiltonian<V>,
+        S: System<V>,
     {
         let energy = move |state: &State<V>| {
             let energy = system.energy(state.time, &state.q, &state.p);

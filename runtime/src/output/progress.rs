@@ -7,7 +7,7 @@ use crate::integrator::{Integrator, Statistics};
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::state::State;
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 /// How far an integration has come, as [`Integrator::integrate_while`] reports after every step.
 #[derive(Clone, Copy, Debug)]
@@ -29,9 +29,7 @@ impl<V> Progress<'_, V> {
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
-    Integrator<M, S, V, R, N>
-{
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// [`integrate_to`](Self::integrate_to) that reports its progress after every step, and ends where the report breaks
     /// it: with the value that it breaks with, otherwise with `None`.
     ///

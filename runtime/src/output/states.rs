@@ -9,11 +9,9 @@ use crate::method::{Method, Solver};
 use crate::number::{Compensated, Summation, Vector};
 use crate::solver::FixedPoint;
 use crate::state::State;
-use crate::system::Hamiltonian;
+use crate::system::System;
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
-    Integrator<M, S, V, R, N>
-{
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// An endless iterator over the states after each step. [`Iterator::take`] what is needed.
     pub const fn states(&mut self) -> States<'_, M, S, V, R, N> {
         States::new(self)
@@ -27,7 +25,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 pub struct States<
     'a,
     M: Method,
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector,
     R: Summation = Compensated,
     N: Solver<V, S> = FixedPoint,
@@ -38,7 +36,7 @@ pub struct States<
     failed: bool,
 }
 
-impl<'a, M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
+impl<'a, M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>
     States<'a, M, S, V, R, N>
 {
     pub(crate) const fn new(integrator: &'a mut Integrator<M, S, V, R, N>) -> Self {
@@ -77,7 +75,7 @@ impl<'a, M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>> Iterator
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Iterator
     for States<'_, M, S, V, R, N>
 {
     type Item = Result<State<V>, Error>;
@@ -92,12 +90,12 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>> Ite
     }
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>> FusedIterator
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> FusedIterator
     for States<'_, M, S, V, R, N>
 {
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Debug
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Debug
     for States<'_, M, S, V, R, N>
 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -12,7 +12,7 @@ use crate::number::summation::Overrelaxed;
 use crate::number::vector::{LIGHT, is_in_place};
 use crate::number::{Scalar, Summation, Vector};
 use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
-use crate::system::{Class, Hamiltonian};
+use crate::system::{Class, System};
 
 /// Fixed-point iteration: sweep after sweep from the latest evaluations to new stages. It converges where the step size
 /// times the Lipschitz constant of the system is small.
@@ -48,7 +48,7 @@ use crate::system::{Class, Hamiltonian};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint;
 
-impl<V: Vector, S: Hamiltonian<V>> Solver<V, S> for FixedPoint {
+impl<V: Vector, S: System<V>> Solver<V, S> for FixedPoint {
     type Memory<P: StageTableau> = P::Stages<V>;
 
     #[inline(always)]
@@ -63,7 +63,7 @@ impl<V: Vector, S: Hamiltonian<V>> Solver<V, S> for FixedPoint {
     where
         P: StageTableau,
         R: Summation,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
     {
         by_stages::<P, R, V, S>(step, system, stages, kept, stopping, outcome)
     }
@@ -89,7 +89,7 @@ where
     P: StagePlan,
     R: Summation,
     V: Vector,
-    S: Hamiltonian<V, Class = P::Class>,
+    S: System<V, Class = P::Class>,
 {
     let mut sweeps = ByStages::<P, R, V, S> {
         step,
@@ -119,7 +119,7 @@ where
     P: StagePlan,
     R: Summation,
     V: Vector,
-    S: Hamiltonian<V, Class = P::Class>,
+    S: System<V, Class = P::Class>,
 {
     type Movement = StageChange;
 

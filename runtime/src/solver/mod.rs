@@ -1,5 +1,6 @@
 //! How coupled stages are found.
 
+pub(crate) mod automatic;
 pub(crate) mod convergence;
 pub(crate) mod fixed_point;
 #[cfg(feature = "alloc")]
@@ -15,6 +16,7 @@ pub use crate::method::{
     Stopping, StoredEvaluations, WarmStart,
 };
 pub use crate::number::{Coefficient, Coefficients};
+pub use automatic::{Automatic, AutomaticStages};
 pub use fixed_point::FixedPoint;
 #[cfg(feature = "alloc")]
 pub use newton::{
@@ -23,8 +25,7 @@ pub use newton::{
     Newton, NewtonMemory, Parts,
 };
 #[cfg(feature = "num-dual")]
-pub use newton::{DualNumbers, HamiltonianInDuals};
-pub use nystrom::{NystromStages, SimdNystrom};
+pub use newton::{DualNumbers, SystemInDuals};
 pub use relax::relax;
 pub use simd::gauss_seidel::SimdFixedPoint;
 pub use simd::jacobi::SimdJacobi;

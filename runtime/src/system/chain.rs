@@ -7,8 +7,11 @@ use num_traits::Zero;
 use crate::number::lanes::lane_of;
 use crate::number::rows::{Eight, Row, Single, splats};
 use crate::number::{F64x8, Lanes, Scalar, Vector, copy};
+use crate::solver::Automatic;
 use crate::system::strands::{Part, parts};
-use crate::system::{Components, Layout, MOST_ROW_STAGES, SeparableHamiltonian, StageRows};
+use crate::system::{
+    Components, Layout, MOST_ROW_STAGES, OverEveryScalar, Separable, StageRows, System,
+};
 
 /// What the particles of a [`Chain`] feel.
 ///
@@ -412,16 +415,19 @@ fn without_last(row: F64x8) -> F64x8 {
     })
 }
 
-impl<V: Vector, B: Bonds> SeparableHamiltonian<V> for Chain<B> {
+impl<V: Vector, B: Bonds> System<V> for Chain<B> {
+    type Class = Separable;
+    type Solver = Automatic;
+
     const UNIT_MASSES: bool = true;
 
     #[inline]
-    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
+    fn velocity(&self, _time: V::Scalar, _q: &V, p: &V, velocity: &mut V) {
         copy(velocity, p);
     }
 
     #[inline]
-    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
+    fn force(&self, time: V::Scalar, q: &V, _p: &V, force: &mut V) {
         let (q, force) = (q.as_slice(), force.as_mut_slice());
         let n = q.len().min(force.len());
         let (q, force) = (&q[..n], &mut force[..n]);
@@ -527,7 +533,7 @@ impl<V: Vector, B: Bonds> SeparableHamiltonian<V> for Chain<B> {
     ) -> bool {
         let n = q.len().min(p.len());
         let (q, p) = (&mut q[..n], &mut p[..n]);
-        if !layout.is_natural() && layout != SeparableHamiltonian::<V>::layout(self, q, p) {
+        if !layout.is_natural() && layout != System::<V>::layout(self, q, p) {
             return false;
         }
         if let (Some(&[time, drift]), Some(kicks), Some(q), Some(p)) = (
@@ -576,4 +582,8 @@ impl<V: Vector, B: Bonds> SeparableHamiltonian<V> for Chain<B> {
         }
         Some(energy)
     }
+}
+
+impl<V: Vector, B: Bonds> OverEveryScalar<V> for Chain<B> {
+    type Doubles = V::With<f64>;
 }

@@ -3,10 +3,9 @@
 use core::fmt;
 use core::marker::PhantomData;
 
-use nalgebra::SVector;
-
-use crate::number::{Scalar, Vector, copy};
-use crate::system::{General, Hamiltonian, SeparableHamiltonian};
+use crate::number::{Vector, copy};
+use crate::solver::FixedPoint;
+use crate::system::{General, Separable, System};
 
 /// A separable system of two closures, `|time, p, velocity| …` and `|time, q, force| …`, that write their result
 /// into the last argument.
@@ -26,8 +25,9 @@ use crate::system::{General, Hamiltonian, SeparableHamiltonian};
 ///     |_time, q, force| *force = -q / q.norm().powi(3),
 /// )
 /// .with_energy(|_time, q, p| p.norm_squared() / 2.0 - q.norm().recip());
-/// # symplectic::SeparableHamiltonian::force(&oscillator, 0.0, &Vector1::new(1.0), &mut Vector1::new(0.0));
-/// # symplectic::SeparableHamiltonian::force(&kepler, 0.0, &Vector2::new(1.0, 0.0), &mut Vector2::zeros());
+/// # let (x, y) = (Vector1::new(1.0), Vector2::new(1.0, 0.0));
+/// # symplectic::System::force(&oscillator, 0.0, &x, &x, &mut Vector1::new(0.0));
+/// # symplectic::System::force(&kepler, 0.0, &y, &y, &mut Vector2::zeros());
 /// ```
 pub const fn separable<V, F, G>(velocity: F, force: G) -> SeparableClosures<V, F, G>
 where
@@ -55,7 +55,8 @@ where
 /// let kepler = acceleration(|_time, q: &Vector2<f64>, acceleration| *acceleration = -q / q.norm().powi(3))
 ///     .with_energy(|_time, q, p| p.norm_squared() / 2.0 - q.norm().recip());
 /// # let mut velocity = Vector2::zeros();
-/// # symplectic::SeparableHamiltonian::velocity(&kepler, 0.0, &Vector2::new(1.0, 2.0), &mut velocity);
+/// # let p = Vector2::new(1.0, 2.0);
+/// # symplectic::System::velocity(&kepler, 0.0, &p, &p, &mut velocity);
 /// # assert_eq!(velocity, Vector2::new(1.0, 2.0));
 /// ```
 pub const fn acceleration<V, G>(acceleration: G) -> SeparableClosures<V, Momentum, G>
@@ -88,7 +89,7 @@ pub struct Momentum;
 ///     |_time, q, p, force| force[0] = -q[0] * (p[0] * p[0] + 1.0),
 /// )
 /// .with_energy(|_time, q, p| (q[0] * q[0] + 1.0) * (p[0] * p[0] + 1.0) / 2.0);
-/// # symplectic::Hamiltonian::energy(&system, 0.0, &Vector1::new(1.0), &Vector1::new(0.0));
+/// # symplectic::System::energy(&system, 0.0, &Vector1::new(1.0), &Vector1::new(0.0));
 /// ```
 pub const fn hamiltonian<V, F, G>(velocity: F, force: G) -> HamiltonianClosures<V, F, G>
 where
@@ -113,7 +114,7 @@ pub struct SeparableClosures<V, F, G, E = NoEnergy> {
     vector: PhantomData<fn(V)>,
 }
 
-/// What [`hamiltonian`] returns; a system over [`SVector`] and [`DVector`](nalgebra::DVector).
+/// What [`hamiltonian`] returns.
 #[derive(Clone, Copy)]
 pub struct HamiltonianClosures<V, F, G, E = NoEnergy> {
     velocity: F,
@@ -168,22 +169,25 @@ impl<V: Vector, F, G> HamiltonianClosures<V, F, G> {
     }
 }
 
-impl<V, F, G, E> SeparableHamiltonian<V> for SeparableClosures<V, F, G, E>
+impl<V, F, G, E> System<V> for SeparableClosures<V, F, G, E>
 where
     V: Vector,
     F: Velocity<V>,
     G: Fn(V::Scalar, &V, &mut V),
     E: Energy<V>,
 {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
     const UNIT_MASSES: bool = F::UNIT_MASSES;
 
     #[inline(always)]
-    fn velocity(&self, time: V::Scalar, p: &V, velocity: &mut V) {
+    fn velocity(&self, time: V::Scalar, _q: &V, p: &V, velocity: &mut V) {
         self.velocity.write(time, p, velocity);
     }
 
     #[inline(always)]
-    fn force(&self, time: V::Scalar, q: &V, force: &mut V) {
+    fn force(&self, time: V::Scalar, q: &V, _p: &V, force: &mut V) {
         (self.force)(time, q, force);
     }
 
@@ -192,38 +196,30 @@ where
     }
 }
 
-// One implementation a family of vectors, not one for all `V`: elsewhere somebody could make these closures
-// `SeparableHamiltonian` over a vector of their own, and would meet two implementations of `Hamiltonian`.
-macro_rules! general {
-    ($V:ty, $($parameter:tt)*) => {
-        impl<F, G, E, $($parameter)*> Hamiltonian<$V> for HamiltonianClosures<$V, F, G, E>
-        where
-            F: Fn(T, &$V, &$V, &mut $V),
-            G: Fn(T, &$V, &$V, &mut $V),
-            E: Energy<$V>,
-        {
-            type Class = General;
+impl<V, F, G, E> System<V> for HamiltonianClosures<V, F, G, E>
+where
+    V: Vector,
+    F: Fn(V::Scalar, &V, &V, &mut V),
+    G: Fn(V::Scalar, &V, &V, &mut V),
+    E: Energy<V>,
+{
+    type Class = General;
+    type Solver = FixedPoint;
 
-            #[inline(always)]
-            fn velocity(&self, time: T, q: &$V, p: &$V, velocity: &mut $V) {
-                (self.velocity)(time, q, p, velocity);
-            }
+    #[inline(always)]
+    fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
+        (self.velocity)(time, q, p, velocity);
+    }
 
-            #[inline(always)]
-            fn force(&self, time: T, q: &$V, p: &$V, force: &mut $V) {
-                (self.force)(time, q, p, force);
-            }
+    #[inline(always)]
+    fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
+        (self.force)(time, q, p, force);
+    }
 
-            fn energy(&self, time: T, q: &$V, p: &$V) -> Option<T> {
-                self.energy.evaluate(time, q, p)
-            }
-        }
-    };
+    fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
+        self.energy.evaluate(time, q, p)
+    }
 }
-
-general!(SVector<T, N>, T: Scalar, const N: usize);
-#[cfg(feature = "alloc")]
-general!(nalgebra::DVector<T>, T: Scalar);
 
 impl<V, F, G, E> fmt::Debug for SeparableClosures<V, F, G, E> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {

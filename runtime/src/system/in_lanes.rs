@@ -1,28 +1,7 @@
 //! Systems whose scalars are doubles side by side.
 
 use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector};
-use crate::system::{Components, Hamiltonian};
-
-/// A system over vectors of doubles and over vectors of [`Lanes`]: every one that is generic over its scalar.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a Hamiltonian system over the vectors `{V}` with lanes in place of doubles",
-    label = "this needs a system that is generic over its `Scalar`: `impl<T: Scalar> SeparableHamiltonian<SVector<T, N>> for …`"
-)]
-pub trait HamiltonianInLanes<V: Vector>:
-    Hamiltonian<V>
-    + Hamiltonian<V::With<F64x2>>
-    + Hamiltonian<V::With<F64x4>>
-    + Hamiltonian<V::With<F64x8>>
-{
-}
-
-impl<V: Vector, S> HamiltonianInLanes<V> for S where
-    S: Hamiltonian<V>
-        + Hamiltonian<V::With<F64x2>>
-        + Hamiltonian<V::With<F64x4>>
-        + Hamiltonian<V::With<F64x8>>
-{
-}
+use crate::system::{Components, System, SystemInLanes};
 
 /// Lanes in which systems are evaluated.
 pub trait SystemLanes: Lanes {
@@ -35,7 +14,7 @@ pub trait SystemLanes: Lanes {
         velocity: &mut V::With<Self>,
     ) where
         V: Vector,
-        S: HamiltonianInLanes<V>;
+        S: SystemInLanes<V>;
 
     /// [`Hamiltonian::force`] in every lane at once.
     fn force<V, S>(
@@ -46,19 +25,19 @@ pub trait SystemLanes: Lanes {
         force: &mut V::With<Self>,
     ) where
         V: Vector,
-        S: HamiltonianInLanes<V>;
+        S: SystemInLanes<V>;
 
     /// [`Hamiltonian::LOCAL_FORCE`] of a system over these lanes.
     fn has_local_force<V, S>() -> bool
     where
         V: Vector,
-        S: HamiltonianInLanes<V>;
+        S: SystemInLanes<V>;
 
     /// [`Hamiltonian::local_force`] in every lane at once.
     fn local_force<V, S>(system: &S, time: Self, components: &mut impl Components<Self>)
     where
         V: Vector,
-        S: HamiltonianInLanes<V>;
+        S: SystemInLanes<V>;
 
     /// [`Hamiltonian::slopes`] in every lane at once.
     fn slopes<V, S>(
@@ -69,7 +48,7 @@ pub trait SystemLanes: Lanes {
         slopes: (&mut V::With<Self>, &mut V::With<Self>),
     ) where
         V: Vector,
-        S: HamiltonianInLanes<V>;
+        S: SystemInLanes<V>;
 }
 
 macro_rules! system_lanes {
@@ -84,9 +63,9 @@ macro_rules! system_lanes {
                 velocity: &mut V::With<Self>,
             ) where
                 V: Vector,
-                S: HamiltonianInLanes<V>,
+                S: SystemInLanes<V>,
             {
-                Hamiltonian::<V::With<Self>>::velocity(system, time, q, p, velocity);
+                System::<V::With<Self>>::velocity(system, time, q, p, velocity);
             }
 
             #[inline(always)]
@@ -98,27 +77,27 @@ macro_rules! system_lanes {
                 force: &mut V::With<Self>,
             ) where
                 V: Vector,
-                S: HamiltonianInLanes<V>,
+                S: SystemInLanes<V>,
             {
-                Hamiltonian::<V::With<Self>>::force(system, time, q, p, force);
+                System::<V::With<Self>>::force(system, time, q, p, force);
             }
 
             #[inline(always)]
             fn has_local_force<V, S>() -> bool
             where
                 V: Vector,
-                S: HamiltonianInLanes<V>,
+                S: SystemInLanes<V>,
             {
-                <S as Hamiltonian<V::With<Self>>>::LOCAL_FORCE
+                <S as System<V::With<Self>>>::LOCAL_FORCE
             }
 
             #[inline(always)]
             fn local_force<V, S>(system: &S, time: Self, components: &mut impl Components<Self>)
             where
                 V: Vector,
-                S: HamiltonianInLanes<V>,
+                S: SystemInLanes<V>,
             {
-                Hamiltonian::<V::With<Self>>::local_force(system, time, components);
+                System::<V::With<Self>>::local_force(system, time, components);
             }
 
             #[inline(always)]
@@ -130,9 +109,9 @@ macro_rules! system_lanes {
                 slopes: (&mut V::With<Self>, &mut V::With<Self>),
             ) where
                 V: Vector,
-                S: HamiltonianInLanes<V>,
+                S: SystemInLanes<V>,
             {
-                Hamiltonian::<V::With<Self>>::slopes(system, time, q, p, slopes);
+                System::<V::With<Self>>::slopes(system, time, q, p, slopes);
             }
         }
     };

@@ -1,7 +1,7 @@
 //! Whether the kinetic energy is quadratic, as far as evaluations of the velocity can tell.
 
 use crate::number::{Scalar, Vector};
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 /// A component of a velocity that is not linear in the momentum.
 pub(crate) struct NonLinear {
@@ -18,7 +18,7 @@ pub(crate) struct NonLinear {
 pub(crate) fn non_linear_velocity<V, S>(system: &S, time: f64, q: &V, p: &V) -> Option<NonLinear>
 where
     V: Vector,
-    S: Hamiltonian<V>,
+    S: System<V>,
 {
     let velocity = |time: f64, momentum: &dyn Fn(usize) -> V::Scalar| {
         let (mut point, mut velocity) = (p.zeros_like(), p.zeros_like());

@@ -7,6 +7,7 @@ pub(crate) mod hamiltonian;
 pub(crate) mod in_lanes;
 pub(crate) mod linearity;
 pub(crate) mod local_force;
+pub(crate) mod over_vectors;
 pub(crate) mod strands;
 
 pub use chain::{Bonds, Chain};
@@ -16,6 +17,7 @@ pub use closures::{
     separable,
 };
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
-pub use in_lanes::{HamiltonianInLanes, SystemLanes};
+pub use in_lanes::SystemLanes;
 pub use local_force::{Components, MOST_ROW_STAGES, StageRows};
+pub use over_vectors::{OverEveryScalar, System, SystemInLanes};
 pub use strands::Layout;

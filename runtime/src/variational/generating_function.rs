@@ -17,7 +17,7 @@ use crate::method::{
 };
 use crate::number::{Coefficient, Coefficients, Plain, Scalar, Summation, Vector};
 use crate::solver::fixed_point::by_stages;
-use crate::system::{Class, Hamiltonian};
+use crate::system::{Class, System};
 
 /// What [`generating_function`] returns: the value at `(q0, p1)`, and the step that it generates.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,7 +89,7 @@ pub struct GeneratingFunction<V: Vector> {
 /// # Ok(())
 /// # }
 /// ```
-pub fn generating_function<M: Method + ProvedFor<S::Class>, S: Hamiltonian<V>, V: Vector>(
+pub fn generating_function<M: Method + ProvedFor<S::Class>, S: System<V>, V: Vector>(
     _method: M,
     system: &S,
     time: f64,
@@ -107,13 +107,12 @@ pub fn generating_function<M: Method + ProvedFor<S::Class>, S: Hamiltonian<V>, V
         q_low: &nothing,
         p: p1,
         p_low: &nothing,
+        linear_velocity: false,
     };
     generating::<M, S, V>(system, &step, 1, Stopping::DEFAULT)
 }
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
-    Integrator<M, S, V, R, N>
-{
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Takes one step and returns its generating function at the position before and the momentum after it, the
     /// `p0` and `q1` of which are the momentum before and the position after it, up to rounding.
     ///
@@ -145,7 +144,7 @@ impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
 }
 
 /// [`generating_function`] with `q0` and `p1` for the position and the momentum of `step`, whose number is for errors.
-fn generating<M: Method, S: Hamiltonian<V>, V: Vector>(
+fn generating<M: Method, S: System<V>, V: Vector>(
     system: &S,
     step: &Step<'_, V>,
     number: u64,
@@ -200,7 +199,7 @@ impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
         carried: 0,
     };
 
-    fn begin<R: Summation, V: Vector, S: Hamiltonian<V, Class = C>>(
+    fn begin<R: Summation, V: Vector, S: System<V, Class = C>>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Unknowns<M, V>,
@@ -216,7 +215,7 @@ impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
         }
     }
 
-    fn sweep<R: Summation, V: Vector, S: Hamiltonian<V, Class = C>>(
+    fn sweep<R: Summation, V: Vector, S: System<V, Class = C>>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Unknowns<M, V>,
@@ -250,7 +249,7 @@ impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
         change
     }
 
-    fn finish<R: Summation, V: Vector, S: Hamiltonian<V, Class = C>, W: EvaluationObserver>(
+    fn finish<R: Summation, V: Vector, S: System<V, Class = C>, W: EvaluationObserver>(
         step: &Step<'_, V>,
         _system: &S,
         stages: &mut Unknowns<M, V>,
@@ -350,7 +349,7 @@ impl<M: Method, V: Vector> StageStorage<V> for Unknowns<M, V> {
 
 impl<M: Method, V: Vector> Unknowns<M, V> {
     /// The value of the generating function, once the stages are known.
-    fn value<S: Hamiltonian<V>>(
+    fn value<S: System<V>>(
         &mut self,
         system: &S,
         step: &Step<'_, V>,

@@ -4,7 +4,7 @@ pub mod dual;
 pub mod methods;
 pub mod systems;
 
-use symplectic::{Error, Hamiltonian, Integrator, Method, ProvedFor, State, Vector};
+use symplectic::{Error, Integrator, Method, ProvedFor, State, System, Vector};
 
 pub use methods::{Midpoint, StoermerVerlet};
 
@@ -18,7 +18,7 @@ pub fn run<M, S, V>(
 ) -> Result<State<V>, Error>
 where
     M: Method + ProvedFor<S::Class>,
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector,
 {
     let size = (end - start.time) / f64::from(steps);

@@ -1,7 +1,9 @@
 use std::cell::Cell;
 
 use symplectic::nalgebra::{DVector, SVector, Vector1};
-use symplectic::{General, Hamiltonian, Scalar, SeparableHamiltonian, State, Vector};
+use symplectic::{
+    General, Hamiltonian, Scalar, Separable, State, System, Vector, solver::FixedPoint,
+};
 
 /// H = Σ p²/2 − cos q, over every vector, counting its evaluations.
 #[derive(Default)]
@@ -10,13 +12,16 @@ pub struct Pendulum {
     pub forces: Cell<u32>,
 }
 
-impl<V: Vector> SeparableHamiltonian<V> for Pendulum {
-    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
+impl<V: Vector> System<V> for Pendulum {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(&self, _time: V::Scalar, _q: &V, p: &V, velocity: &mut V) {
         self.velocities.set(self.velocities.get() + 1);
         velocity.as_mut_slice().copy_from_slice(p.as_slice());
     }
 
-    fn force(&self, _time: V::Scalar, q: &V, force: &mut V) {
+    fn force(&self, _time: V::Scalar, q: &V, _p: &V, force: &mut V) {
         self.forces.set(self.forces.get() + 1);
         for (force, q) in force.as_mut_slice().iter_mut().zip(q.as_slice()) {
             *force = -q.sin();
@@ -37,10 +42,11 @@ impl<V: Vector> SeparableHamiltonian<V> for Pendulum {
 /// H = (q² + 1)(p² + 1)/2: a local type that implements [`Hamiltonian`] itself, generically over the scalar.
 pub struct Product;
 
-impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Product {
+impl Hamiltonian for Product {
     type Class = General;
+    type Vector<T: Scalar> = SVector<T, 1>;
 
-    fn velocity(
+    fn velocity<T: Scalar>(
         &self,
         _time: T,
         q: &SVector<T, 1>,
@@ -50,11 +56,17 @@ impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Product {
         velocity[0] = p[0] * (q.dot(q) + T::one());
     }
 
-    fn force(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+    fn force<T: Scalar>(
+        &self,
+        _time: T,
+        q: &SVector<T, 1>,
+        p: &SVector<T, 1>,
+        force: &mut SVector<T, 1>,
+    ) {
         *force = -q * (p.dot(p) + T::one());
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
         Some((q.dot(q) + T::one()) * (p.dot(p) + T::one()) * T::from_f64(0.5))
     }
 }
@@ -62,12 +74,21 @@ impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Product {
 /// H = p²/2 + q²/2 − q cos 3t.
 pub struct Driven;
 
-impl SeparableHamiltonian<Vector1<f64>> for Driven {
-    fn velocity(&self, _time: f64, p: &Vector1<f64>, velocity: &mut Vector1<f64>) {
+impl System<Vector1<f64>> for Driven {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(
+        &self,
+        _time: f64,
+        _q: &Vector1<f64>,
+        p: &Vector1<f64>,
+        velocity: &mut Vector1<f64>,
+    ) {
         *velocity = *p;
     }
 
-    fn force(&self, time: f64, q: &Vector1<f64>, force: &mut Vector1<f64>) {
+    fn force(&self, time: f64, q: &Vector1<f64>, _p: &Vector1<f64>, force: &mut Vector1<f64>) {
         force[0] = (3.0 * time).cos() - q[0];
     }
 }
@@ -112,12 +133,21 @@ impl Chain {
     }
 }
 
-impl SeparableHamiltonian<DVector<f64>> for Chain {
-    fn velocity(&self, _time: f64, p: &DVector<f64>, velocity: &mut DVector<f64>) {
+impl System<DVector<f64>> for Chain {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(
+        &self,
+        _time: f64,
+        _q: &DVector<f64>,
+        p: &DVector<f64>,
+        velocity: &mut DVector<f64>,
+    ) {
         velocity.copy_from(p);
     }
 
-    fn force(&self, _time: f64, q: &DVector<f64>, force: &mut DVector<f64>) {
+    fn force(&self, _time: f64, q: &DVector<f64>, _p: &DVector<f64>, force: &mut DVector<f64>) {
         Self::pull(q, force);
     }
 }
@@ -126,8 +156,9 @@ impl SeparableHamiltonian<DVector<f64>> for Chain {
 #[derive(Clone, Copy)]
 pub struct GeneralChain;
 
-impl Hamiltonian<DVector<f64>> for GeneralChain {
+impl System<DVector<f64>> for GeneralChain {
     type Class = General;
+    type Solver = FixedPoint;
 
     fn velocity(&self, _t: f64, _q: &DVector<f64>, p: &DVector<f64>, velocity: &mut DVector<f64>) {
         velocity.copy_from(p);

@@ -14,7 +14,8 @@ use std::process::Command;
 
 use symplectic::nalgebra::{DVector, SVector};
 use symplectic::{
-    Compensated, Integrator, Method, Plain, Scalar, SeparableHamiltonian, State, Summation, Vector,
+    Compensated, Integrator, Method, Plain, Scalar, Separable, State, Summation, System, Vector,
+    solver::FixedPoint,
 };
 use symplectic_contest::baseline::lanes::{fast_two_sum, two_sum};
 use symplectic_tests::methods::{ForestRuth, VelocityVerlet};
@@ -83,16 +84,19 @@ fn instructions(case: &str, who: &str, steps: u64) -> Result<f64, Box<dyn Error>
 #[derive(Clone, Copy)]
 struct Oscillators;
 
-impl<V: Vector> SeparableHamiltonian<V> for Oscillators {
+impl<V: Vector> System<V> for Oscillators {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
     const UNIT_MASSES: bool = true;
 
     #[inline(always)]
-    fn velocity(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
+    fn velocity(&self, _time: V::Scalar, _q: &V, p: &V, velocity: &mut V) {
         symplectic::emitted::copy(velocity, p);
     }
 
     #[inline(always)]
-    fn force(&self, _time: V::Scalar, q: &V, force: &mut V) {
+    fn force(&self, _time: V::Scalar, q: &V, _p: &V, force: &mut V) {
         pull(q.as_slice(), force.as_mut_slice());
     }
 }

@@ -3,8 +3,8 @@
 mod few;
 mod many;
 
-use symplectic::solver::Solver;
-use symplectic::{Error, Hamiltonian, Integrator, Method, ProvedFor, State, Summation, Vector};
+use symplectic::{Error, Integrator, Method, ProvedFor, State, Summation, Vector};
+use symplectic::{System, solver::Solver};
 
 use crate::baseline::systems;
 use symplectic_tests::measure::largest;
@@ -196,7 +196,7 @@ pub fn pairs() -> Vec<Pair> {
 
 impl<S, B, V> Problem<S, B, V>
 where
-    S: Hamiltonian<V> + Copy + 'static,
+    S: System<V> + Copy + 'static,
     V: Vector<Scalar = f64>,
 {
     /// A pair for steps of `step_size`, with an integrator that is given its solver.

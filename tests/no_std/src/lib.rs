@@ -28,16 +28,18 @@ symplectic::composition! {
 #[derive(Clone, Copy, Debug)]
 pub struct Pendulum;
 
-impl<T: Scalar> SeparableHamiltonian<Vector1<T>> for Pendulum {
-    fn velocity(&self, _time: T, p: &Vector1<T>, velocity: &mut Vector1<T>) {
+impl SeparableHamiltonian for Pendulum {
+    type Vector<T: Scalar> = Vector1<T>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &Vector1<T>, velocity: &mut Vector1<T>) {
         *velocity = *p;
     }
 
-    fn force(&self, _time: T, q: &Vector1<T>, force: &mut Vector1<T>) {
+    fn force<T: Scalar>(&self, _time: T, q: &Vector1<T>, force: &mut Vector1<T>) {
         force[0] = -q[0].sin();
     }
 
-    fn energy(&self, _time: T, q: &Vector1<T>, p: &Vector1<T>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &Vector1<T>, p: &Vector1<T>) -> Option<T> {
         Some(p[0] * p[0] * T::from_f64(0.5) - q[0].cos())
     }
 }

@@ -4,7 +4,7 @@
 use std::fmt;
 
 use symplectic::num_traits::{One, Zero};
-use symplectic::{Hamiltonian, Scalar, State, Vector};
+use symplectic::{Scalar, State, System, Vector};
 
 use super::Wide;
 
@@ -76,7 +76,7 @@ impl Collocation {
     ) -> Result<(State<V>, u64), NoConvergence>
     where
         V: Vector<Scalar = Wide>,
-        S: Hamiltonian<V>,
+        S: System<V>,
     {
         let mut state = start.clone();
         // The time left, in wide numbers: the sum of the steps is the end to all digits.
@@ -98,7 +98,7 @@ impl Collocation {
     fn step<V, S>(&self, system: &S, state: &mut State<V>, size: Wide) -> Result<(), NoConvergence>
     where
         V: Vector<Scalar = Wide>,
-        S: Hamiltonian<V>,
+        S: System<V>,
     {
         let time = Wide::zero();
         let stages = self.stages();

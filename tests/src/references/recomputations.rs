@@ -1,7 +1,7 @@
 //! How each reference is computed, as data.
 
 use symplectic::nalgebra::{DVector, SVector};
-use symplectic::{Hamiltonian, Scalar, State, Vector};
+use symplectic::{Scalar, State, System, Vector};
 
 use super::{Collocation, NoConvergence, Record, Wide};
 use crate::measure::largest;
@@ -237,7 +237,7 @@ fn uniform<V, S>(
 ) -> Result<End, NoConvergence>
 where
     V: Vector<Scalar = Wide>,
-    S: Hamiltonian<V>,
+    S: System<V>,
 {
     end(method.integrate(&system, &start, time, |_| step))
 }

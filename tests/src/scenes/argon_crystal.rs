@@ -46,9 +46,11 @@ const VELOCITIES: [f64; COORDINATES] = [
 #[derive(Clone, Copy, Debug)]
 pub struct ArgonCrystal;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for ArgonCrystal {
+impl SeparableHamiltonian for ArgonCrystal {
+    type Vector<T: Scalar> = SVector<T, COORDINATES>;
+
     #[inline]
-    fn velocity(
+    fn velocity<T: Scalar>(
         &self,
         _time: T,
         p: &SVector<T, COORDINATES>,
@@ -58,7 +60,12 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for ArgonCrystal {
     }
 
     #[inline]
-    fn force(&self, _time: T, q: &SVector<T, COORDINATES>, force: &mut SVector<T, COORDINATES>) {
+    fn force<T: Scalar>(
+        &self,
+        _time: T,
+        q: &SVector<T, COORDINATES>,
+        force: &mut SVector<T, COORDINATES>,
+    ) {
         force.fill(T::zero());
         for i in 0..ATOMS {
             for j in i + 1..ATOMS {
@@ -75,7 +82,7 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for ArgonCrystal {
         }
     }
 
-    fn energy(
+    fn energy<T: Scalar>(
         &self,
         _time: T,
         q: &SVector<T, COORDINATES>,

@@ -25,11 +25,12 @@ pub const NEEDS: Needs = Needs {
 #[derive(Clone, Copy, Debug)]
 pub struct ChargedParticle;
 
-impl<T: Scalar> Hamiltonian<SVector<T, 3>> for ChargedParticle {
+impl Hamiltonian for ChargedParticle {
     type Class = General;
+    type Vector<T: Scalar> = SVector<T, 3>;
 
     #[inline]
-    fn velocity(
+    fn velocity<T: Scalar>(
         &self,
         _time: T,
         q: &SVector<T, 3>,
@@ -40,7 +41,13 @@ impl<T: Scalar> Hamiltonian<SVector<T, 3>> for ChargedParticle {
     }
 
     #[inline]
-    fn force(&self, _time: T, q: &SVector<T, 3>, p: &SVector<T, 3>, force: &mut SVector<T, 3>) {
+    fn force<T: Scalar>(
+        &self,
+        _time: T,
+        q: &SVector<T, 3>,
+        p: &SVector<T, 3>,
+        force: &mut SVector<T, 3>,
+    ) {
         let [x, y, z] = [q[0], q[1], q[2]];
         let number = T::from_f64;
         let radius = (x * x + y * y).sqrt();
@@ -55,7 +62,7 @@ impl<T: Scalar> Hamiltonian<SVector<T, 3>> for ChargedParticle {
         force[2] = number(-4.0) * z * z * z;
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 3>, p: &SVector<T, 3>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 3>, p: &SVector<T, 3>) -> Option<T> {
         let velocity = p - potential(q);
         let [x, y, z] = [q[0] * q[0], q[1] * q[1], q[2] * q[2]];
         let cubes = x * q[0] - y * q[1];

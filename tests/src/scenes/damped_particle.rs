@@ -26,21 +26,23 @@ pub const DAMPING: f64 = 1e-3;
 #[derive(Clone, Copy, Debug)]
 pub struct DampedParticle;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for DampedParticle {
+impl SeparableHamiltonian for DampedParticle {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
     #[inline]
-    fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;
     }
 
     #[inline]
-    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         // With s = |q|² the potential is s(s − 1)², and its derivative by s is (s − 1)(3s − 1).
         let square = q.dot(q);
         let slope = (square - T::one()) * (T::from_f64(3.0) * square - T::one());
         *force = -*q * (slope + slope);
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
         let square = q.dot(q);
         let height = square - T::one();
         Some(p.dot(p) * T::from_f64(0.5) + square * height * height)

@@ -23,13 +23,12 @@ pub const GRAVITY: f64 = 9.8;
 #[derive(Clone, Copy, Debug)]
 pub struct DoublePendulum;
 
-impl<T: Scalar> Hamiltonian<SVector<T, 2>> for DoublePendulum {
+impl Hamiltonian for DoublePendulum {
     type Class = General;
-
-    const SHARED_SLOPES: bool = true;
+    type Vector<T: Scalar> = SVector<T, 2>;
 
     #[inline(always)]
-    fn velocity(
+    fn velocity<T: Scalar>(
         &self,
         _time: T,
         q: &SVector<T, 2>,
@@ -40,13 +39,19 @@ impl<T: Scalar> Hamiltonian<SVector<T, 2>> for DoublePendulum {
     }
 
     #[inline(always)]
-    fn force(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(
+        &self,
+        _time: T,
+        q: &SVector<T, 2>,
+        p: &SVector<T, 2>,
+        force: &mut SVector<T, 2>,
+    ) {
         let (sines, cosine) = sines(q);
         *force = forces(sines, cosine, p);
     }
 
     #[inline(always)]
-    fn slopes(
+    fn slopes<T: Scalar>(
         &self,
         _time: T,
         q: &SVector<T, 2>,
@@ -58,7 +63,7 @@ impl<T: Scalar> Hamiltonian<SVector<T, 2>> for DoublePendulum {
         *force = forces(sines, cosine, p);
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
         let (sine, cosine) = (q[0] - q[1]).sin_cos();
         let two = T::from_f64(2.0);
         let numerator = p[0] * p[0] + (p[1] * p[1] - p[0] * p[1] * cosine) * two;

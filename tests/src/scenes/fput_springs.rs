@@ -37,11 +37,13 @@ pub struct FputSprings {
     pub omega: f64,
 }
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for FputSprings {
+impl SeparableHamiltonian for FputSprings {
+    type Vector<T: Scalar> = SVector<T, COORDINATES>;
+
     const UNIT_MASSES: bool = true;
 
     #[inline(always)]
-    fn velocity(
+    fn velocity<T: Scalar>(
         &self,
         _time: T,
         p: &SVector<T, COORDINATES>,
@@ -51,7 +53,12 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for FputSprings {
     }
 
     #[inline(always)]
-    fn force(&self, _time: T, q: &SVector<T, COORDINATES>, force: &mut SVector<T, COORDINATES>) {
+    fn force<T: Scalar>(
+        &self,
+        _time: T,
+        q: &SVector<T, COORDINATES>,
+        force: &mut SVector<T, COORDINATES>,
+    ) {
         let mut tensions = elongations(q);
         for d in &mut tensions {
             *d = *d * *d * *d;
@@ -64,7 +71,7 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for FputSprings {
         }
     }
 
-    fn energy(
+    fn energy<T: Scalar>(
         &self,
         _time: T,
         q: &SVector<T, COORDINATES>,

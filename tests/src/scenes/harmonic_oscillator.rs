@@ -20,21 +20,23 @@ pub struct HarmonicOscillator {
     pub omega: f64,
 }
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for HarmonicOscillator {
+impl SeparableHamiltonian for HarmonicOscillator {
+    type Vector<T: Scalar> = SVector<T, 1>;
+
     const UNIT_MASSES: bool = true;
 
     #[inline]
-    fn velocity(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
         *velocity = *p;
     }
 
     #[inline]
-    fn force(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
         let omega = T::from_f64(self.omega);
         force[0] = -(omega * omega * q[0]);
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
         let elongation = T::from_f64(self.omega) * q[0];
         Some((p[0] * p[0] + elongation * elongation) * T::from_f64(0.5))
     }

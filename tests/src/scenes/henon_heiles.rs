@@ -18,22 +18,24 @@ pub const NEEDS: Needs = Needs::NOTHING;
 #[derive(Clone, Copy, Debug)]
 pub struct HenonHeiles;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for HenonHeiles {
+impl SeparableHamiltonian for HenonHeiles {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
     const UNIT_MASSES: bool = true;
 
     #[inline(always)]
-    fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;
     }
 
     #[inline(always)]
-    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         let product = q[0] * q[1];
         force[0] = -q[0] - product - product;
         force[1] = q[1] * q[1] - q[0] * q[0] - q[1];
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
         let third = q[1] * q[1] * q[1] / T::from_f64(3.0);
         let harmonic = (p.dot(p) + q.dot(q)) * T::from_f64(0.5);
         Some(harmonic + q[0] * q[0] * q[1] - third)

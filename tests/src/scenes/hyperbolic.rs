@@ -22,11 +22,12 @@ pub const NEEDS: Needs = Needs {
 #[derive(Clone, Copy, Debug)]
 pub struct Hyperbolic;
 
-impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Hyperbolic {
+impl Hamiltonian for Hyperbolic {
     type Class = General;
+    type Vector<T: Scalar> = SVector<T, 1>;
 
     #[inline]
-    fn velocity(
+    fn velocity<T: Scalar>(
         &self,
         _time: T,
         q: &SVector<T, 1>,
@@ -37,11 +38,17 @@ impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Hyperbolic {
     }
 
     #[inline]
-    fn force(&self, _time: T, _q: &SVector<T, 1>, p: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+    fn force<T: Scalar>(
+        &self,
+        _time: T,
+        _q: &SVector<T, 1>,
+        p: &SVector<T, 1>,
+        force: &mut SVector<T, 1>,
+    ) {
         *force = -*p;
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
         Some(q[0] * p[0])
     }
 }

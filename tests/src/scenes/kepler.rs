@@ -19,21 +19,23 @@ pub const NEEDS: Needs = Needs::NOTHING;
 #[derive(Clone, Copy, Debug)]
 pub struct Kepler;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for Kepler {
+impl SeparableHamiltonian for Kepler {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
     const UNIT_MASSES: bool = true;
 
     #[inline(always)]
-    fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;
     }
 
     #[inline(always)]
-    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         let square = q.dot(q);
         *force = -q * (square * square.sqrt()).recip();
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
         Some(p.dot(p) * T::from_f64(0.5) - q.dot(q).sqrt().recip())
     }
 }

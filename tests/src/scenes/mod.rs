@@ -54,7 +54,7 @@ impl Needs {
 #[cfg(test)]
 mod check {
     use symplectic::nalgebra::DMatrix;
-    use symplectic::{Class, Hamiltonian, Integrator, State, Vector};
+    use symplectic::{Class, Integrator, State, System, Vector};
 
     use super::Needs;
     use crate::methods::Gauss8;
@@ -63,7 +63,7 @@ mod check {
     pub fn needs<V, S>(needs: Needs, system: &S, state: &State<V>)
     where
         V: Vector<Scalar = f64>,
-        S: Hamiltonian<V>,
+        S: System<V>,
     {
         assert_eq!(needs.separable, S::Class::SEPARABLE);
         let n = state.q.dimension();
@@ -109,7 +109,7 @@ mod check {
     pub fn derivatives<V, S>(system: &S, state: &State<V>, step: f64, tolerance: f64)
     where
         V: Vector<Scalar = f64>,
-        S: Hamiltonian<V>,
+        S: System<V>,
     {
         let State { time, q, p } = state;
         let energy = |q: &V, p: &V| {
@@ -141,7 +141,7 @@ mod check {
     pub fn end<V, S>(system: S, start: State<V>, step_size: f64, end: f64) -> State<V>
     where
         V: Vector<Scalar = f64>,
-        S: Hamiltonian<V>,
+        S: System<V>,
     {
         let mut integrator = Integrator::new(Gauss8, system, start, step_size).expect("a start");
         integrator
@@ -154,7 +154,7 @@ mod check {
     pub fn conservation<V, S>(system: S, start: State<V>, step_size: f64, time: f64, tolerance: f64)
     where
         V: Vector<Scalar = f64>,
-        S: Hamiltonian<V> + Copy,
+        S: System<V> + Copy,
     {
         let energy = |state: &State<V>| {
             let energy = system.energy(state.time, &state.q, &state.p);

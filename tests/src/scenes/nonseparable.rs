@@ -17,11 +17,12 @@ pub const NEEDS: Needs = Needs::GENERAL;
 #[derive(Clone, Copy, Debug)]
 pub struct Nonseparable;
 
-impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Nonseparable {
+impl Hamiltonian for Nonseparable {
     type Class = General;
+    type Vector<T: Scalar> = SVector<T, 1>;
 
     #[inline(always)]
-    fn velocity(
+    fn velocity<T: Scalar>(
         &self,
         _time: T,
         q: &SVector<T, 1>,
@@ -32,11 +33,17 @@ impl<T: Scalar> Hamiltonian<SVector<T, 1>> for Nonseparable {
     }
 
     #[inline(always)]
-    fn force(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+    fn force<T: Scalar>(
+        &self,
+        _time: T,
+        q: &SVector<T, 1>,
+        p: &SVector<T, 1>,
+        force: &mut SVector<T, 1>,
+    ) {
         force[0] = -q[0] * (p[0] * p[0] + T::one());
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
         let one = T::one();
         Some((q[0] * q[0] + one) * (p[0] * p[0] + one) * T::from_f64(0.5))
     }

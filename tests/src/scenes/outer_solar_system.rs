@@ -85,9 +85,11 @@ pub const BODIES_AT_START: [Body; BODIES] = [
 #[derive(Clone, Copy, Debug)]
 pub struct OuterSolarSystem;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for OuterSolarSystem {
+impl SeparableHamiltonian for OuterSolarSystem {
+    type Vector<T: Scalar> = SVector<T, COORDINATES>;
+
     #[inline(always)]
-    fn velocity(
+    fn velocity<T: Scalar>(
         &self,
         _time: T,
         p: &SVector<T, COORDINATES>,
@@ -103,7 +105,12 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for OuterSolarSyst
     }
 
     #[inline(always)]
-    fn force(&self, _time: T, q: &SVector<T, COORDINATES>, force: &mut SVector<T, COORDINATES>) {
+    fn force<T: Scalar>(
+        &self,
+        _time: T,
+        q: &SVector<T, COORDINATES>,
+        force: &mut SVector<T, COORDINATES>,
+    ) {
         force.fill(T::zero());
         let (q, force) = (q.as_slice(), force.as_mut_slice());
         for i in 0..BODIES {
@@ -119,7 +126,7 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for OuterSolarSyst
         }
     }
 
-    fn energy(
+    fn energy<T: Scalar>(
         &self,
         _time: T,
         q: &SVector<T, COORDINATES>,

@@ -17,20 +17,22 @@ pub const NEEDS: Needs = Needs::NOTHING;
 #[derive(Clone, Copy, Debug)]
 pub struct Pendulum;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for Pendulum {
+impl SeparableHamiltonian for Pendulum {
+    type Vector<T: Scalar> = SVector<T, 1>;
+
     const UNIT_MASSES: bool = true;
 
     #[inline]
-    fn velocity(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
         *velocity = *p;
     }
 
     #[inline]
-    fn force(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
         force[0] = -q[0].sin();
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
         Some(p[0] * p[0] * T::from_f64(0.5) - q[0].cos())
     }
 }

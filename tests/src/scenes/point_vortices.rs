@@ -32,11 +32,12 @@ pub struct PointVortices<const N: usize> {
     pub strengths: [f64; N],
 }
 
-impl<T: Scalar, const N: usize> Hamiltonian<SVector<T, N>> for PointVortices<N> {
+impl<const N: usize> Hamiltonian for PointVortices<N> {
     type Class = General;
+    type Vector<T: Scalar> = SVector<T, N>;
 
     #[inline]
-    fn velocity(
+    fn velocity<T: Scalar>(
         &self,
         _time: T,
         q: &SVector<T, N>,
@@ -52,7 +53,13 @@ impl<T: Scalar, const N: usize> Hamiltonian<SVector<T, N>> for PointVortices<N> 
     }
 
     #[inline]
-    fn force(&self, _time: T, q: &SVector<T, N>, p: &SVector<T, N>, force: &mut SVector<T, N>) {
+    fn force<T: Scalar>(
+        &self,
+        _time: T,
+        q: &SVector<T, N>,
+        p: &SVector<T, N>,
+        force: &mut SVector<T, N>,
+    ) {
         force.fill(T::zero());
         self.pairs(q, p, |i, j, [x, _], square| {
             let push = T::from_f64(self.strengths[i] * self.strengths[j]) * x / square;
@@ -61,7 +68,7 @@ impl<T: Scalar, const N: usize> Hamiltonian<SVector<T, N>> for PointVortices<N> 
         });
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, N>, p: &SVector<T, N>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, N>, p: &SVector<T, N>) -> Option<T> {
         let mut energy = T::zero();
         self.pairs(q, p, |i, j, _, square| {
             let strength = T::from_f64(0.5 * self.strengths[i] * self.strengths[j]);

@@ -34,11 +34,12 @@ pub struct PostNewtonianKepler {
     pub mass_ratio: f64,
 }
 
-impl<T: Scalar> Hamiltonian<SVector<T, 2>> for PostNewtonianKepler {
+impl Hamiltonian for PostNewtonianKepler {
     type Class = General;
+    type Vector<T: Scalar> = SVector<T, 2>;
 
     #[inline]
-    fn velocity(
+    fn velocity<T: Scalar>(
         &self,
         _time: T,
         q: &SVector<T, 2>,
@@ -53,7 +54,13 @@ impl<T: Scalar> Hamiltonian<SVector<T, 2>> for PostNewtonianKepler {
     }
 
     #[inline]
-    fn force(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(
+        &self,
+        _time: T,
+        q: &SVector<T, 2>,
+        p: &SVector<T, 2>,
+        force: &mut SVector<T, 2>,
+    ) {
         let [epsilon, nu] = [self.epsilon, self.mass_ratio].map(T::from_f64);
         let [half, three] = [0.5, 3.0].map(T::from_f64);
         let Orbit { inverse, radial } = Orbit::new(q, p);
@@ -64,7 +71,7 @@ impl<T: Scalar> Hamiltonian<SVector<T, 2>> for PostNewtonianKepler {
             + p * (epsilon * nu * radial * square);
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
         let [epsilon, nu] = [self.epsilon, self.mass_ratio].map(T::from_f64);
         let [half, three] = [0.5, 3.0].map(T::from_f64);
         let Orbit { inverse, radial } = Orbit::new(q, p);

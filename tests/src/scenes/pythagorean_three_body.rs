@@ -30,9 +30,11 @@ pub const MASSES: [f64; BODIES] = [3.0, 4.0, 5.0];
 #[derive(Clone, Copy, Debug)]
 pub struct PythagoreanThreeBody;
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for PythagoreanThreeBody {
+impl SeparableHamiltonian for PythagoreanThreeBody {
+    type Vector<T: Scalar> = SVector<T, COORDINATES>;
+
     #[inline]
-    fn velocity(
+    fn velocity<T: Scalar>(
         &self,
         _time: T,
         p: &SVector<T, COORDINATES>,
@@ -44,7 +46,12 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for PythagoreanThr
     }
 
     #[inline]
-    fn force(&self, _time: T, q: &SVector<T, COORDINATES>, force: &mut SVector<T, COORDINATES>) {
+    fn force<T: Scalar>(
+        &self,
+        _time: T,
+        q: &SVector<T, COORDINATES>,
+        force: &mut SVector<T, COORDINATES>,
+    ) {
         force.fill(T::zero());
         for (i, j) in PAIRS {
             let (difference, square) = separation(q, i, j);
@@ -57,7 +64,7 @@ impl<T: Scalar> SeparableHamiltonian<SVector<T, COORDINATES>> for PythagoreanThr
         }
     }
 
-    fn energy(
+    fn energy<T: Scalar>(
         &self,
         _time: T,
         q: &SVector<T, COORDINATES>,

@@ -84,7 +84,7 @@ pub fn recorded(time: f64) -> Option<State<SVector<f64, PENDULUMS>>> {
 
 #[cfg(test)]
 mod tests {
-    use symplectic::Hamiltonian;
+    use symplectic::System;
 
     use super::*;
     use crate::scenes::check;
@@ -106,7 +106,7 @@ mod tests {
     fn the_breather_breathes() {
         // The continuous one has the energy 16w, and its middle is at 4 atan(w/ω sin ωt) where ω² = 1 − w².
         let start = start();
-        let energy = Hamiltonian::energy(&system(), 0.0, &start.q, &start.p);
+        let energy = System::energy(&system(), 0.0, &start.q, &start.p);
         let energy: f64 = energy.expect("an energy");
         assert!(
             (energy * 0.25 / (16.0 * DECAY) - 1.0).abs() < 1e-4,

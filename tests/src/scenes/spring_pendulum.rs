@@ -22,23 +22,25 @@ pub struct SpringPendulum {
     pub omega: f64,
 }
 
-impl<T: Scalar> SeparableHamiltonian<SVector<T, 2>> for SpringPendulum {
+impl SeparableHamiltonian for SpringPendulum {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
     const UNIT_MASSES: bool = true;
 
     #[inline]
-    fn velocity(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;
     }
 
     #[inline]
-    fn force(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         let length = q.dot(q).sqrt();
         let stiffness = T::from_f64(self.omega * self.omega);
         *force = q * (stiffness * (length.recip() - T::one()));
         force[1] -= T::one();
     }
 
-    fn energy(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
         let stretch = T::from_f64(self.omega) * (q.dot(q).sqrt() - T::one());
         Some((p.dot(p) + stretch * stretch) * T::from_f64(0.5) + q[1])
     }

@@ -4,7 +4,8 @@ use std::fmt;
 use std::rc::Rc;
 
 use symplectic::nalgebra::{DVector, SVector};
-use symplectic::{SeparableHamiltonian, State, Vector};
+use symplectic::solver::FixedPoint;
+use symplectic::{Separable, State, System, Vector};
 
 /// A separable system of any number of components.
 #[derive(Clone)]
@@ -14,7 +15,7 @@ impl Erased {
     /// The system of `N` components that is given.
     pub fn new<S, const N: usize>(system: S) -> Self
     where
-        S: SeparableHamiltonian<SVector<f64, N>> + 'static,
+        S: System<SVector<f64, N>, Class = Separable> + 'static,
     {
         Self(Rc::new(OfSize(system)))
     }
@@ -42,16 +43,16 @@ trait OnSlices {
 /// A system of `N` components.
 struct OfSize<S, const N: usize>(S);
 
-impl<S: SeparableHamiltonian<SVector<f64, N>>, const N: usize> OnSlices for OfSize<S, N> {
+impl<S: System<SVector<f64, N>, Class = Separable>, const N: usize> OnSlices for OfSize<S, N> {
     fn velocity(&self, time: f64, p: &[f64], velocity: &mut [f64]) {
-        let mut found = SVector::zeros();
-        self.0.velocity(time, &vector(p), &mut found);
+        let (p, mut found) = (vector(p), SVector::zeros());
+        self.0.velocity(time, &p, &p, &mut found);
         velocity.copy_from_slice(found.as_slice());
     }
 
     fn force(&self, time: f64, q: &[f64], force: &mut [f64]) {
-        let mut found = SVector::zeros();
-        self.0.force(time, &vector(q), &mut found);
+        let (q, mut found) = (vector(q), SVector::zeros());
+        self.0.force(time, &q, &q, &mut found);
         force.copy_from_slice(found.as_slice());
     }
 
@@ -64,12 +65,21 @@ fn vector<const N: usize>(slice: &[f64]) -> SVector<f64, N> {
     SVector::from_column_slice(slice)
 }
 
-impl SeparableHamiltonian<DVector<f64>> for Erased {
-    fn velocity(&self, time: f64, p: &DVector<f64>, velocity: &mut DVector<f64>) {
+impl System<DVector<f64>> for Erased {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(
+        &self,
+        time: f64,
+        _q: &DVector<f64>,
+        p: &DVector<f64>,
+        velocity: &mut DVector<f64>,
+    ) {
         self.0.velocity(time, p.as_slice(), velocity.as_mut_slice());
     }
 
-    fn force(&self, time: f64, q: &DVector<f64>, force: &mut DVector<f64>) {
+    fn force(&self, time: f64, q: &DVector<f64>, _p: &DVector<f64>, force: &mut DVector<f64>) {
         self.0.force(time, q.as_slice(), force.as_mut_slice());
     }
 
@@ -82,6 +92,7 @@ impl SeparableHamiltonian<DVector<f64>> for Erased {
 mod tests {
     use super::*;
     use crate::scenes::kepler;
+    use symplectic::SeparableHamiltonian;
 
     #[test]
     fn a_system_is_the_same_without_its_type() {
@@ -89,15 +100,15 @@ mod tests {
         let (system, any) = (Erased::new(kepler::Kepler), erased(&start));
         let (mut velocity, mut force) = (SVector::zeros(), SVector::zeros());
         let (mut found_velocity, mut found_force) = (DVector::zeros(2), DVector::zeros(2));
-        kepler::Kepler.velocity(0.0, &start.p, &mut velocity);
-        kepler::Kepler.force(0.0, &start.q, &mut force);
-        system.velocity(0.0, &any.p, &mut found_velocity);
-        system.force(0.0, &any.q, &mut found_force);
+        SeparableHamiltonian::velocity(&kepler::Kepler, 0.0, &start.p, &mut velocity);
+        SeparableHamiltonian::force(&kepler::Kepler, 0.0, &start.q, &mut force);
+        system.velocity(0.0, &any.q, &any.p, &mut found_velocity);
+        system.force(0.0, &any.q, &any.p, &mut found_force);
         assert_eq!(found_velocity.as_slice(), velocity.as_slice());
         assert_eq!(found_force.as_slice(), force.as_slice());
         assert_eq!(
             system.energy(0.0, &any.q, &any.p),
-            kepler::Kepler.energy(0.0, &start.q, &start.p)
+            System::energy(&kepler::Kepler, 0.0, &start.q, &start.p)
         );
     }
 }

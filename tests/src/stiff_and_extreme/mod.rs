@@ -6,7 +6,7 @@ mod methods;
 use std::io;
 
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
-use symplectic::{Error, Integrator, Method, SeparableHamiltonian, State};
+use symplectic::{Error, Integrator, Method, Separable, State, System};
 use symplectic_report::{Cell, StabilityLimit, Verdict, Verdicts};
 
 use crate::linear_stability::{self, Entry, FARTHEST};
@@ -22,7 +22,7 @@ pub use methods::{ENTRANTS, Entrant, Stages};
 /// A run: equal steps from a start.
 #[derive(Clone, Debug)]
 pub struct Run {
-    system: System,
+    system: Problem,
     start: State<DVector<f64>>,
     step_size: f64,
     steps: u64,
@@ -30,7 +30,7 @@ pub struct Run {
 }
 
 #[derive(Clone, Debug)]
-enum System {
+enum Problem {
     Any(Erased),
     /// The one that takes millions of steps, where a type that is known saves minutes.
     Kepler,
@@ -44,10 +44,10 @@ impl Run {
         steps: u64,
     ) -> Self
     where
-        S: SeparableHamiltonian<SVector<f64, N>> + 'static,
+        S: System<SVector<f64, N>, Class = Separable> + 'static,
     {
         Self {
-            system: System::Any(Erased::new(system)),
+            system: Problem::Any(Erased::new(system)),
             start: erased(start),
             step_size,
             steps,
@@ -69,11 +69,11 @@ impl Run {
 
     fn by<M: Method>(&self, method: M) -> Verdict {
         match &self.system {
-            System::Any(system) => {
+            Problem::Any(system) => {
                 let integrator = self.integrator(method, system);
                 Verdict::of(integrator, self.steps, self.reference.as_ref())
             }
-            System::Kepler => {
+            Problem::Kepler => {
                 let State { time, q, p } = &self.start;
                 let start = State::from_slices(*time, q.as_slice(), p.as_slice());
                 let integrator =
@@ -85,7 +85,7 @@ impl Run {
     }
 
     fn by_newton<M: Method>(&self, method: M) -> Option<Verdict> {
-        let System::Any(system) = &self.system else {
+        let Problem::Any(system) = &self.system else {
             return None;
         };
         let integrator = self.integrator(method, system).map(Integrator::by_newton);
@@ -260,7 +260,7 @@ pub fn extremes(long_steps: u64) -> Vec<(String, Run)> {
         run.clone(),
     ));
     let run = Run {
-        system: System::Kepler,
+        system: Problem::Kepler,
         steps: long_steps,
         ..run
     };
@@ -274,12 +274,21 @@ struct Scaled {
     scale: f64,
 }
 
-impl SeparableHamiltonian<Vector1<f64>> for Scaled {
-    fn velocity(&self, _time: f64, p: &Vector1<f64>, velocity: &mut Vector1<f64>) {
+impl System<Vector1<f64>> for Scaled {
+    type Class = Separable;
+    type Solver = symplectic::solver::FixedPoint;
+
+    fn velocity(
+        &self,
+        _time: f64,
+        _q: &Vector1<f64>,
+        p: &Vector1<f64>,
+        velocity: &mut Vector1<f64>,
+    ) {
         *velocity = *p;
     }
 
-    fn force(&self, _time: f64, q: &Vector1<f64>, force: &mut Vector1<f64>) {
+    fn force(&self, _time: f64, q: &Vector1<f64>, _p: &Vector1<f64>, force: &mut Vector1<f64>) {
         *force = -*q;
     }
 

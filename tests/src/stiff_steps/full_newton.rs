@@ -10,15 +10,15 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use symplectic::nalgebra::SVector;
-use symplectic::output::Inside;
 use symplectic::solver::{
     Failure, HalfTableau, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics,
     Stopping, WarmStart,
 };
-use symplectic::{Class, Hamiltonian, Quantity, Scalar, SeparableHamiltonian, Summation};
+use symplectic::{Class, Quantity, Scalar, Summation};
+use symplectic::{Separable, output::Inside, solver::FixedPoint};
+use symplectic::{System, nalgebra::SVector};
 
-use super::systems::{Steps, Stiff};
+use super::systems::Stiff;
 
 /// How the result of a step depends on what was before it and on rounding, to first order.
 #[derive(Clone, Debug, Default)]
@@ -65,13 +65,22 @@ impl<S> Watched<S> {
     }
 }
 
-impl<T: Scalar, S: Stiff<N>, const N: usize> SeparableHamiltonian<SVector<T, N>> for Watched<S> {
-    fn velocity(&self, _time: T, p: &SVector<T, N>, velocity: &mut SVector<T, N>) {
+impl<T: Scalar, S: Stiff<N>, const N: usize> System<SVector<T, N>> for Watched<S> {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(
+        &self,
+        _time: T,
+        _q: &SVector<T, N>,
+        p: &SVector<T, N>,
+        velocity: &mut SVector<T, N>,
+    ) {
         *velocity = *p;
     }
 
-    fn force(&self, time: T, q: &SVector<T, N>, force: &mut SVector<T, N>) {
-        SeparableHamiltonian::force(&Steps(self.system), time, q, force);
+    fn force(&self, _time: T, q: &SVector<T, N>, _p: &SVector<T, N>, force: &mut SVector<T, N>) {
+        self.system.force(&q.data.0[0], &mut force.data.0[0]);
     }
 }
 
@@ -116,7 +125,7 @@ impl<T: Scalar, S: Stiff<N> + 'static, const N: usize> Solver<SVector<T, N>, Wat
     where
         P: StageTableau,
         R: Summation,
-        Watched<S>: Hamiltonian<SVector<T, N>, Class = P::Class>,
+        Watched<S>: System<SVector<T, N>, Class = P::Class>,
     {
         let mut stages = Stages::new::<P>(step);
         let system = &watched.system;

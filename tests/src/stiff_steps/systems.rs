@@ -5,9 +5,9 @@
     reason = "the indices are those of the formulas"
 )]
 
-use symplectic::nalgebra::SVector;
+use symplectic::Scalar;
 use symplectic::solver::{Jacobian, Linearized};
-use symplectic::{Scalar, SeparableHamiltonian};
+use symplectic::{Separable, System, nalgebra::SVector, solver::FixedPoint};
 
 /// A separable system with unit masses, of `N` components.
 pub trait Stiff<const N: usize>: Copy {
@@ -25,12 +25,21 @@ pub trait Stiff<const N: usize>: Copy {
 #[derive(Clone, Copy, Debug)]
 pub struct Steps<S>(pub S);
 
-impl<T: Scalar, S: Stiff<N>, const N: usize> SeparableHamiltonian<SVector<T, N>> for Steps<S> {
-    fn velocity(&self, _time: T, p: &SVector<T, N>, velocity: &mut SVector<T, N>) {
+impl<T: Scalar, S: Stiff<N>, const N: usize> System<SVector<T, N>> for Steps<S> {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(
+        &self,
+        _time: T,
+        _q: &SVector<T, N>,
+        p: &SVector<T, N>,
+        velocity: &mut SVector<T, N>,
+    ) {
         *velocity = *p;
     }
 
-    fn force(&self, _time: T, q: &SVector<T, N>, force: &mut SVector<T, N>) {
+    fn force(&self, _time: T, q: &SVector<T, N>, _p: &SVector<T, N>, force: &mut SVector<T, N>) {
         self.0.force(&q.data.0[0], &mut force.data.0[0]);
     }
 }

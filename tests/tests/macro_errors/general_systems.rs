@@ -3,13 +3,14 @@
 symplectic::tableau! { ForestRuth { base: forest-ruth-1990 } }
 
 use symplectic::nalgebra::Vector1;
-use symplectic::{Error, General, Hamiltonian, Integrator, State, hamiltonian};
+use symplectic::{Error, General, Integrator, State, hamiltonian, System, solver::FixedPoint};
 
 /// H = (q² + 1)(p² + 1)/2
 struct NotSeparable;
 
-impl Hamiltonian<Vector1<f64>> for NotSeparable {
+impl System<Vector1<f64>> for NotSeparable {
     type Class = General;
+    type Solver = FixedPoint;
 
     fn velocity(
         &self,

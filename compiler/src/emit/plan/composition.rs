@@ -85,7 +85,7 @@ impl Composed<'_> {
         let vector = quote!(V: ::symplectic::emitted::Vector);
         let solver = quote!(N: ::symplectic::emitted::Solver<V, S>);
         let arguments = quote! {
-            R: ::symplectic::emitted::Summation, #vector, S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>, #solver
+            R: ::symplectic::emitted::Summation, #vector, S: ::symplectic::emitted::System<V, Class = Self::Class>, #solver
         };
         quote! {
             #(#codes)*
@@ -94,7 +94,7 @@ impl Composed<'_> {
 
             impl ::symplectic::emitted::Substeps for #name {
                 type Class = ::symplectic::emitted::#class;
-                type Memory<#vector, S: ::symplectic::emitted::Hamiltonian<V>, #solver> = #memory;
+                type Memory<#vector, S: ::symplectic::emitted::System<V>, #solver> = #memory;
 
                 const SUBSTEPS: &'static [::symplectic::emitted::Substep] = &[#(#substeps),*];
 

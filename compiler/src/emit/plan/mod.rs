@@ -131,7 +131,7 @@ fn of_stages(
     let coupling = identifier(bodies.coupling);
     let [at_begin, at_start, in_sweep, at_finish] = bodies.counts.map(Literal::usize_unsuffixed);
     let carried = Literal::usize_unsuffixed(bodies.carried);
-    let system = quote!(S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>);
+    let system = quote!(S: ::symplectic::emitted::System<V, Class = Self::Class>);
     let arguments = quote! {
         step: &::symplectic::emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>
     };

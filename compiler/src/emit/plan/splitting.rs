@@ -42,7 +42,7 @@ impl<'g, 'a> Chain<'g, 'a> {
                 fn apply<
                     R: ::symplectic::emitted::Summation,
                     V: ::symplectic::emitted::Vector,
-                    S: ::symplectic::emitted::Hamiltonian<V, Class = Self::Class>,
+                    S: ::symplectic::emitted::System<V, Class = Self::Class>,
                     K: ::symplectic::emitted::KickDrift,
                     W: ::symplectic::emitted::EvaluationObserver,
                 >(

@@ -9,7 +9,7 @@ use crate::integrator::partial_step::PartialSteps;
 use crate::method::{Method, Solver};
 use crate::number::{Scalar, Summation, Vector};
 use crate::output::brent::{before_zero, negative_near_minimum};
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 /// Halvings of a panel in which the side to which a function leaves zero is looked for: down to rounding.
 const HALVINGS: u32 = 60;
@@ -27,7 +27,7 @@ impl<E, M, S, V, N> Search<'_, E, M, S, V, N>
 where
     E: EventList<V> + ?Sized,
     M: Method,
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector,
     N: Solver<V, S>,
 {

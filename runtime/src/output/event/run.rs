@@ -10,11 +10,9 @@ use crate::integrator::Integrator;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::state::State;
-use crate::system::Hamiltonian;
+use crate::system::System;
 
-impl<M: Method, S: Hamiltonian<V>, V: Vector, R: Summation, N: Solver<V, S>>
-    Integrator<M, S, V, R, N>
-{
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// [`integrate_to`](Self::integrate_to) that shows `observe` the state at every event, in their order, and ends after
     /// the step in which `observe` breaks it, at a [`wall`](Event::wall) at the event: with the value that it breaks with,
     /// otherwise with `None`.

@@ -13,7 +13,7 @@ use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector, copy};
 use crate::output::dense::Ends;
 use crate::state::State;
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 /// The most events at one time.
 const MOST_AT_ONE_TIME: u32 = 1000;
@@ -23,7 +23,7 @@ pub(super) struct Search<'e, E, M, S, V, N>
 where
     E: EventList<V> + ?Sized,
     M: Method,
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector,
     N: Solver<V, S>,
 {
@@ -62,7 +62,7 @@ impl<'e, E, M, S, V, N> Search<'e, E, M, S, V, N>
 where
     E: EventList<V> + ?Sized,
     M: Method,
-    S: Hamiltonian<V>,
+    S: System<V>,
     V: Vector,
     N: Solver<V, S>,
 {

@@ -8,7 +8,7 @@ use crate::solver::convergence::settling;
 use crate::solver::convergence::{
     CONTRACTION, NOISIEST, PATIENCE, ROUNDING, STAGNATION, dither_last_sweep, is_last, non_finite,
 };
-use crate::system::{Class, Hamiltonian, Separable};
+use crate::system::{Class, Separable, System};
 
 /// Sweeps in which the change has not halved, after which it stagnates.
 ///
@@ -67,7 +67,7 @@ where
     P: StageTableau,
     R: Summation,
     V: Vector,
-    S: Hamiltonian<V, Class = P::Class>,
+    S: System<V, Class = P::Class>,
     L: LinearSolver<V, S>,
 {
     let mut work = StepStatistics::default();
@@ -107,7 +107,7 @@ where
     P: StageTableau,
     R: Summation,
     V: Vector,
-    S: Hamiltonian<V, Class = P::Class>,
+    S: System<V, Class = P::Class>,
     L: LinearSolver<V, S>,
 {
     let max_iterations = stopping.max_iterations;

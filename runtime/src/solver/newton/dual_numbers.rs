@@ -4,7 +4,7 @@ use num_dual::{Dual64, DualNum};
 
 use super::jacobian::{Derivatives, Jacobian, groups, scatter};
 use crate::number::{Scalar, Vector};
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 macro_rules! forward {
     ($($function:ident)*) => {
@@ -48,17 +48,16 @@ impl Scalar for Dual64 {
     forward! { sqrt recip exp ln sin cos tan asin acos atan sinh cosh tanh }
 }
 
-/// A system over vectors of doubles and over vectors of dual numbers: every one that is generic over its scalar.
+/// A system over vectors of doubles and over vectors of dual numbers: every one that is written for every scalar.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a Hamiltonian system over the vectors `{V}` with dual numbers in place of doubles",
-    label = "this needs a system that is generic over its `Scalar`: `impl<T: Scalar> SeparableHamiltonian<SVector<T, N>> for …`"
+    label = "this needs a system that is written for every `Scalar`: `SeparableHamiltonian` or `Hamiltonian`"
 )]
-pub trait HamiltonianInDuals<V: Vector>: Hamiltonian<V> + Hamiltonian<V::With<Dual64>> {}
+pub trait SystemInDuals<V: Vector>: System<V> + System<V::With<Dual64>> {}
 
-impl<V: Vector, S> HamiltonianInDuals<V> for S where S: Hamiltonian<V> + Hamiltonian<V::With<Dual64>>
-{}
+impl<V: Vector, S> SystemInDuals<V> for S where S: System<V> + System<V::With<Dual64>> {}
 
-/// Dual numbers through the code of the system, which has to be generic over its scalar: exact derivatives, one evaluation
+/// Dual numbers through the code of the system, which has to be written for every scalar: exact derivatives, one evaluation
 /// for each component or, of a band, for each of its columns.
 ///
 /// ```
@@ -70,12 +69,14 @@ impl<V: Vector, S> HamiltonianInDuals<V> for S where S: Hamiltonian<V> + Hamilto
 /// /// H = p²/2 + 10⁸ (1 − cos q)
 /// struct Stiff;
 ///
-/// impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for Stiff {
-///     fn velocity(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+/// impl SeparableHamiltonian for Stiff {
+///     type Vector<T: Scalar> = SVector<T, 1>;
+///
+///     fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
 ///         *velocity = *p;
 ///     }
 ///
-///     fn force(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+///     fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
 ///         force[0] = -q[0].sin() * T::from_f64(1e8);
 ///     }
 /// }
@@ -95,7 +96,7 @@ pub struct DualNumbers;
 impl<V, S> Derivatives<V, S> for DualNumbers
 where
     V: Vector<Scalar = f64>,
-    S: HamiltonianInDuals<V>,
+    S: SystemInDuals<V>,
 {
     /// Position, momentum and an evaluation.
     type Memory = [V::With<Dual64>; 3];
@@ -117,7 +118,7 @@ where
         seed(p, momentum, groups, groups);
         for group in 0..groups {
             seed(q, position, group, groups);
-            Hamiltonian::<V::With<Dual64>>::velocity(system, time, q, p, out);
+            System::<V::With<Dual64>>::velocity(system, time, q, p, out);
             let derivative = |i: usize| out.as_slice().get(i).map(|dual| dual.eps);
             scatter(
                 &mut jacobian.velocity_by_position,
@@ -125,14 +126,14 @@ where
                 groups,
                 derivative,
             );
-            Hamiltonian::<V::With<Dual64>>::force(system, time, q, p, out);
+            System::<V::With<Dual64>>::force(system, time, q, p, out);
             let derivative = |i: usize| out.as_slice().get(i).map(|dual| dual.eps);
             scatter(&mut jacobian.force_by_position, group, groups, derivative);
         }
         seed(q, position, groups, groups);
         for group in 0..groups {
             seed(p, momentum, group, groups);
-            Hamiltonian::<V::With<Dual64>>::velocity(system, time, q, p, out);
+            System::<V::With<Dual64>>::velocity(system, time, q, p, out);
             let derivative = |i: usize| out.as_slice().get(i).map(|dual| dual.eps);
             scatter(
                 &mut jacobian.velocity_by_momentum,

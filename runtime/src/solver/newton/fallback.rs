@@ -12,7 +12,7 @@ use crate::method::{
 use crate::number::{Summation, Vector};
 use crate::solver::FixedPoint;
 use crate::solver::fixed_point::by_stages;
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 /// Steps that are left to Newton's iteration after one that the fixed-point iteration has failed at.
 const PATIENCE: u32 = 16;
@@ -75,7 +75,7 @@ impl<L> fmt::Debug for FixedPointThenNewton<L> {
 pub struct FixedPointThenNewtonMemory<
     V: Vector,
     P: StageTableau,
-    S: Hamiltonian<V>,
+    S: System<V>,
     L: LinearSolver<V, S>,
 > {
     fixed_point: P::Stages<V>,
@@ -86,7 +86,7 @@ pub struct FixedPointThenNewtonMemory<
     waiting: u32,
 }
 
-impl<V: Vector, P: StageTableau, S: Hamiltonian<V>, L: LinearSolver<V, S>> StageStorage<V>
+impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStorage<V>
     for FixedPointThenNewtonMemory<V, P, S, L>
 {
     fn like(prototype: &V) -> Self {
@@ -109,7 +109,7 @@ impl<V: Vector, P: StageTableau, S: Hamiltonian<V>, L: LinearSolver<V, S>> Stage
     }
 }
 
-impl<V: Vector, P: StageTableau, S: Hamiltonian<V>, L: LinearSolver<V, S>> fmt::Debug
+impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> fmt::Debug
     for FixedPointThenNewtonMemory<V, P, S, L>
 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -123,7 +123,7 @@ impl<V: Vector, P: StageTableau, S: Hamiltonian<V>, L: LinearSolver<V, S>> fmt::
 impl<V, S, L> Solver<V, S> for FixedPointThenNewton<L>
 where
     V: Vector,
-    S: Hamiltonian<V>,
+    S: System<V>,
     L: LinearSolver<V, S>,
 {
     type Memory<P: StageTableau> = FixedPointThenNewtonMemory<V, P, S, L>;
@@ -139,7 +139,7 @@ where
     where
         P: StageTableau,
         R: Summation,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
     {
         // What is kept is kept by the solver of the step before.
         let if_kept = |is: bool| if is { kept } else { WarmStart::default() };

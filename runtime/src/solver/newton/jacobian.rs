@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::fmt::Debug;
 
 use crate::number::{Scalar, Vector};
-use crate::system::Hamiltonian;
+use crate::system::System;
 
 /// A square matrix, the entries `(i, j)` of which are zero where `|i − j|` is above a half bandwidth.
 #[derive(Clone, Debug)]
@@ -150,12 +150,14 @@ impl<T: Scalar> Jacobian<T> {
 /// /// H = p²/2 + 10¹² (1 − cos q)
 /// struct Stiff;
 ///
-/// impl<T: Scalar> SeparableHamiltonian<SVector<T, 1>> for Stiff {
-///     fn velocity(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+/// impl SeparableHamiltonian for Stiff {
+///     type Vector<T: Scalar> = SVector<T, 1>;
+///
+///     fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
 ///         *velocity = *p;
 ///     }
 ///
-///     fn force(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+///     fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
 ///         force[0] = -q[0].sin() * T::from_f64(1e12);
 ///     }
 /// }
@@ -176,13 +178,13 @@ impl<T: Scalar> Jacobian<T> {
 /// # Ok(())
 /// # }
 /// ```
-pub trait Linearized<V: Vector>: Hamiltonian<V> {
+pub trait Linearized<V: Vector>: System<V> {
     /// Writes the derivatives at `(time, q, p)` into `jacobian`, which is zero before.
     fn derivatives(&self, time: V::Scalar, q: &V, p: &V, jacobian: &mut Jacobian<V::Scalar>);
 }
 
 /// Where the derivatives of a system `S` over the vectors `V` are from.
-pub trait Derivatives<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
+pub trait Derivatives<V: Vector, S: System<V>>: Copy + Debug + 'static {
     /// What it needs, made once.
     type Memory: Clone + Debug;
 
@@ -231,7 +233,7 @@ pub struct Differences;
 /// Memory of [`Differences`]: an argument next to the point, and the values on both sides.
 type Pairs<V> = [V; 5];
 
-impl<V: Vector, S: Hamiltonian<V>> Derivatives<V, S> for Differences {
+impl<V: Vector, S: System<V>> Derivatives<V, S> for Differences {
     type Memory = Pairs<V>;
 
     fn memory(prototype: &V) -> Pairs<V> {

@@ -9,7 +9,7 @@ use super::jacobian::{BandMatrix, Derivatives, Jacobian};
 use super::lu::{Complex, Elimination};
 use crate::method::Failure;
 use crate::number::{Scalar, Vector};
-use crate::system::{Class, Hamiltonian};
+use crate::system::{Class, System};
 
 /// How the parts of the unknown of a linear system depend on each other: the factor `γ` in `(1 − γ J) x = r`.
 ///
@@ -60,7 +60,7 @@ impl Parts {
 /// [`Dense`] and [`Banded`] hold matrices. One that holds none, such as a Krylov method, notes the point in
 /// [`linearize`](Self::linearize), has nothing or a preconditioner to do in [`factor`](Self::factor), and applies the
 /// derivatives of the system where it solves: it needs to solve no more exactly than the iteration has to contract.
-pub trait LinearSolver<V: Vector, S: Hamiltonian<V>>: Copy + Debug + 'static {
+pub trait LinearSolver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     /// What it needs, made once and used for every step.
     type Memory: Clone + Debug;
 
@@ -275,7 +275,7 @@ macro_rules! matrices {
         impl<V, S, D, $($parameter)*> LinearSolver<V, S> for $name
         where
             V: Vector,
-            S: Hamiltonian<V>,
+            S: System<V>,
             D: Derivatives<V, S>,
         {
             type Memory = Matrices<V::Scalar, D::Memory>;

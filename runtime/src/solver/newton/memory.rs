@@ -12,10 +12,10 @@ use crate::error::Quantity;
 use crate::method::storage::{first_mismatch, first_non_finite};
 use crate::method::{StageStorage, StageTableau};
 use crate::number::Vector;
-use crate::system::{Class, Hamiltonian};
+use crate::system::{Class, System};
 
 /// The memory of a [`Newton`](crate::solver::Newton) iteration for the plan `P`.
-pub struct NewtonMemory<V: Vector, P, S: Hamiltonian<V>, L: LinearSolver<V, S>> {
+pub struct NewtonMemory<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> {
     /// Stage values.
     pub(super) q: Vec<V>,
     pub(super) p: Vec<V>,
@@ -81,7 +81,7 @@ fn systems<P: StageTableau>() -> Vec<Parts> {
     parts.collect()
 }
 
-impl<V: Vector, P: StageTableau, S: Hamiltonian<V>, L: LinearSolver<V, S>> StageStorage<V>
+impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStorage<V>
     for NewtonMemory<V, P, S, L>
 {
     fn like(prototype: &V) -> Self {
@@ -135,9 +135,7 @@ impl<V: Vector, P: StageTableau, S: Hamiltonian<V>, L: LinearSolver<V, S>> Stage
     }
 }
 
-impl<V: Vector, P, S: Hamiltonian<V>, L: LinearSolver<V, S>> fmt::Debug
-    for NewtonMemory<V, P, S, L>
-{
+impl<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> fmt::Debug for NewtonMemory<V, P, S, L> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter
             .debug_struct("NewtonMemory")

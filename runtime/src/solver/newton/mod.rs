@@ -15,7 +15,7 @@ use core::fmt;
 use core::marker::PhantomData;
 
 #[cfg(feature = "num-dual")]
-pub use dual_numbers::{DualNumbers, HamiltonianInDuals};
+pub use dual_numbers::{DualNumbers, SystemInDuals};
 pub use every_stage::EveryStage;
 pub use fallback::{FixedPointThenNewton, FixedPointThenNewtonMemory};
 pub use jacobian::{Analytic, BandMatrix, Derivatives, Differences, Jacobian, Linearized};
@@ -27,7 +27,7 @@ use crate::method::{
     StoredEvaluations, WarmStart,
 };
 use crate::number::{Summation, Vector};
-use crate::system::Hamiltonian;
+use crate::system::System;
 use convergence::settle;
 use sweep::ByIncrements;
 
@@ -125,7 +125,7 @@ impl<L> fmt::Debug for Newton<L> {
     }
 }
 
-impl<V: Vector, S: Hamiltonian<V>, L: LinearSolver<V, S>> Solver<V, S> for Newton<L> {
+impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Solver<V, S> for Newton<L> {
     type Memory<P: StageTableau> = NewtonMemory<V, P, S, L>;
 
     fn take<P, R>(
@@ -139,7 +139,7 @@ impl<V: Vector, S: Hamiltonian<V>, L: LinearSolver<V, S>> Solver<V, S> for Newto
     where
         P: StageTableau,
         R: Summation,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
     {
         let mut sweeps = ByIncrements::<P, R, V, S, L>::new(step, system, memory);
         let mut work = settle(&mut sweeps, kept, stopping)?;

@@ -15,7 +15,7 @@ use crate::method::{
 };
 use crate::number::summation::add;
 use crate::number::{Scalar, Summation, Vector};
-use crate::system::{Class, Hamiltonian};
+use crate::system::{Class, System};
 
 /// A change that goes on by more than this factor makes the derivatives stale for the next step.
 const GOOD: f64 = 1.0 / 32.0;
@@ -30,7 +30,7 @@ const NOISE: f64 = 16384.0;
 const PATIENCE: u32 = 16;
 
 /// The increments of a plan, all corrected at once in a sweep.
-pub(super) struct ByIncrements<'a, P, R, V: Vector, S: Hamiltonian<V>, L: LinearSolver<V, S>> {
+pub(super) struct ByIncrements<'a, P, R, V: Vector, S: System<V>, L: LinearSolver<V, S>> {
     step: &'a Step<'a, V>,
     system: &'a S,
     memory: &'a mut NewtonMemory<V, P, S, L>,
@@ -54,7 +54,7 @@ where
     P: StageTableau,
     R: Summation,
     V: Vector,
-    S: Hamiltonian<V, Class = P::Class>,
+    S: System<V, Class = P::Class>,
     L: LinearSolver<V, S>,
 {
     pub(super) fn new(

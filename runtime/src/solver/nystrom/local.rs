@@ -18,16 +18,16 @@ use crate::solver::convergence::{Begun, Sweeps};
 use crate::solver::predictor::starts_at_once;
 use crate::solver::simd::change::{LaneMovement, noted, part_change};
 use crate::solver::simd::gauss_seidel::{combination, increment_factor, is_about, times};
-use crate::system::HamiltonianInLanes;
+use crate::system::SystemInLanes;
 use crate::system::SystemLanes;
-use crate::system::{Class, Components, Hamiltonian, StageRows};
+use crate::system::{Class, Components, StageRows, System};
 
 /// Whether stages are iterated along the components: for vectors on the heap, where all stages of a component are in one group.
 #[inline(always)]
-pub(super) fn is_local<P: StageTableau, V: Vector, S: HamiltonianInLanes<V>>() -> bool {
-    <S as Hamiltonian<V>>::LOCAL_FORCE
+pub(super) fn is_local<P: StageTableau, V: Vector, S: SystemInLanes<V>>() -> bool {
+    <S as System<V>>::LOCAL_FORCE
         && P::Lanes::has_local_force::<V, S>()
-        && <S as Hamiltonian<V>>::UNIT_MASSES
+        && <S as System<V>>::UNIT_MASSES
         && mem::needs_drop::<V>()
         && eliminates::<P>()
         && P::INCREMENTS
@@ -53,7 +53,7 @@ where
     P: StageTableau,
     R: Summation,
     V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V>,
+    S: SystemInLanes<V>,
 {
     /// How many sweeps are looked at where a step takes as many as that before: those in which changes come down to rounding, go on
     /// shrinking, and stop. With plain sums the last one is foreseen from the two before it. Where fewer sweeps would do, one or two less
@@ -86,7 +86,7 @@ where
                 // Of another dimension, which is seen when the step is looked at.
                 return P::Lanes::zero();
             }
-            Hamiltonian::<V>::row_forces(lanes.system, &mut along);
+            System::<V>::row_forces(lanes.system, &mut along);
             let (largest, changes) = along.changes();
             if MEASURED {
                 self.largest = largest;
@@ -203,7 +203,7 @@ where
     P: StageTableau,
     R: Summation,
     V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V>,
+    S: SystemInLanes<V>,
 {
     type Movement = LaneMovement<P::Lanes>;
 

@@ -11,7 +11,7 @@ use core::mem;
 use self::local::{Locally, is_local};
 use self::rows::are_in_rows;
 pub use self::stages::NystromStages;
-use crate::error::{Error, Quantity};
+use crate::error::Quantity;
 use crate::method::tableau::Columns;
 use crate::method::{
     EvaluationCounts, Failure, Inside, Outcome, SecondOrderTableau, Solver, StageChange,
@@ -25,168 +25,127 @@ use crate::solver::convergence::{Begun, Sweeps, dither_last_sweep, patiently, se
 use crate::solver::predictor::{MOST, StartingColumns, starting_columns, starts_at_once, weighted};
 use crate::solver::simd::change::{LaneMovement, part_change};
 use crate::solver::simd::gauss_seidel::{
-    ByLanes, Sums, entry, extend, extrapolate, is_about, scale_of, values,
+    self, ByLanes, Sums, entry, extrapolate, gauss_seidel, is_about, scale_of, values,
 };
 use crate::solver::simd::stages::SimdStages;
-use crate::system::HamiltonianInLanes;
-use crate::system::SystemLanes;
-use crate::system::linearity::{NonLinear, non_linear_velocity};
-use crate::system::{Class, Hamiltonian};
+use crate::system::{Class, System, SystemInLanes, SystemLanes};
 
-/// [`SimdFixedPoint`] for second-order systems `q'' = M⁻¹ f(q)`, whose velocity `M⁻¹ p` is linear in the momentum: only the
-/// positions are iterated, with the coefficients of a [`SecondOrderTableau`]. Made by
-/// [`Integrator::in_second_order_lanes`](crate::Integrator::in_second_order_lanes).
+/// Takes a step of a second-order system `q'' = M⁻¹ f(t, q)`, whose velocity `M⁻¹ p` is linear in the momentum: only the positions are
+/// iterated, with the coefficients of a [`SecondOrderTableau`]. Methods that have no such coefficients, and systems that are not
+/// separable, are taken as by [`SimdFixedPoint`].
 ///
-/// Methods that have no such coefficients, and systems that are not separable, are taken as by [`SimdFixedPoint`].
-///
-/// For vectors on the heap and up to eight stages at different times a system of unit masses whose force is
-/// [local](crate::SeparableHamiltonian::LOCAL_FORCE), a [`Chain`](crate::system::Chain), is gone through once in a sweep, as long as a step goes
-/// on from the one before and settles in its first sweeps: the positions of the stages are made, and used, component by component. What
-/// is then compared with a tolerance is by how much the next positions can differ, at most but for rounding, from those of the sweep.
+/// A [`Chain`](crate::system::Chain) on the heap, with up to eight stages at different times, is gone through once in a sweep, as long
+/// as a step goes on from the one before and settles in its first sweeps: the positions of the stages are made, and used, component by
+/// component. What is then compared with a tolerance is by how much the next positions can differ, at most but for rounding, from those
+/// of the sweep.
 /// Of the first sweeps of a step it is not asked how far they move the stages: as many as there were in the step before, but for three. So
 /// a step takes at most two sweeps less than the one before.
-/// With fewer than eight stages, and a number of components that is a multiple of eight, a system that
-/// [can](crate::SeparableHamiltonian::ROW_FORCES) goes through them in rows: the lanes run along the components. Both have the same
-/// bits.
-#[derive(Clone, Copy, Debug)]
-pub struct SimdNystrom(());
-
-impl SimdNystrom {
-    /// The solver, if the velocity of `system` is linear in the momentum, `p` and another one, and does not depend on time.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::NotSecondOrder`]
-    pub(crate) fn new<V, S>(system: &S, time: f64, q: &V, p: &V) -> Result<Self, Error>
-    where
-        V: Vector<Scalar = f64>,
-        S: Hamiltonian<V>,
-    {
-        match non_linear_velocity(system, time, q, p) {
-            None => Ok(Self(())),
-            Some(NonLinear {
-                component,
-                velocity,
-                linear,
-            }) => Err(Error::NotSecondOrder {
-                component,
-                velocity,
-                linear,
-            }),
-        }
+/// With fewer than eight stages, and a number of components that is a multiple of eight, the lanes run along the components. Both have
+/// the same bits.
+#[inline(always)]
+pub(crate) fn nystrom<P, R, V, S>(
+    step: &Step<'_, V>,
+    system: &S,
+    memory: &mut NystromStages<V, P>,
+    kept: WarmStart,
+    stopping: Stopping,
+    outcome: Outcome<'_, V>,
+) -> Result<StepStatistics, Failure>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: SystemInLanes<V>,
+{
+    let NystromStages {
+        lanes,
+        start,
+        of_increments,
+        in_rows,
+        sweeps: sweeps_before,
+        eliminated,
+    } = memory;
+    if !eliminates::<P>() {
+        return gauss_seidel::<P, R, V, S>(step, system, lanes, kept, stopping, outcome);
     }
+    *eliminated = true;
+    *of_increments = R::COMPENSATED;
+    // Where an iteration fails they are not.
+    *in_rows = false;
+    if !<S as System<V>>::UNIT_MASSES {
+        velocity::<P, V, S>(system, step, step.p, start, lanes);
+    }
+    let start = start_of::<V, S>(step.p, start);
+    let mut sweeps = Positions::<P, R, V, S> {
+        lanes: ByLanes {
+            step,
+            system,
+            stages: &mut *lanes,
+            sums: PhantomData,
+        },
+        start,
+    };
+    let mut work = match is_local::<P, V, S>() {
+        true => {
+            let mut locally = Locally::new(&mut sweeps, *sweeps_before);
+            let work = settle::<P::Class, f64>(&mut locally, kept, stopping)?;
+            let by_coin = R::COMPENSATED && dither_last_sweep(step.time);
+            *sweeps_before = work.iterations.saturating_sub(u32::from(by_coin));
+            work
+        }
+        false => settle::<P::Class, f64>(&mut sweeps, kept, stopping)?,
+    };
+    // Where masses are one, the velocity of what the momentum leaves out is counted, as all are, but not made.
+    work.evaluations += sweeps.evaluations().finish;
+    *in_rows = are_in_rows::<P, V, S>(step.q.dimension());
+    if *in_rows {
+        update::in_rows::<P, R, V>(step, lanes, outcome);
+    } else if is_local::<P, V, S>() {
+        update::by_eights::<P, R, V>(step, lanes, outcome);
+    } else if R::COMPENSATED {
+        update::compensated::<P, R, V, S>(step, system, start, lanes, outcome);
+    } else {
+        update::plain::<P, V, S>(step, start, lanes, outcome);
+    }
+    Ok(work)
 }
 
-impl<V, S> Solver<V, S> for SimdNystrom
+/// [`Solver::extend`] for what [`nystrom`], or another solver in its place, has left.
+pub(crate) fn extend<P, V, S>(memory: &NystromStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V)
 where
+    P: StageTableau,
     V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V>,
+    S: SystemInLanes<V>,
 {
-    type Memory<P: StageTableau> = NystromStages<V, P>;
-
-    #[inline(always)]
-    fn take<P, R>(
-        step: &Step<'_, V>,
-        system: &S,
-        memory: &mut NystromStages<V, P>,
-        kept: WarmStart,
-        stopping: Stopping,
-        outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        P: StageTableau,
-        R: Summation,
-        S: Hamiltonian<V, Class = P::Class>,
-    {
-        let NystromStages {
-            lanes,
-            start,
-            of_increments,
-            in_rows,
-            sweeps: sweeps_before,
-        } = memory;
-        if !eliminates::<P>() {
-            return <SimdFixedPoint as Solver<V, S>>::take::<P, R>(
-                step, system, lanes, kept, stopping, outcome,
-            );
-        }
-        *of_increments = R::COMPENSATED;
-        // Where an iteration fails they are not.
-        *in_rows = false;
-        if !<S as Hamiltonian<V>>::UNIT_MASSES {
-            velocity::<P, V, S>(system, step, step.p, start, lanes);
-        }
-        let start = start_of::<V, S>(step.p, start);
-        let mut sweeps = Positions::<P, R, V, S> {
-            lanes: ByLanes {
-                step,
-                system,
-                stages: &mut *lanes,
-                sums: PhantomData,
-            },
-            start,
-        };
-        let mut work = match is_local::<P, V, S>() {
-            true => {
-                let mut locally = Locally::new(&mut sweeps, *sweeps_before);
-                let work = settle::<P::Class, f64>(&mut locally, kept, stopping)?;
-                let by_coin = R::COMPENSATED && dither_last_sweep(step.time);
-                *sweeps_before = work.iterations.saturating_sub(u32::from(by_coin));
-                work
-            }
-            false => settle::<P::Class, f64>(&mut sweeps, kept, stopping)?,
-        };
-        // Where masses are one, the velocity of what the momentum leaves out is counted, as all are, but not made.
-        work.evaluations += sweeps.evaluations().finish;
-        *in_rows = are_in_rows::<P, V, S>(step.q.dimension());
-        if *in_rows {
-            update::in_rows::<P, R, V>(step, lanes, outcome);
-        } else if is_local::<P, V, S>() {
-            update::by_eights::<P, R, V>(step, lanes, outcome);
-        } else if R::COMPENSATED {
-            update::compensated::<P, R, V, S>(step, system, start, lanes, outcome);
-        } else {
-            update::plain::<P, V, S>(step, start, lanes, outcome);
-        }
-        Ok(work)
+    let stages = &memory.lanes;
+    if !memory.eliminated {
+        return <SimdFixedPoint as Solver<V, S>>::extend::<P>(stages, at, q, p);
     }
-
-    fn extend<P: StageTableau>(
-        memory: &NystromStages<V, P>,
-        at: Inside<'_, V>,
-        q: &mut V,
-        p: &mut V,
-    ) {
-        let stages = &memory.lanes;
-        if !eliminates::<P>() {
-            return <SimdFixedPoint as Solver<V, S>>::extend::<P>(stages, at, q, p);
-        }
-        // What makes an increment of what is stored.
-        let factor = |stage: usize| match memory.of_increments {
-            true => 1.0,
-            false => P::POSITIONS.weights[stage] * at.size,
-        };
-        let force = |stage: usize, k: usize| match memory.in_rows {
-            true => rows::force(stages, stage, k) * factor(stage),
-            false => entry::<P, V>(stages.force.as_ref(), stage, k) * factor(stage),
-        };
-        extend::<P, V>(&P::POSITIONS, at, force, p);
-        let Some(polynomial) = P::MOMENTA.polynomial else {
-            return;
-        };
-        let slope = |stage: usize, k: usize| match <S as Hamiltonian<V>>::UNIT_MASSES {
-            true => force(stage, k),
-            false => entry::<P, V>(stages.velocity.as_ref(), stage, k) * factor(stage),
-        };
-        let start = start_of::<V, S>(at.momentum, &memory.start).as_slice();
-        // The velocities at the stages: M⁻¹(p0 + Σ_j μ̃_ij w_j).
-        for stage in 0..P::MOMENTA.count {
-            let factor = at.size * P::MOMENTA.weights[stage] * at.factor(polynomial, stage);
-            for (k, out) in q.as_mut_slice().iter_mut().enumerate() {
-                let part = |j: usize| P::MOMENTA.columns[j][stage] * slope(j, k);
-                let sum: f64 = (0..P::POSITIONS.count).map(part).sum();
-                *out += factor * (start[k] + sum);
-            }
+    // What makes an increment of what is stored.
+    let factor = |stage: usize| match memory.of_increments {
+        true => 1.0,
+        false => P::POSITIONS.weights[stage] * at.size,
+    };
+    let force = |stage: usize, k: usize| match memory.in_rows {
+        true => rows::force(stages, stage, k) * factor(stage),
+        false => entry::<P, V>(stages.force.as_ref(), stage, k) * factor(stage),
+    };
+    gauss_seidel::extend::<P, V>(&P::POSITIONS, at, force, p);
+    let Some(polynomial) = P::MOMENTA.polynomial else {
+        return;
+    };
+    let slope = |stage: usize, k: usize| match <S as System<V>>::UNIT_MASSES {
+        true => force(stage, k),
+        false => entry::<P, V>(stages.velocity.as_ref(), stage, k) * factor(stage),
+    };
+    let start = start_of::<V, S>(at.momentum, &memory.start).as_slice();
+    // The velocities at the stages: M⁻¹(p0 + Σ_j μ̃_ij w_j).
+    for stage in 0..P::MOMENTA.count {
+        let factor = at.size * P::MOMENTA.weights[stage] * at.factor(polynomial, stage);
+        for (k, out) in q.as_mut_slice().iter_mut().enumerate() {
+            let part = |j: usize| P::MOMENTA.columns[j][stage] * slope(j, k);
+            let sum: f64 = (0..P::POSITIONS.count).map(part).sum();
+            *out += factor * (start[k] + sum);
         }
     }
 }
@@ -202,7 +161,7 @@ fn velocity<P, V, S>(
 ) where
     P: StageTableau,
     V: Vector<Scalar = f64>,
-    S: Hamiltonian<V>,
+    S: System<V>,
 {
     system.velocity(step.time, step.q, momentum, out);
     if out.dimension() != step.q.dimension() {
@@ -223,13 +182,13 @@ struct Positions<'a, P: StageTableau, R, V: Vector, S> {
 
 /// The velocities of the increments of the momentum, which are these themselves where masses are one.
 #[inline(always)]
-const fn slopes<'a, V: Vector, S: Hamiltonian<V>, G>(velocity: &'a G, force: &'a G) -> &'a G {
+const fn slopes<'a, V: Vector, S: System<V>, G>(velocity: &'a G, force: &'a G) -> &'a G {
     if S::UNIT_MASSES { force } else { velocity }
 }
 
 /// The velocity at the start, which is the momentum where masses are one.
 #[inline(always)]
-const fn start_of<'a, V: Vector, S: Hamiltonian<V>>(momentum: &'a V, velocity: &'a V) -> &'a V {
+const fn start_of<'a, V: Vector, S: System<V>>(momentum: &'a V, velocity: &'a V) -> &'a V {
     if S::UNIT_MASSES { momentum } else { velocity }
 }
 
@@ -350,7 +309,7 @@ where
     P: StageTableau,
     R: Summation,
     V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V>,
+    S: SystemInLanes<V>,
 {
     /// New positions; returns how much they changed.
     #[inline(always)]
@@ -389,7 +348,7 @@ where
     /// The velocities of the increments of the momentum, unless they are these.
     #[inline(always)]
     fn velocities(&mut self) {
-        if <S as Hamiltonian<V>>::UNIT_MASSES {
+        if <S as System<V>>::UNIT_MASSES {
             return;
         }
         let SimdStages {
@@ -412,7 +371,7 @@ where
     P: StageTableau,
     R: Summation,
     V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V>,
+    S: SystemInLanes<V>,
 {
     type Movement = LaneMovement<P::Lanes>;
 

@@ -16,8 +16,8 @@ use crate::number::linear_combination::sum_of_products;
 use crate::number::{F64x8, Lanes, Scalar, Summation, Vector};
 use crate::solver::simd::gauss_seidel::{entry, shortest, times};
 use crate::solver::simd::stages::SimdStages;
-use crate::system::HamiltonianInLanes;
-use crate::system::{Hamiltonian, MOST_ROW_STAGES, StageRows};
+use crate::system::SystemInLanes;
+use crate::system::{MOST_ROW_STAGES, StageRows, System};
 
 /// Components in a row.
 pub(super) const WIDTH: usize = F64x8::WIDTH;
@@ -28,10 +28,10 @@ pub(super) fn are_in_rows<P, V, S>(dimension: usize) -> bool
 where
     P: StageTableau,
     V: Vector,
-    S: HamiltonianInLanes<V>,
+    S: SystemInLanes<V>,
 {
     is_local::<P, V, S>()
-        && <S as Hamiltonian<V>>::ROW_FORCES
+        && <S as System<V>>::ROW_FORCES
         && P::POSITIONS.count <= MOST_ROW_STAGES
         && dimension >= WIDTH
         && dimension.is_multiple_of(WIDTH)

@@ -4,7 +4,7 @@ use super::rows;
 use crate::error::Quantity;
 use crate::method::{StageStorage, StageTableau};
 use crate::number::Vector;
-use crate::solver::SimdStages;
+use crate::solver::simd::stages::SimdStages;
 
 /// Stages in lanes, and the velocity that they start from.
 #[derive(Debug)]
@@ -18,6 +18,8 @@ pub struct NystromStages<V: Vector, P: StageTableau> {
     pub(crate) in_rows: bool,
     /// How many sweeps the step before took, but for one where that came from a coin: of chains, and other systems of local forces.
     pub(crate) sweeps: u32,
+    /// Whether the momenta of the stages are eliminated.
+    pub(crate) eliminated: bool,
 }
 
 impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for NystromStages<V, P> {
@@ -30,6 +32,7 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for NystromStages
             of_increments: false,
             in_rows: false,
             sweeps: 0,
+            eliminated: false,
         }
     }
 

@@ -12,7 +12,7 @@ use crate::number::summation::add;
 use crate::number::{F64x8, Lanes, Plain, Scalar, Summation, Vector};
 use crate::solver::simd::gauss_seidel::{shortest, total};
 use crate::solver::simd::stages::{Laned, SimdStages};
-use crate::system::HamiltonianInLanes;
+use crate::system::SystemInLanes;
 
 /// With unit masses, of forces in rows.
 #[inline(always)]
@@ -161,7 +161,7 @@ pub(super) fn compensated<P, R, V, S>(
     P: StageTableau,
     R: Summation,
     V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V>,
+    S: SystemInLanes<V>,
 {
     let h = step.size;
     total::<R, P, V>(
@@ -203,7 +203,7 @@ pub(super) fn plain<P, V, S>(
 ) where
     P: StageTableau,
     V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V>,
+    S: SystemInLanes<V>,
 {
     let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force).as_ref();
     let forces = stages.force.as_ref();

@@ -19,14 +19,14 @@ use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
 use crate::solver::simd::change::{LaneMovement, noted, part_change};
 use crate::solver::simd::stages::{Laned, SimdStages};
-use crate::system::HamiltonianInLanes;
+use crate::system::SystemInLanes;
 use crate::system::SystemLanes;
-use crate::system::{Class, Hamiltonian};
+use crate::system::{Class, System};
 
 /// The iteration of [`FixedPoint`](crate::solver::FixedPoint) with the stages side by side in [`Lanes`]: one evaluation of the
 /// system is that of two, four or eight stages.
 ///
-/// It needs a system that is generic over its scalar. Vectors may be long: without it the lanes run along their components,
+/// It needs a system that is written for every scalar. Vectors may be long: without it the lanes run along their components,
 /// but sums over the stages are slower than with all stages of a component at hand (`--example ratios` of the contest has
 /// both for a chain of 1024 particles).
 #[derive(Clone, Copy, Debug, Default)]
@@ -35,7 +35,7 @@ pub struct SimdFixedPoint;
 impl<V, S> Solver<V, S> for SimdFixedPoint
 where
     V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V>,
+    S: SystemInLanes<V>,
 {
     type Memory<P: StageTableau> = SimdStages<V, P>;
 
@@ -51,34 +51,9 @@ where
     where
         P: StageTableau,
         R: Summation,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
     {
-        let mut sweeps = ByLanes::<P, R, V, S> {
-            step,
-            system,
-            stages: &mut *stages,
-            sums: PhantomData,
-        };
-        let work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
-        if !R::COMPENSATED {
-            sweeps.increments();
-        }
-        let Outcome { q, q_low, p, p_low } = outcome;
-        total::<R, P, V>(
-            (q, q_low),
-            (step.q, step.q_low),
-            stages.velocity.as_ref(),
-            &P::MOMENTA,
-            step.size,
-        );
-        total::<R, P, V>(
-            (p, p_low),
-            (step.p, step.p_low),
-            stages.force.as_ref(),
-            &P::POSITIONS,
-            step.size,
-        );
-        Ok(work)
+        gauss_seidel::<P, R, V, S>(step, system, stages, kept, stopping, outcome)
     }
 
     fn extend<P: StageTableau>(stages: &SimdStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
@@ -87,6 +62,50 @@ where
         extend::<P, V>(&P::MOMENTA, at, velocity, q);
         extend::<P, V>(&P::POSITIONS, at, force, p);
     }
+}
+
+/// [`SimdFixedPoint::take`](Solver::take)
+#[inline(always)]
+pub(crate) fn gauss_seidel<P, R, V, S>(
+    step: &Step<'_, V>,
+    system: &S,
+    stages: &mut SimdStages<V, P>,
+    kept: WarmStart,
+    stopping: Stopping,
+    outcome: Outcome<'_, V>,
+) -> Result<StepStatistics, Failure>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: SystemInLanes<V>,
+{
+    let mut sweeps = ByLanes::<P, R, V, S> {
+        step,
+        system,
+        stages: &mut *stages,
+        sums: PhantomData,
+    };
+    let work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
+    if !R::COMPENSATED {
+        sweeps.increments();
+    }
+    let Outcome { q, q_low, p, p_low } = outcome;
+    total::<R, P, V>(
+        (q, q_low),
+        (step.q, step.q_low),
+        stages.velocity.as_ref(),
+        &P::MOMENTA,
+        step.size,
+    );
+    total::<R, P, V>(
+        (p, p_low),
+        (step.p, step.p_low),
+        stages.force.as_ref(),
+        &P::POSITIONS,
+        step.size,
+    );
+    Ok(work)
 }
 
 /// Adds to `out` the part that vanishes at both ends of the step, of the evaluations of one half, by stage and component.
@@ -128,7 +147,7 @@ where
     P: StageTableau,
     R: Summation,
     V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V>,
+    S: SystemInLanes<V>,
 {
     type Movement = LaneMovement<P::Lanes>;
 
@@ -277,7 +296,7 @@ where
     P: StageTableau,
     R: Summation,
     V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V>,
+    S: SystemInLanes<V>,
 {
     /// The same with sweeps that move the stages twice as far.
     #[inline(always)]

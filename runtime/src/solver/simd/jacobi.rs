@@ -14,18 +14,18 @@ use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
 use crate::solver::predictor::{Starting, starts_at_once};
 use crate::solver::simd::change::LaneMovement;
 use crate::solver::simd::gauss_seidel::{
-    ByLanes, Sums, extrapolate, extrapolates, fill, sum, sums, total, values,
+    ByLanes, Sums, extrapolate, extrapolates, fill, gauss_seidel, sum, sums, total, values,
 };
 use crate::solver::simd::stages::{Laned, SimdStages};
-use crate::system::HamiltonianInLanes;
-use crate::system::{Class, Hamiltonian};
+use crate::system::SystemInLanes;
+use crate::system::{Class, System};
 
 /// [`SimdFixedPoint`] for Hamiltonians that are not separable, with positions and momenta iterated at once.
 ///
 /// A sweep of [`SimdFixedPoint`] takes the velocities where its forces have moved the momenta to (Gauss–Seidel); here both halves are
 /// taken where the sweep before has left the stages (Jacobi). Neither half waits for the other, and there may be more sweeps:
 /// it pays where `∂²H/∂q∂p` is as large as the other second derivatives and evaluations cost little. Where velocity and force have
-/// costly parts in common they are evaluated together, by [`Hamiltonian::slopes`].
+/// costly parts in common they are evaluated together, by [`Hamiltonian::slopes`](crate::Hamiltonian::slopes).
 /// The stages are those of [`SimdFixedPoint`] up to rounding.
 ///
 /// Separable systems are taken as by [`SimdFixedPoint`]: for these there would be twice as many sweeps.
@@ -35,7 +35,7 @@ pub struct SimdJacobi;
 impl<V, S> Solver<V, S> for SimdJacobi
 where
     V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V>,
+    S: SystemInLanes<V>,
 {
     type Memory<P: StageTableau> = SimdStages<V, P>;
 
@@ -51,44 +51,61 @@ where
     where
         P: StageTableau,
         R: Summation,
-        S: Hamiltonian<V, Class = P::Class>,
+        S: System<V, Class = P::Class>,
     {
-        if P::Class::SEPARABLE {
-            return <SimdFixedPoint as Solver<V, S>>::take::<P, R>(
-                step, system, stages, kept, stopping, outcome,
-            );
-        }
-        let mut sweeps = Halves::<P, R, V, S>(ByLanes {
-            step,
-            system,
-            stages: &mut *stages,
-            sums: PhantomData,
-        });
-        let work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
-        if !R::COMPENSATED {
-            sweeps.0.increments();
-        }
-        let Outcome { q, q_low, p, p_low } = outcome;
-        total::<R, P, V>(
-            (q, q_low),
-            (step.q, step.q_low),
-            stages.velocity.as_ref(),
-            &P::MOMENTA,
-            step.size,
-        );
-        total::<R, P, V>(
-            (p, p_low),
-            (step.p, step.p_low),
-            stages.force.as_ref(),
-            &P::POSITIONS,
-            step.size,
-        );
-        Ok(work)
+        jacobi::<P, R, V, S>(step, system, stages, kept, stopping, outcome)
     }
 
     fn extend<P: StageTableau>(stages: &SimdStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
         <SimdFixedPoint as Solver<V, S>>::extend::<P>(stages, at, q, p);
     }
+}
+
+/// [`SimdJacobi::take`](Solver::take)
+#[inline(always)]
+pub(crate) fn jacobi<P, R, V, S>(
+    step: &Step<'_, V>,
+    system: &S,
+    stages: &mut SimdStages<V, P>,
+    kept: WarmStart,
+    stopping: Stopping,
+    outcome: Outcome<'_, V>,
+) -> Result<StepStatistics, Failure>
+where
+    P: StageTableau,
+    R: Summation,
+    V: Vector<Scalar = f64>,
+    S: SystemInLanes<V>,
+{
+    if P::Class::SEPARABLE {
+        return gauss_seidel::<P, R, V, S>(step, system, stages, kept, stopping, outcome);
+    }
+    let mut sweeps = Halves::<P, R, V, S>(ByLanes {
+        step,
+        system,
+        stages: &mut *stages,
+        sums: PhantomData,
+    });
+    let work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
+    if !R::COMPENSATED {
+        sweeps.0.increments();
+    }
+    let Outcome { q, q_low, p, p_low } = outcome;
+    total::<R, P, V>(
+        (q, q_low),
+        (step.q, step.q_low),
+        stages.velocity.as_ref(),
+        &P::MOMENTA,
+        step.size,
+    );
+    total::<R, P, V>(
+        (p, p_low),
+        (step.p, step.p_low),
+        stages.force.as_ref(),
+        &P::POSITIONS,
+        step.size,
+    );
+    Ok(work)
 }
 
 /// Positions and momenta of the stages.
@@ -99,7 +116,7 @@ where
     P: StageTableau,
     R: Summation,
     V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V>,
+    S: SystemInLanes<V>,
 {
     /// Whether force and velocity of a stage have one time.
     const AT_ONE_TIME: bool = same(P::POSITIONS.times, P::MOMENTA.times);
@@ -194,7 +211,7 @@ where
     P: StageTableau,
     R: Summation,
     V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V>,
+    S: SystemInLanes<V>,
 {
     type Movement = LaneMovement<P::Lanes>;
 
@@ -262,7 +279,7 @@ where
 
     #[inline(always)]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
-        if <S as Hamiltonian<V>>::SHARED_SLOPES && Self::AT_ONE_TIME {
+        if Self::AT_ONE_TIME {
             self.0.slopes();
         } else {
             self.0.forces();

@@ -11,13 +11,13 @@ use std::hint::black_box;
 
 use divan::Bencher;
 use peers::{End, Equations};
-use symplectic::nalgebra::SVector;
+use symplectic::solver::FixedPoint;
 use symplectic::solver::Solver;
-use symplectic::system::HamiltonianInLanes;
+use symplectic::system::SystemInLanes;
 use symplectic::{
-    Compensated, Error, Hamiltonian, Integrator, Method, Plain, ProvedFor, Separable, State,
-    Summation, Vector,
+    Compensated, Error, Integrator, Method, Plain, ProvedFor, Separable, State, Summation, Vector,
 };
+use symplectic::{System, nalgebra::SVector};
 use symplectic_contest::baseline::gauss::{FirstOrder, Rule, SecondOrder};
 use symplectic_contest::baseline::no_drift::{Double, NoDrift, NoDriftGeneral};
 use symplectic_contest::baseline::{chain, explicit, systems};
@@ -195,11 +195,7 @@ fn long_chain() -> Vec<Entry> {
         chain::Blocks::new(dynamic.p.as_slice()),
     );
     let mut entries = others::<_, N, { 2 * N }>(&settings, fput_chain::system(), &start);
-    entries.extend(in_second_order_lanes(
-        &settings,
-        fput_chain::system(),
-        dynamic.clone(),
-    ));
+    entries.extend(gauss_8(&settings, fput_chain::system(), dynamic.clone()));
     entries.push(library(
         "Blanes–Moan, library, plain",
         BlanesMoanSrkn14a,
@@ -254,7 +250,7 @@ fn library<M, S, V, R, N>(
 ) -> Entry
 where
     M: Method + ProvedFor<S::Class>,
-    S: Hamiltonian<V> + Copy + 'static,
+    S: System<V> + Copy + 'static,
     V: Vector<Scalar = f64>,
     R: Summation,
     N: Solver<V, S>,
@@ -270,9 +266,9 @@ where
 }
 
 /// Gauss with eight stages of the library, in lanes as by hand and stage by stage.
-fn in_second_order_lanes<S, V>(settings: &Settings, system: S, start: State<V>) -> [Entry; 3]
+fn gauss_8<S, V>(settings: &Settings, system: S, start: State<V>) -> [Entry; 3]
 where
-    S: HamiltonianInLanes<V> + Copy + 'static,
+    S: SystemInLanes<V> + Copy + 'static,
     V: Vector<Scalar = f64>,
 {
     let (tolerance, problem) = (settings.stages, (system, start));
@@ -283,7 +279,7 @@ where
             Gauss8,
             problem.clone(),
             steps_to,
-            Integrator::<_, _, _, Compensated>::in_second_order_lanes,
+            Ok::<Integrator<_, _, _, Compensated>, _>,
         ),
         library(
             "Gauss 8, library, plain",
@@ -292,7 +288,7 @@ where
             steps_to,
             move |mut made: Integrator<_, _, _, Plain>| {
                 made.set_tolerance(tolerance)?;
-                made.in_second_order_lanes()
+                Ok(made)
             },
         ),
         library(
@@ -300,7 +296,7 @@ where
             Gauss8,
             problem,
             steps_to,
-            Ok::<Integrator<_, _, _, Compensated>, _>,
+            |made: Integrator<_, _, _, Compensated>| Ok(made.with_solver(FixedPoint)),
         ),
     ]
 }
@@ -312,7 +308,7 @@ fn others<S, const N: usize, const M: usize>(
     start: &State<SVector<f64, N>>,
 ) -> Vec<Entry>
 where
-    S: Hamiltonian<SVector<f64, N>> + Copy + 'static,
+    S: System<SVector<f64, N>> + Copy + 'static,
 {
     let &Settings { end, tolerance, .. } = settings;
     let y = together::<N, M>(start);
@@ -338,10 +334,7 @@ fn separable<S, B, const N: usize, const M: usize>(
     start: &State<SVector<f64, N>>,
 ) -> Vec<Entry>
 where
-    S: HamiltonianInLanes<SVector<f64, N>>
-        + Hamiltonian<SVector<f64, N>, Class = Separable>
-        + Copy
-        + 'static,
+    S: SystemInLanes<SVector<f64, N>> + System<SVector<f64, N>, Class = Separable> + Copy + 'static,
     B: systems::Separable<N> + Copy + 'static,
 {
     let &Settings {
@@ -358,7 +351,7 @@ where
     entries.push(entry("Forest–Ruth, differential-equations", move || {
         peers::forest_ruth(&Equations(system), y, end, forest_ruth)
     }));
-    entries.extend(in_second_order_lanes(settings, system, start.clone()));
+    entries.extend(gauss_8(settings, system, start.clone()));
     entries.push(library(
         "Blanes–Moan, library, plain",
         BlanesMoanSrkn14a,
@@ -402,7 +395,7 @@ fn general<S, B, const N: usize, const M: usize>(
     start: &State<SVector<f64, N>>,
 ) -> Vec<Entry>
 where
-    S: HamiltonianInLanes<SVector<f64, N>> + Copy + 'static,
+    S: SystemInLanes<SVector<f64, N>> + Copy + 'static,
     B: systems::General<N> + Copy + 'static,
 {
     let &Settings {
@@ -419,7 +412,7 @@ where
         Gauss8,
         problem.clone(),
         steps_to,
-        |made: Integrator<_, _, _, Compensated>| Ok(made.at_once_in_lanes()),
+        Ok::<Integrator<_, _, _, Compensated>, _>,
     ));
     entries.push(library(
         "Gauss 8, library, plain",
@@ -428,7 +421,7 @@ where
         steps_to,
         move |mut made: Integrator<_, _, _, Plain>| {
             made.set_tolerance(stages)?;
-            Ok(made.at_once_in_lanes())
+            Ok(made)
         },
     ));
     entries.push(library(
@@ -436,7 +429,7 @@ where
         Gauss8,
         problem,
         steps_to,
-        Ok::<Integrator<_, _, _, Compensated>, _>,
+        |made: Integrator<_, _, _, Compensated>| Ok(made.with_solver(FixedPoint)),
     ));
     let (q, p) = (start.q.data.0[0], start.p.data.0[0]);
     entries.push(entry("Gauss 8, by hand, plain", move || {

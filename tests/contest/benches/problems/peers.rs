@@ -3,7 +3,6 @@
 use differential_equations::methods::{ExplicitRungeKutta, SymplecticIntegrator};
 use differential_equations::prelude::{IVP, ODE};
 use ode_solvers::{Dop853, SVector as PeerVector, System};
-use symplectic::Hamiltonian;
 use symplectic::nalgebra::SVector;
 
 /// The state `y = (q, p)` at the end, or nothing where the crate gives up.
@@ -12,7 +11,7 @@ pub type End = Option<Vec<f64>>;
 /// A system of `N` components as first-order equations for `M = 2N`.
 pub struct Equations<S, const N: usize>(pub S);
 
-impl<S: Hamiltonian<SVector<f64, N>>, const N: usize> Equations<S, N> {
+impl<S: symplectic::System<SVector<f64, N>>, const N: usize> Equations<S, N> {
     fn slopes(&self, time: f64, y: &[f64], slopes: &mut [f64]) {
         let (q, p) = (vector(&y[..N]), vector(&y[N..2 * N]));
         let (mut velocity, mut force) = (SVector::zeros(), SVector::zeros());
@@ -29,7 +28,7 @@ fn vector<const N: usize>(values: &[f64]) -> SVector<f64, N> {
 
 impl<S, const N: usize, const M: usize> System<f64, PeerVector<f64, M>> for &Equations<S, N>
 where
-    S: Hamiltonian<SVector<f64, N>>,
+    S: symplectic::System<SVector<f64, N>>,
 {
     fn system(&self, time: f64, y: &PeerVector<f64, M>, slopes: &mut PeerVector<f64, M>) {
         self.slopes(time, y.as_slice(), slopes.as_mut_slice());
@@ -38,7 +37,7 @@ where
 
 impl<S, const N: usize, const M: usize> ODE<f64, [f64; M]> for Equations<S, N>
 where
-    S: Hamiltonian<SVector<f64, N>>,
+    S: symplectic::System<SVector<f64, N>>,
 {
     fn diff(&self, time: f64, y: &[f64; M], slopes: &mut [f64; M]) {
         self.slopes(time, y, slopes);
@@ -49,7 +48,7 @@ where
 impl<S, const N: usize, const M: usize> differential_equations::ode::Hamiltonian<f64, [f64; M]>
     for Equations<S, N>
 where
-    S: Hamiltonian<SVector<f64, N>>,
+    S: symplectic::System<SVector<f64, N>>,
 {
     fn velocity(&self, time: f64, q: &[f64; M], p: &[f64; M], velocity: &mut [f64; M]) {
         let mut found = SVector::zeros();
@@ -74,7 +73,7 @@ pub fn ode_solvers<S, const N: usize, const M: usize>(
     tolerance: f64,
 ) -> End
 where
-    S: Hamiltonian<SVector<f64, N>>,
+    S: symplectic::System<SVector<f64, N>>,
 {
     let start = PeerVector::<f64, M>::from(start);
     let mut solver = Dop853::from_param(
@@ -108,7 +107,7 @@ pub fn dop853<S, const N: usize, const M: usize>(
     tolerance: f64,
 ) -> End
 where
-    S: Hamiltonian<SVector<f64, N>>,
+    S: symplectic::System<SVector<f64, N>>,
 {
     let method = ExplicitRungeKutta::dop853()
         .rtol(tolerance)
@@ -127,7 +126,7 @@ pub fn forest_ruth<S, const N: usize, const M: usize>(
     step_size: f64,
 ) -> End
 where
-    S: Hamiltonian<SVector<f64, N>>,
+    S: symplectic::System<SVector<f64, N>>,
 {
     let method = SymplecticIntegrator::ruth_forest(step_size).max_steps(100_000_000);
     let problem = IVP::hamiltonian(equations, 0.0, end, start).method(method);

@@ -1,11 +1,11 @@
 //! Problems with few components: the stages in lanes.
 
-use symplectic::nalgebra::SVector;
-use symplectic::system::HamiltonianInLanes;
+use symplectic::solver::SimdFixedPoint;
+use symplectic::system::SystemInLanes;
 use symplectic::{
-    Compensated, Error, General, Hamiltonian, Integrator, Method, Plain, ProvedFor, Separable,
-    State, Summation,
+    Compensated, Error, General, Integrator, Method, Plain, ProvedFor, Separable, State, Summation,
 };
+use symplectic::{System, nalgebra::SVector};
 use wide::{f64x2, f64x4, f64x8};
 
 use super::{Pair, Problem, TO_ROUNDING, rule};
@@ -22,7 +22,7 @@ use symplectic_tests::methods::{
 type Made<M, S, const N: usize, R> = Integrator<M, S, SVector<f64, N>, R>;
 
 /// Sets the tolerance of the iteration by hand: what no stage may move by in the last sweep.
-fn within<M: Method, S: HamiltonianInLanes<SVector<f64, N>>, const N: usize>(
+fn within<M: Method, S: SystemInLanes<SVector<f64, N>>, const N: usize>(
     tolerance: f64,
     mut made: Made<M, S, N, Plain>,
 ) -> Result<Made<M, S, N, Plain>, Error> {
@@ -35,10 +35,7 @@ pub(super) fn separable<S, B, const N: usize>(
     pairs: &mut Vec<Pair>,
     problem: &Problem<S, B, SVector<f64, N>>,
 ) where
-    S: HamiltonianInLanes<SVector<f64, N>>
-        + Hamiltonian<SVector<f64, N>, Class = Separable>
-        + Copy
-        + 'static,
+    S: SystemInLanes<SVector<f64, N>> + System<SVector<f64, N>, Class = Separable> + Copy + 'static,
     B: systems::Separable<N> + Copy + 'static,
 {
     problem.gauss::<f64x8, _, 8>(pairs, ("Gauss 8", Gauss8), &rule!(Gauss8), 1.0);
@@ -57,10 +54,7 @@ pub(super) fn general<S, B, const N: usize>(
     pairs: &mut Vec<Pair>,
     problem: &Problem<S, B, SVector<f64, N>>,
 ) where
-    S: HamiltonianInLanes<SVector<f64, N>>
-        + Hamiltonian<SVector<f64, N>, Class = General>
-        + Copy
-        + 'static,
+    S: SystemInLanes<SVector<f64, N>> + System<SVector<f64, N>, Class = General> + Copy + 'static,
     B: systems::General<N> + Copy + 'static,
 {
     problem.coupled::<f64x8, _, 8>(pairs, ("Gauss 8", Gauss8), &rule!(Gauss8), 1.0);
@@ -72,10 +66,7 @@ pub(super) fn general<S, B, const N: usize>(
 
 impl<S, B, const N: usize> Problem<S, B, SVector<f64, N>>
 where
-    S: HamiltonianInLanes<SVector<f64, N>>
-        + Hamiltonian<SVector<f64, N>, Class = Separable>
-        + Copy
-        + 'static,
+    S: SystemInLanes<SVector<f64, N>> + System<SVector<f64, N>, Class = Separable> + Copy + 'static,
     B: systems::Separable<N> + Copy + 'static,
 {
     fn gauss<L: Lanes + 'static, M: Method, const STAGES: usize>(
@@ -93,37 +84,22 @@ where
             by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
             [q, p].concat()
         };
-        pairs.push(self.in_lanes(method, h, move |made| within(tolerance, made), by_hand));
+        pairs.push(self.pair(method, h, move |made| within(tolerance, made), by_hand));
         pairs.push(Pair {
             sums: TO_ROUNDING,
-            ..self.in_lanes::<M, Plain>(method, h, Ok, by_hand)
+            ..self.pair(method, h, |made: Made<M, S, N, Plain>| Ok(made), by_hand)
         });
         let by_hand = NoDrift::<L, STAGES>::new(rule, h);
-        pairs.push(
-            self.in_lanes::<M, Compensated>(method, h, Ok, move |steps| {
+        pairs.push(self.pair(
+            method,
+            h,
+            |made: Made<M, S, N, Compensated>| Ok(made),
+            move |steps| {
                 let (mut q, mut p) = (Double::new(q), Double::new(p));
                 by_hand.run(&system, (&mut q, &mut p), 1e4 * tolerance, steps);
                 [q.high, p.high].concat()
-            }),
-        );
-    }
-
-    /// A pair with the stages in lanes, without those of the momenta where the system is q'' = f(q).
-    fn in_lanes<M: Method, R: Summation>(
-        &self,
-        method: (&'static str, M),
-        step_size: f64,
-        set: impl Fn(Made<M, S, N, R>) -> Result<Made<M, S, N, R>, Error> + 'static,
-        baseline: impl Fn(u64) -> Vec<f64> + 'static,
-    ) -> Pair {
-        let first = Integrator::new(method.1, self.system, self.start.clone(), step_size);
-        if first.and_then(Integrator::in_second_order_lanes).is_ok() {
-            let solved = move |made| set(made)?.in_second_order_lanes();
-            self.pair(method, step_size, solved, baseline)
-        } else {
-            let solved = move |made| Ok(set(made)?.in_lanes());
-            self.pair(method, step_size, solved, baseline)
-        }
+            },
+        ));
     }
 
     fn splitting<K: Splitting + 'static, M: Method>(
@@ -163,10 +139,7 @@ where
 
 impl<S, B, const N: usize> Problem<S, B, SVector<f64, N>>
 where
-    S: HamiltonianInLanes<SVector<f64, N>>
-        + Hamiltonian<SVector<f64, N>, Class = General>
-        + Copy
-        + 'static,
+    S: SystemInLanes<SVector<f64, N>> + System<SVector<f64, N>, Class = General> + Copy + 'static,
     B: systems::General<N> + Copy + 'static,
 {
     fn coupled<L: Lanes + 'static, M: Method + ProvedFor<General>, const STAGES: usize>(
@@ -184,14 +157,14 @@ where
             by_hand.run(&system, (&mut q, &mut p), tolerance, steps);
             [q, p].concat()
         };
-        pairs.push(self.coupled_in_lanes(method, h, move |made| within(tolerance, made), by_hand));
+        pairs.push(self.coupled_pair(method, h, move |made| within(tolerance, made), by_hand));
         pairs.push(Pair {
             sums: TO_ROUNDING,
-            ..self.coupled_in_lanes::<M, Plain>(method, h, Ok, by_hand)
+            ..self.coupled_pair::<M, Plain>(method, h, Ok, by_hand)
         });
         let by_hand = NoDriftGeneral::<L, STAGES>::new(rule, h);
         pairs.push(
-            self.coupled_in_lanes::<M, Compensated>(method, h, Ok, move |steps| {
+            self.coupled_pair::<M, Compensated>(method, h, Ok, move |steps| {
                 let (mut q, mut p) = (Double::new(q), Double::new(p));
                 by_hand.run(&system, (&mut q, &mut p), steps);
                 [q.high, p.high].concat()
@@ -199,8 +172,8 @@ where
         );
     }
 
-    /// A pair with the stages in lanes, both halves at once where that was chosen.
-    fn coupled_in_lanes<M: Method + ProvedFor<General>, R: Summation>(
+    /// A pair with both halves at once, or in turn.
+    fn coupled_pair<M: Method + ProvedFor<General>, R: Summation>(
         &self,
         method: (&'static str, M),
         step_size: f64,
@@ -208,11 +181,10 @@ where
         baseline: impl Fn(u64) -> Vec<f64> + 'static,
     ) -> Pair {
         if self.at_once {
-            let solved = move |made| Ok(set(made)?.at_once_in_lanes());
-            self.pair(method, step_size, solved, baseline)
+            self.pair(method, step_size, set, baseline)
         } else {
-            let solved = move |made| Ok(set(made)?.in_lanes());
-            self.pair(method, step_size, solved, baseline)
+            let in_turn = move |made| Ok(set(made)?.with_solver(SimdFixedPoint));
+            self.pair(method, step_size, in_turn, baseline)
         }
     }
 }

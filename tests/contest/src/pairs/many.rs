@@ -1,6 +1,7 @@
 //! The long chain: lanes along the components.
 
 use symplectic::nalgebra::DVector;
+use symplectic::solver::FixedPoint;
 use symplectic::{Compensated, Integrator, Method, Plain};
 
 use super::{Pair, Problem, TO_ROUNDING, rule};
@@ -84,21 +85,21 @@ impl Chain {
             step_size,
             move |mut integrator: Integrator<_, _, _, Plain>| {
                 integrator.set_tolerance(tolerance)?;
-                integrator.in_second_order_lanes()
+                Ok(integrator)
             },
             by_hand.clone(),
         );
         let to_rounding = self.pair(
             method,
             step_size,
-            Integrator::<_, _, _, Plain>::in_second_order_lanes,
+            |made: Integrator<_, _, _, Plain>| Ok(made),
             by_hand,
         );
         let (begin, by_hand) = (self.blocks(), NoDrift::new(rule, PARTICLES, step_size));
         let compensated = self.pair(
             method,
             step_size,
-            Integrator::<_, _, _, Compensated>::in_second_order_lanes,
+            |made: Integrator<_, _, _, Compensated>| Ok(made),
             move |steps| {
                 let (q, p) = begin.clone();
                 let (mut q, mut p) = (DoubleBlocks::new(q), DoubleBlocks::new(p));
@@ -132,7 +133,7 @@ impl Chain {
             step_size,
             move |mut integrator: Integrator<_, _, _, Plain>| {
                 integrator.set_tolerance(tolerance)?;
-                Ok(integrator)
+                Ok(integrator.with_solver(FixedPoint))
             },
             self.by_hand(&rule!(Gauss8), step_size),
         )

@@ -5,7 +5,7 @@ use differential_equations::methods::{ExplicitRungeKutta, SymplecticIntegrator};
 use differential_equations::prelude::{IVP, ODE, Solution};
 use ode_solvers::{Dop853, OutputType, SVector as PeerVector, System};
 use symplectic::nalgebra::SVector;
-use symplectic::{Hamiltonian, State, Vector};
+use symplectic::{State, Vector};
 use symplectic_report::{Finish, Ladder, Observe, Problem};
 
 /// Steps that a peer may take that chooses them itself: a second or so, after which it is said to have failed. No problem here is
@@ -18,7 +18,7 @@ const MOST_EQUAL_STEPS: usize = 100_000_000;
 /// A system of `N` components as first-order equations for `M = 2N`.
 struct Equations<S, const N: usize>(S);
 
-impl<S: Hamiltonian<SVector<f64, N>>, const N: usize> Equations<S, N> {
+impl<S: symplectic::System<SVector<f64, N>>, const N: usize> Equations<S, N> {
     fn slopes(&self, time: f64, y: &[f64], slopes: &mut [f64]) {
         let (q, p) = (vector(&y[..N]), vector(&y[N..2 * N]));
         let (mut velocity, mut force) = (SVector::zeros(), SVector::zeros());
@@ -35,7 +35,7 @@ fn vector<const N: usize>(values: &[f64]) -> SVector<f64, N> {
 
 impl<S, const N: usize, const M: usize> System<f64, PeerVector<f64, M>> for &Equations<S, N>
 where
-    S: Hamiltonian<SVector<f64, N>>,
+    S: symplectic::System<SVector<f64, N>>,
 {
     fn system(&self, time: f64, y: &PeerVector<f64, M>, slopes: &mut PeerVector<f64, M>) {
         self.slopes(time, y.as_slice(), slopes.as_mut_slice());
@@ -44,7 +44,7 @@ where
 
 impl<S, const N: usize, const M: usize> ODE<f64, [f64; M]> for Equations<S, N>
 where
-    S: Hamiltonian<SVector<f64, N>>,
+    S: symplectic::System<SVector<f64, N>>,
 {
     fn diff(&self, time: f64, y: &[f64; M], slopes: &mut [f64; M]) {
         self.slopes(time, y, slopes);
@@ -55,7 +55,7 @@ where
 impl<S, const N: usize, const M: usize> differential_equations::ode::Hamiltonian<f64, [f64; M]>
     for Equations<S, N>
 where
-    S: Hamiltonian<SVector<f64, N>>,
+    S: symplectic::System<SVector<f64, N>>,
 {
     fn velocity(&self, time: f64, q: &[f64; M], p: &[f64; M], velocity: &mut [f64; M]) {
         let mut found = SVector::zeros();
@@ -111,7 +111,7 @@ pub fn with_peers<V, S, const N: usize, const M: usize>(
 ) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: Hamiltonian<V> + Hamiltonian<SVector<f64, N>> + Clone + 'static,
+    S: symplectic::System<V> + symplectic::System<SVector<f64, N>> + Clone + 'static,
 {
     let ladder = Ladder::Descend { first: step_size };
     let equations = || Equations::<S, N>(system.clone());
@@ -140,7 +140,7 @@ pub fn with_forest_ruth<V, S, const N: usize, const M: usize>(
 ) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: Hamiltonian<V> + Hamiltonian<SVector<f64, N>> + Clone + 'static,
+    S: symplectic::System<V> + symplectic::System<SVector<f64, N>> + Clone + 'static,
 {
     let (equations, begin) = (
         Equations::<S, N>(system.clone()),
@@ -165,7 +165,7 @@ fn ode_solvers<V, S, const N: usize, const M: usize>(
 ) -> Result<Finish<V>, String>
 where
     V: Vector<Scalar = f64>,
-    S: Hamiltonian<SVector<f64, N>>,
+    S: symplectic::System<SVector<f64, N>>,
 {
     let mut solver = Dop853::from_param(
         equations,
@@ -210,7 +210,7 @@ fn differential_equations<V, S, const N: usize, const M: usize>(
 ) -> Result<Finish<V>, String>
 where
     V: Vector<Scalar = f64>,
-    S: Hamiltonian<SVector<f64, N>>,
+    S: symplectic::System<SVector<f64, N>>,
 {
     let method = ExplicitRungeKutta::dop853()
         .rtol(tolerance)
@@ -245,7 +245,7 @@ pub fn with_rk4<V, S>(
 ) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: Hamiltonian<V> + Clone + 'static,
+    S: symplectic::System<V> + Clone + 'static,
 {
     let (system, start) = (system.clone(), start.clone());
     problem.peer("RK4", ladder, move |step_size, observe| {
@@ -263,7 +263,7 @@ fn rk4<V, S>(
 ) -> Finish<V>
 where
     V: Vector<Scalar = f64>,
-    S: Hamiltonian<V>,
+    S: symplectic::System<V>,
 {
     let steps = ((end - start.time) / step_size - 1e-9).ceil().max(1.0) as u64;
     let h = (end - start.time) / steps as f64;

@@ -4,9 +4,8 @@
 
 use std::f64::consts::TAU;
 
-use symplectic::nalgebra::SVector;
-use symplectic::system::HamiltonianInLanes;
-use symplectic::{Error, Hamiltonian, Integrator, Separable, State, Vector};
+use symplectic::{Error, Integrator, Separable, State, Vector};
+use symplectic::{System, nalgebra::SVector};
 use symplectic_report::{Ladder, Problem, Reference, Study};
 use symplectic_tests::methods::{Gauss8, Midpoint, VelocityVerlet};
 use symplectic_tests::scenes::{
@@ -16,7 +15,7 @@ use symplectic_tests::scenes::{
 };
 
 use crate::peers::{with_forest_ruth, with_peers, with_rk4};
-use crate::sets::{Set, coupled, explicit, more_explicit, newton, second_order};
+use crate::sets::{Set, coupled, explicit, implicit, more_explicit, newton};
 
 /// A scene: what it is called on the command line, and how it is added to a study.
 pub type Scene = (&'static str, fn(Study) -> Result<Study, Error>);
@@ -90,7 +89,7 @@ fn kepler(
         &start,
         end,
         TAU / 8.0,
-        second_order,
+        implicit,
     )))
 }
 
@@ -108,12 +107,7 @@ fn henon_heiles(study: Study) -> Result<Study, Error> {
     .described("H = (|p|² + |q|²)/2 + q₁²q₂ − q₂³/3, a star in a galaxy (GNI I.3)")
     .needing("nothing: separable, quadratic kinetic energy, not stiff");
     Ok(study.problem(separable::<_, 2, 4>(
-        problem,
-        system,
-        &start,
-        end,
-        2.0,
-        second_order,
+        problem, system, &start, end, 2.0, implicit,
     )))
 }
 
@@ -137,12 +131,7 @@ fn outer_solar_system(study: Study) -> Result<Study, Error> {
         outer_solar_system::total_momentum(state)[0]
     });
     Ok(study.problem(separable::<_, 18, 36>(
-        problem,
-        system,
-        &start,
-        end,
-        1600.0,
-        second_order,
+        problem, system, &start, end, 1600.0, implicit,
     )))
 }
 
@@ -163,12 +152,7 @@ fn springs(study: Study, omega: f64, end: f64, largest: f64) -> Result<Study, Er
         );
     let problem = newton(problem);
     Ok(study.problem(separable::<_, 6, 12>(
-        problem,
-        system,
-        &start,
-        end,
-        first,
-        second_order,
+        problem, system, &start, end, first, implicit,
     )))
 }
 
@@ -186,7 +170,7 @@ fn fput_chain(study: Study) -> Result<Study, Error> {
     )
     .described(FPUT_CHAIN)
     .needing("nothing: separable, quadratic kinetic energy, not stiff; many components");
-    let problem = second_order(explicit(problem));
+    let problem = implicit(explicit(problem));
     let problem = with_peers::<_, _, N, { 2 * N }>(problem, &system, &start, end, 2.0);
     Ok(study.problem(with_forest_ruth::<_, _, N, { 2 * N }>(
         problem, &system, &start, end, 2.0,
@@ -202,7 +186,7 @@ fn short_fput_chain(study: Study) -> Result<Study, Error> {
     let problem = Problem::new("FPUT chain, N = 16", system, start.clone(), reference, 2.0)
         .described(FPUT_CHAIN)
         .needing("nothing: separable, quadratic kinetic energy, not stiff");
-    let problem = second_order(explicit(problem));
+    let problem = implicit(explicit(problem));
     let problem = with_peers::<_, _, 16, 32>(problem, &system, &start, end, 2.0);
     Ok(study.problem(with_forest_ruth::<_, _, 16, 32>(
         problem, &system, &start, end, 2.0,
@@ -220,7 +204,7 @@ fn long_fput_chain(study: Study) -> Result<Study, Error> {
     let ladder = Ladder::Descend { first: 1.0 };
     // The other crates have states of a length that is known when they are compiled, on the stack, which is too small.
     Ok(study.problem(with_rk4(
-        second_order(explicit(problem)),
+        implicit(explicit(problem)),
         &system,
         &start,
         end,
@@ -277,12 +261,7 @@ fn harmonic_oscillator(study: Study) -> Result<Study, Error> {
         .described("H = (p² + q²)/2")
         .needing("nothing: separable, quadratic kinetic energy, not stiff");
     Ok(study.problem(separable::<_, 1, 2>(
-        problem,
-        system,
-        &start,
-        end,
-        4.0,
-        second_order,
+        problem, system, &start, end, 4.0, implicit,
     )))
 }
 
@@ -295,12 +274,7 @@ fn pendulum(study: Study) -> Result<Study, Error> {
         .described("H = p²/2 − cos q, swinging far (GNI I.1.1)")
         .needing("nothing: separable, quadratic kinetic energy, not stiff");
     Ok(study.problem(separable::<_, 1, 2>(
-        problem,
-        system,
-        &start,
-        end,
-        2.0,
-        second_order,
+        problem, system, &start, end, 2.0, implicit,
     )))
 }
 
@@ -318,12 +292,7 @@ fn henon_heiles_at_one_twelfth(study: Study) -> Result<Study, Error> {
     .described("H = (|p|² + |q|²)/2 + q₁²q₂ − q₂³/3, on an orbit that is not chaotic (GNI I.3)")
     .needing("nothing: separable, quadratic kinetic energy, not stiff");
     Ok(study.problem(separable::<_, 2, 4>(
-        problem,
-        system,
-        &start,
-        end,
-        2.0,
-        second_order,
+        problem, system, &start, end, 2.0, implicit,
     )))
 }
 
@@ -344,12 +313,7 @@ fn pythagorean_three_body(study: Study) -> Result<Study, Error> {
     )
     .needing("steps that follow encounters as near as 4·10⁻⁴; separable, quadratic kinetic energy");
     Ok(study.problem(separable::<_, 6, 12>(
-        problem,
-        system,
-        &start,
-        end,
-        first,
-        second_order,
+        problem, system, &start, end, first, implicit,
     )))
 }
 
@@ -367,12 +331,7 @@ fn argon_crystal(study: Study) -> Result<Study, Error> {
     .described("Seven atoms with a Lennard-Jones potential in the plane (GNI I.4)")
     .needing("nothing: separable, quadratic kinetic energy, not stiff");
     Ok(study.problem(separable::<_, 14, 28>(
-        problem,
-        system,
-        &start,
-        end,
-        first,
-        second_order,
+        problem, system, &start, end, first, implicit,
     )))
 }
 
@@ -390,7 +349,7 @@ fn sine_gordon(study: Study) -> Result<Study, Error> {
     )
     .described("H = Σ (p²/2 + 8(q_{i+1} − q_i)² + 1 − cos q), a ring with a breather (Duncan 1997)")
     .needing("nothing: separable, quadratic kinetic energy, not stiff");
-    let problem = second_order(explicit(problem));
+    let problem = implicit(explicit(problem));
     Ok(study.problem(with_peers::<_, _, N, { 2 * N }>(
         problem, &system, &start, end, 0.5,
     )))
@@ -478,10 +437,7 @@ fn separable<S, const N: usize, const M: usize>(
     implicit: Set<SVector<f64, N>, S>,
 ) -> Problem<SVector<f64, N>, S>
 where
-    S: HamiltonianInLanes<SVector<f64, N>>
-        + Hamiltonian<SVector<f64, N>, Class = Separable>
-        + Clone
-        + 'static,
+    S: System<SVector<f64, N>, Class = Separable> + Clone + 'static,
 {
     let problem = implicit(explicit(problem));
     let problem = with_peers::<_, _, N, M>(problem, &system, start, end, step_size);

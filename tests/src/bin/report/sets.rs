@@ -2,9 +2,7 @@
 //!
 //! Every method is generic over the system once, here: a scene chooses a set and says its numbers.
 
-use symplectic::nalgebra::SVector;
-use symplectic::system::HamiltonianInLanes;
-use symplectic::{Hamiltonian, Integrator, Separable, Vector};
+use symplectic::{Integrator, Separable, System, Vector};
 use symplectic_report::Problem;
 use symplectic_tests::methods::{
     BlanesMoanS6, BlanesMoanS10, BlanesMoanSrkn11b, BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4,
@@ -25,24 +23,11 @@ macro_rules! run {
     };
 }
 
-/// The methods of Gauss, each by what is made of its integrator.
-macro_rules! run_gauss {
-    ($problem:expr, $integrator:pat => $made:expr) => {
-        run!($problem, $integrator => $made;
-            Gauss2 "Gauss 2" plain,
-            Gauss4 "Gauss 4" plain,
-            Gauss6 "Gauss 6" plain,
-            Gauss8 "Gauss 8" plain,
-            Gauss8 "Gauss 8, compensated" new,
-        )
-    };
-}
-
 /// Explicit methods that are worth it for quadratic kinetic energy: plain sums.
 pub fn explicit<V, S>(problem: Problem<V, S>) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: Hamiltonian<V, Class = Separable> + Clone + 'static,
+    S: System<V, Class = Separable> + Clone + 'static,
 {
     run!(problem, integrator => Ok(integrator);
         VelocityVerlet "Störmer–Verlet" plain,
@@ -58,7 +43,7 @@ where
 pub fn more_explicit<V, S>(problem: Problem<V, S>) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: Hamiltonian<V, Class = Separable> + Clone + 'static,
+    S: System<V, Class = Separable> + Clone + 'static,
 {
     run!(problem, integrator => Ok(integrator);
         SymplecticEuler "Symplectic Euler" plain,
@@ -70,24 +55,28 @@ where
     )
 }
 
-/// Implicit methods for `q'' = M⁻¹ f(q)`: only positions are iterated, in lanes.
-pub fn second_order<V, S>(problem: Problem<V, S>) -> Problem<V, S>
+/// Implicit methods.
+pub fn implicit<V, S>(problem: Problem<V, S>) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: HamiltonianInLanes<V> + Clone + 'static,
+    S: System<V> + Clone + 'static,
 {
-    run_gauss!(problem, integrator => integrator.in_second_order_lanes())
+    run!(problem, integrator => Ok(integrator);
+        Gauss2 "Gauss 2" plain,
+        Gauss4 "Gauss 4" plain,
+        Gauss6 "Gauss 6" plain,
+        Gauss8 "Gauss 8" plain,
+        Gauss8 "Gauss 8, compensated" new,
+    )
 }
 
-/// Implicit methods that are interesting where nothing is explicit; in few components, stages side by side in lanes.
-pub fn coupled<S, const N: usize>(
-    problem: Problem<SVector<f64, N>, S>,
-) -> Problem<SVector<f64, N>, S>
+/// Implicit methods that are interesting where nothing is explicit.
+pub fn coupled<V, S>(problem: Problem<V, S>) -> Problem<V, S>
 where
-    S: HamiltonianInLanes<SVector<f64, N>> + Clone + 'static,
+    V: Vector<Scalar = f64>,
+    S: System<V> + Clone + 'static,
 {
-    let problem = run_gauss!(problem, integrator => Ok(integrator.in_lanes()));
-    run!(problem, integrator => Ok(integrator);
+    run!(implicit(problem), integrator => Ok(integrator);
         StoermerVerlet "Störmer–Verlet, implicit" plain,
         Lobatto3 "Lobatto 3" plain,
     )
@@ -97,7 +86,7 @@ where
 pub fn newton<V, S>(problem: Problem<V, S>) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: Hamiltonian<V> + Clone + 'static,
+    S: System<V> + Clone + 'static,
 {
     run!(problem, integrator => Ok(integrator.by_newton());
         Gauss4 "Gauss 4, Newton" plain,

@@ -1,0 +1,148 @@
+//! The solver of systems that are known over every scalar.
+
+use core::fmt;
+
+use crate::error::Quantity;
+use crate::method::{
+    Failure, Inside, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics, Stopping,
+    WarmStart,
+};
+use crate::number::vector::{same, same_mut};
+use crate::number::{Scalar, Summation, Vector};
+use crate::solver::FixedPoint;
+use crate::solver::fixed_point::by_stages;
+use crate::solver::nystrom::{self, NystromStages, nystrom};
+use crate::solver::simd::gauss_seidel::gauss_seidel;
+use crate::solver::simd::jacobi::jacobi;
+use crate::system::{Class, OverEveryScalar, System};
+
+/// The fastest of the fixed-point iterations for a method, a system and its scalar: what an
+/// [`Integrator`](crate::Integrator) takes unless another solver is named.
+///
+/// | Scalar | Hamiltonian | Iteration |
+/// |---|---|---|
+/// | f64 | separable, velocity linear in the momentum | positions only (Nyström form), stages in SIMD lanes |
+/// | f64 | separable | [`SimdFixedPoint`] |
+/// | f64 | other | [`SimdJacobi`] |
+/// | other | any | [`FixedPoint`] |
+///
+/// Whether the velocity is linear in the momentum, and does not depend on time, is tried when the integrator is made.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Automatic;
+
+/// The memory of [`Automatic`].
+pub enum AutomaticStages<V: Vector, S: OverEveryScalar<V>, P: StageTableau> {
+    /// Of doubles.
+    InLanes(NystromStages<S::Doubles, P>),
+    /// Of other scalars.
+    OneByOne(P::Stages<V>),
+}
+
+impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> fmt::Debug for AutomaticStages<V, S, P> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("AutomaticStages")
+    }
+}
+
+/// What can only be if a scalar is called a double and is none.
+const NO_DOUBLES: &str = "vectors over f64 are those of the system over f64";
+
+impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
+    for AutomaticStages<V, S, P>
+{
+    const BROADCASTS: bool = match V::Scalar::IS_DOUBLE {
+        true => <NystromStages<S::Doubles, P> as StageStorage<S::Doubles>>::BROADCASTS,
+        false => <P::Stages<V> as StageStorage<V>>::BROADCASTS,
+    };
+
+    fn like(prototype: &V) -> Self {
+        // A constant: for doubles no other code is made, and for other scalars none in lanes.
+        if V::Scalar::IS_DOUBLE {
+            let prototype = same::<V, S::Doubles>(prototype).expect(NO_DOUBLES);
+            Self::InLanes(NystromStages::like(prototype))
+        } else {
+            Self::OneByOne(StageStorage::like(prototype))
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        match self {
+            Self::InLanes(stages) => stages.non_finite(),
+            Self::OneByOne(stages) => stages.non_finite(),
+        }
+    }
+
+    fn non_finite_force(&self) -> Option<usize> {
+        match self {
+            Self::InLanes(stages) => stages.non_finite_force(),
+            Self::OneByOne(stages) => stages.non_finite_force(),
+        }
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        match self {
+            Self::InLanes(stages) => stages.mismatch(dimension),
+            Self::OneByOne(stages) => stages.mismatch(dimension),
+        }
+    }
+}
+
+impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
+    type Memory<P: StageTableau> = AutomaticStages<V, S, P>;
+
+    const TRIES_LINEARITY: bool = V::Scalar::IS_DOUBLE;
+
+    #[inline(always)]
+    fn take<P, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<P>,
+        kept: WarmStart,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>
+    where
+        P: StageTableau,
+        R: Summation,
+        S: System<V, Class = P::Class>,
+    {
+        // A constant, as above.
+        if !V::Scalar::IS_DOUBLE {
+            let AutomaticStages::OneByOne(stages) = memory else {
+                unreachable!("{NO_DOUBLES}");
+            };
+            return by_stages::<P, R, V, S>(step, system, stages, kept, stopping, outcome);
+        }
+        let AutomaticStages::InLanes(stages) = memory else {
+            unreachable!("{NO_DOUBLES}");
+        };
+        let step: &Step<'_, S::Doubles> = &step.same().expect(NO_DOUBLES);
+        let outcome: Outcome<'_, S::Doubles> = outcome.same().expect(NO_DOUBLES);
+        if !P::Class::SEPARABLE {
+            let stages = &mut stages.lanes;
+            jacobi::<P, R, _, _>(step, system, stages, kept, stopping, outcome)
+        } else if step.linear_velocity {
+            nystrom::<P, R, _, _>(step, system, stages, kept, stopping, outcome)
+        } else {
+            let stages = &mut stages.lanes;
+            gauss_seidel::<P, R, _, _>(step, system, stages, kept, stopping, outcome)
+        }
+    }
+
+    fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
+        match memory {
+            AutomaticStages::InLanes(stages) => {
+                let at = at.same::<S::Doubles>().expect(NO_DOUBLES);
+                let (q, p) = (
+                    same_mut(q).expect(NO_DOUBLES),
+                    same_mut(p).expect(NO_DOUBLES),
+                );
+                nystrom::extend::<P, S::Doubles, S>(stages, at, q, p);
+            }
+            AutomaticStages::OneByOne(stages) => {
+                <FixedPoint as Solver<V, S>>::extend::<P>(stages, at, q, p);
+            }
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! A system over one type of vectors: what a step evaluates.
+
+use crate::method::Solver;
+use crate::number::{F64x2, F64x4, F64x8, Vector};
+use crate::solver::Automatic;
+use crate::system::{Class, Components, Hamiltonian, Layout, StageRows};
+
+/// A Hamiltonian system over one type of vectors: what an [`Integrator`](crate::Integrator) steps.
+///
+/// Every [`Hamiltonian`] and [`SeparableHamiltonian`](crate::SeparableHamiltonian) is one, over its vectors of any scalar; so are
+/// closures. Implement it by hand only for a system that one type of numbers can evaluate, one that calls a library for doubles
+/// say: its coupled stages are found one by one.
+///
+/// ```
+/// use symplectic::nalgebra::DVector;
+/// use symplectic::solver::FixedPoint;
+/// use symplectic::{Separable, System};
+///
+/// /// H = |p|²/2 + |q|²/2
+/// struct Oscillators;
+///
+/// impl System<DVector<f64>> for Oscillators {
+///     type Class = Separable;
+///     type Solver = FixedPoint;
+///
+///     fn velocity(&self, _time: f64, _q: &DVector<f64>, p: &DVector<f64>, velocity: &mut DVector<f64>) {
+///         velocity.copy_from(p);
+///     }
+///
+///     fn force(&self, _time: f64, q: &DVector<f64>, _p: &DVector<f64>, force: &mut DVector<f64>) {
+///         force.zip_apply(q, |force, q| *force = -q);
+///     }
+/// }
+/// ```
+///
+/// # Separable systems
+///
+/// With `type Class = Separable` the velocity must not look at `q`, nor the force at `p`: what is there is any vector at hand.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a Hamiltonian system over the vectors `{V}`",
+    label = "implement `SeparableHamiltonian`, or `Hamiltonian` with `type Class = General`"
+)]
+pub trait System<V: Vector>: Sized {
+    /// What the derivatives depend on: [`General`](crate::General) or [`Separable`](crate::Separable).
+    type Class: Class;
+
+    /// What finds coupled stages unless another solver is [named](crate::Integrator::with_solver):
+    /// [`FixedPoint`](crate::solver::FixedPoint), or [`Automatic`] for a system that is known over every scalar.
+    type Solver: Solver<V, Self>;
+
+    /// Whether the velocity is the momentum: see [`SeparableHamiltonian::UNIT_MASSES`](crate::SeparableHamiltonian::UNIT_MASSES).
+    const UNIT_MASSES: bool = false;
+
+    /// Writes ∂H/∂p at `(time, q, p)` into `velocity`.
+    fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V);
+
+    /// Writes −∂H/∂q at `(time, q, p)` into `force`.
+    fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V);
+
+    /// Both at once, with the same bits: see [`Hamiltonian::slopes`].
+    #[inline(always)]
+    fn slopes(&self, time: V::Scalar, q: &V, p: &V, (velocity, force): (&mut V, &mut V)) {
+        self.velocity(time, q, p, velocity);
+        self.force(time, q, p, force);
+    }
+
+    /// H at `(time, q, p)`, where the system knows it. No method needs it.
+    fn energy(&self, _time: V::Scalar, _q: &V, _p: &V) -> Option<V::Scalar> {
+        None
+    }
+
+    // What follows is how a `Chain` is made fast, for no other system.
+
+    /// Whether there is a [`local_force`](Self::local_force).
+    #[doc(hidden)]
+    const LOCAL_FORCE: bool = false;
+
+    /// The force, component by component.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn local_force(&self, _time: V::Scalar, _components: &mut impl Components<V::Scalar>) {}
+
+    /// Whether there are [`row_forces`](Self::row_forces).
+    #[doc(hidden)]
+    const ROW_FORCES: bool = false;
+
+    /// The local force of all stages and of eight components at once.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn row_forces(&self, _rows: &mut impl StageRows) {}
+
+    /// Kicks of the momenta by one force, one after the other, and a drift of the positions, in one pass over the components:
+    ///
+    /// ```text
+    /// p = kick_k.fused(force(time, q), p)   for each kick      q = drift.fused(p, q)
+    /// ```
+    ///
+    /// `false`, with nothing changed, where it cannot.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn kick_and_drift(
+        &self,
+        _time: V::Scalar,
+        _state: (&mut [V::Scalar], &mut [V::Scalar]),
+        _layout: Layout,
+        _kicks: &[V::Scalar],
+        _drift: V::Scalar,
+    ) -> bool {
+        false
+    }
+
+    /// The layout in which [`kick_and_drift`](Self::kick_and_drift) goes fastest for positions and momenta at these places in memory.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn layout(&self, _q: &[V::Scalar], _p: &[V::Scalar]) -> Layout {
+        Layout::NATURAL
+    }
+}
+
+impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
+    type Class = H::Class;
+    type Solver = Automatic;
+
+    const UNIT_MASSES: bool = H::UNIT_MASSES;
+
+    #[inline(always)]
+    fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
+        Hamiltonian::velocity::<V::Scalar>(self, time, q, p, velocity);
+    }
+
+    #[inline(always)]
+    fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
+        Hamiltonian::force::<V::Scalar>(self, time, q, p, force);
+    }
+
+    #[inline(always)]
+    fn slopes(&self, time: V::Scalar, q: &V, p: &V, slopes: (&mut V, &mut V)) {
+        Hamiltonian::slopes::<V::Scalar>(self, time, q, p, slopes);
+    }
+
+    fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
+        Hamiltonian::energy::<V::Scalar>(self, time, q, p)
+    }
+}
+
+/// A system over vectors of doubles, and over vectors of doubles side by side.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a Hamiltonian system over the vectors `{V}` with lanes in place of doubles",
+    label = "this needs a system that is written for every `Scalar`: `SeparableHamiltonian` or `Hamiltonian`"
+)]
+pub trait SystemInLanes<V: Vector>:
+    System<V> + System<V::With<F64x2>> + System<V::With<F64x4>> + System<V::With<F64x8>>
+{
+}
+
+impl<V: Vector, S> SystemInLanes<V> for S where
+    S: System<V> + System<V::With<F64x2>> + System<V::With<F64x4>> + System<V::With<F64x8>>
+{
+}
+
+/// A system over `V` that is known over every scalar.
+pub trait OverEveryScalar<V: Vector>: System<V> + SystemInLanes<Self::Doubles> {
+    /// The same vectors over doubles: `V` itself, where its scalar is one.
+    type Doubles: Vector<Scalar = f64>;
+}
+
+impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> OverEveryScalar<V> for H {
+    type Doubles = H::Vector<f64>;
+}
