@@ -17,7 +17,7 @@
 //! | The system: closures or a trait | [`separable`], [`hamiltonian`], [`acceleration`]; [`SeparableHamiltonian`], [`Hamiltonian`]; [`system`] |
 //! | Numbers and vectors | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors), [`simd`] |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`] |
-//! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`] |
+//! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
 //! | What is seen of a run | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
 //! | How coupled stages are found | [`solver`] |
 //! | Which method to take | the package `symplectic-report` |
@@ -53,6 +53,7 @@
 //!
 //! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library; implies `alloc`.
 //! * `alloc`: dynamic vectors, [`nalgebra::DVector`], Newton's iteration and generating functions.
+//! * `serde`: a [`Checkpoint`] can be written and read in any format; implies `alloc`.
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and Newton's iteration takes derivatives by dual numbers; implies `std`.
 //! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, the functions named under `std` from `libm`.
 
@@ -78,6 +79,8 @@ pub mod system;
 pub mod variational;
 
 pub use error::{Error, Quantity};
+#[cfg(feature = "alloc")]
+pub use integrator::{Checkpoint, CheckpointError};
 pub use integrator::{Integrator, Retry, Statistics};
 pub use method::{LowerOrder, Method, Orders, ProvedFor, composition, splitting, tableau};
 pub use nalgebra;
@@ -123,6 +126,8 @@ mod book {
     struct Newton;
     #[doc = include_str!("../../docs/src/guide/speed.md")]
     struct Speed;
+    #[doc = include_str!("../../docs/src/guide/restart.md")]
+    struct Restart;
     #[doc = include_str!("../../docs/src/reference/errors.md")]
     struct Errors;
 }

@@ -1,9 +1,10 @@
 //! Many steps at once are the steps one by one.
 
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
+use symplectic::solver::FixedPoint;
 use symplectic::{
     Error, Integrator, Method, Quantity, Retry, Separable, State, Summation, System, Vector,
-    acceleration, composition, separable, solver::FixedPoint, tableau,
+    acceleration, composition, separable, tableau,
 };
 
 tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }

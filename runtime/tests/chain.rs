@@ -2,14 +2,15 @@
 
 use std::cell::Cell;
 
+use symplectic::emitted::copy;
 use symplectic::nalgebra::DVector;
 use symplectic::simd::{F64x4, Lanes};
+use symplectic::solver::FixedPoint;
 use symplectic::system::{Bonds, Chain, Layout};
 use symplectic::{
-    Compensated, Error, Hamiltonian, Integrator, Method, Scalar, SeparableHamiltonian, State,
-    Vector, acceleration, composition, tableau,
+    Compensated, Error, Integrator, Method, Scalar, Separable, State, System, Vector, acceleration,
+    composition, tableau,
 };
-use symplectic::{Separable, System, emitted::copy, solver::FixedPoint};
 
 tableau! { VelocityVerlet { basis: polynomial(2), nodes: lobatto(2) } }
 tableau! { SymplecticEuler { basis: polynomial(1), nodes: [0] } }

@@ -4,13 +4,12 @@ mod common;
 
 use common::systems::{Pendulum, Product, point};
 use symplectic::nalgebra::{DVector, SVector, Vector2};
-use symplectic::solver::{FixedPoint, SimdFixedPoint};
-use symplectic::solver::Solver;
+use symplectic::output::Interpolation;
+use symplectic::solver::{FixedPoint, SimdFixedPoint, Solver};
 use symplectic::{
-    Error, Integrator, Method, ProvedFor, Scalar, SeparableHamiltonian, State, Summation, Vector,
-    composition, tableau,
+    Error, Integrator, Method, ProvedFor, Scalar, SeparableHamiltonian, State, Summation, System,
+    Vector, composition, tableau,
 };
-use symplectic::{System, output::Interpolation};
 
 tableau! {
     Midpoint { basis: polynomial(1), nodes: gauss(1) }

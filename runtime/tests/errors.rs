@@ -7,9 +7,10 @@ use std::cell::Cell;
 use common::systems::{Pendulum, Product, point};
 use common::{Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1};
+use symplectic::solver::FixedPoint;
 use symplectic::{
     Error, Integrator, Method, ProvedFor, Quantity, Separable, State, System, Vector, acceleration,
-    hamiltonian, separable, solver::FixedPoint,
+    hamiltonian, separable,
 };
 
 type Point = Vector1<f64>;

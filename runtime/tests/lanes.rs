@@ -3,14 +3,13 @@
 use std::cell::Cell;
 use std::fmt::Debug;
 
-use symplectic::System;
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::simd::{F64x2, F64x4, F64x8, Lanes};
 use symplectic::solver::{FixedPoint, SimdFixedPoint, SimdJacobi, Solver};
 use symplectic::system::SystemInLanes;
 use symplectic::{
     Compensated, Error, General, Hamiltonian, Integrator, Method, Plain, ProvedFor, Quantity,
-    Scalar, Separable, SeparableHamiltonian, State, Summation, Vector, tableau,
+    Scalar, Separable, SeparableHamiltonian, State, Summation, System, Vector, tableau,
 };
 
 tableau! { Gauss1 { basis: polynomial(1), nodes: gauss(1) } }

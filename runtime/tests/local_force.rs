@@ -2,13 +2,12 @@
 
 use std::cell::Cell;
 
-use symplectic::System;
 use symplectic::nalgebra::DVector;
 use symplectic::solver::Automatic;
 use symplectic::system::{Bonds, Chain, Components, OverEveryScalar, StageRows};
 use symplectic::{
-    Compensated, Error, Hamiltonian, Integrator, Method, Plain, Scalar, Separable,
-    SeparableHamiltonian, State, Statistics, Summation, Vector, tableau,
+    Compensated, Error, Integrator, Method, Plain, Scalar, Separable, State, Statistics, Summation,
+    System, Vector, tableau,
 };
 
 tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }

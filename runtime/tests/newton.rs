@@ -6,11 +6,12 @@ use common::systems::Product;
 use common::{Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::solver::{
-    Analytic, Banded, Dense, Differences, FixedPointThenNewton, Jacobian, Linearized, Newton,
+    Analytic, Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Jacobian, Linearized,
+    Newton,
 };
 use symplectic::{
     Error, General, Hamiltonian, Integrator, Method, ProvedFor, Quantity, Scalar, Separable,
-    SeparableHamiltonian, State, System, Vector, separable, solver::FixedPoint, tableau,
+    SeparableHamiltonian, State, System, Vector, separable, tableau,
 };
 
 tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }

@@ -1,10 +1,11 @@
 //! Stages that are no numbers for a sweep, and numbers again after it.
 
 use symplectic::nalgebra::Vector2;
-use symplectic::solver::{FixedPoint, SimdFixedPoint};
+use symplectic::solver::{FixedPoint, SimdFixedPoint, Solver};
 use symplectic::system::SystemInLanes;
-use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, State, Summation, tableau};
-use symplectic::{System, solver::Solver};
+use symplectic::{
+    Error, Integrator, Scalar, SeparableHamiltonian, State, Summation, System, tableau,
+};
 
 tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
 

@@ -2,11 +2,11 @@
 
 use std::cell::Cell;
 
+use symplectic::nalgebra::SVector;
 use symplectic::solver::SimdJacobi;
 use symplectic::{
     Error, General, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State, Statistics, tableau,
 };
-use symplectic::{System, nalgebra::SVector};
 
 tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
 tableau! { Lobatto3 { basis: polynomial(3), nodes: lobatto(3) } }

@@ -1,8 +1,9 @@
 //! Tolerances of the iteration for coupled stages.
 
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
-use symplectic::solver::{Dense, Differences, Newton, Solver};
-use symplectic::solver::{FixedPoint, SimdFixedPoint, SimdJacobi};
+use symplectic::solver::{
+    Dense, Differences, FixedPoint, Newton, SimdFixedPoint, SimdJacobi, Solver,
+};
 use symplectic::system::SystemInLanes;
 use symplectic::{
     Error, Integrator, Method, Plain, Quantity, Scalar, SeparableHamiltonian, State, tableau,

@@ -5,8 +5,8 @@
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
 use symplectic::solver::SimdFixedPoint;
-use symplectic::{Error, Integrator, Method, ProvedFor, State, Vector};
-use symplectic::{System, system::SystemInLanes};
+use symplectic::system::SystemInLanes;
+use symplectic::{Error, Integrator, Method, ProvedFor, State, System, Vector};
 use symplectic_tests::drift::{Sample, ensemble, exponent};
 use symplectic_tests::methods::{Gauss6, Gauss8};
 use symplectic_tests::scenes::fput_chain;

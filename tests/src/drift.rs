@@ -4,8 +4,8 @@
 //! spread grows like the square root of the number of steps (Brouwer's law). A drift is a mean that is many of its own
 //! standard errors away from zero, and that grows with the number of steps itself.
 
-use symplectic::{Error, Integrator, Method, ProvedFor, State, Summation, Vector};
-use symplectic::{System, solver::Solver};
+use symplectic::solver::Solver;
+use symplectic::{Error, Integrator, Method, ProvedFor, State, Summation, System, Vector};
 
 /// The relative energy errors of an ensemble after a number of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]

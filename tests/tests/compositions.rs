@@ -1,9 +1,9 @@
 //! Compositions of implicit methods, one step after another: what they evaluate, where they go, and how they fail.
 
 use symplectic::nalgebra::{Vector1, Vector2};
+use symplectic::solver::FixedPoint;
 use symplectic::{
     Error, General, Integrator, Method, ProvedFor, Quantity, State, Summation, System, separable,
-    solver::FixedPoint,
 };
 use symplectic_tests::counting::{Counting, Counts};
 use symplectic_tests::measure::{integrate, position_error};

@@ -3,9 +3,8 @@
 use std::cell::RefCell;
 
 use symplectic::nalgebra::{Vector1, Vector2};
-use symplectic::{
-    Error, General, Integrator, Method, Separable, State, System, solver::FixedPoint,
-};
+use symplectic::solver::FixedPoint;
+use symplectic::{Error, General, Integrator, Method, Separable, State, System};
 use symplectic_tests::counting::{Counting, Counts};
 use symplectic_tests::measure::{integrate, position_error};
 use symplectic_tests::methods::{Gauss4, Gauss8, Lobatto3, StoermerVerlet, SymplecticEuler};

@@ -4,7 +4,8 @@ mod strict;
 
 use strict::{Strict, products};
 use symplectic::nalgebra::Vector1;
-use symplectic::{Error, Integrator, Method, Separable, State, System, solver::FixedPoint};
+use symplectic::solver::FixedPoint;
+use symplectic::{Error, Integrator, Method, Separable, State, System};
 use symplectic_tests::methods::{Lobatto3, StoermerVerlet, SymplecticEuler};
 
 /// A free particle under a constant force: its evaluations multiply nothing.

@@ -5,8 +5,8 @@ use core::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::{Kind, Ladder, MethodRecord};
-use symplectic::{Error, Integrator, Method, State, Statistics, Summation, Vector};
-use symplectic::{System, solver::Solver};
+use symplectic::solver::Solver;
+use symplectic::{Error, Integrator, Method, State, Statistics, Summation, System, Vector};
 
 /// Who is shown the states of a run.
 pub type Observe<'a, V> = &'a mut dyn FnMut(&State<V>);

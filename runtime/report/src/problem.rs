@@ -3,8 +3,8 @@
 use super::contestant::{Contestant, Finish, Observe};
 use super::text;
 use super::{Ladder, Measured};
-use symplectic::{Error, Integrator, Method, ProvedFor, State, Summation, Vector};
-use symplectic::{System, solver::Solver};
+use symplectic::solver::Solver;
+use symplectic::{Error, Integrator, Method, ProvedFor, State, Summation, System, Vector};
 
 /// A system with a start, the state at the end, and the methods that are run on it.
 ///

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::observer::Deviation;
 use super::text;
 use super::{Fact, Measured};
-use symplectic::{Error, Integrator, Method, State, Summation, Vector};
-use symplectic::{System, solver::Solver};
+use symplectic::solver::Solver;
+use symplectic::{Error, Integrator, Method, State, Summation, System, Vector};
 
 /// What became of a run of equal steps.
 ///

@@ -3,6 +3,7 @@
 use num_traits::Float;
 
 use crate::error::Error;
+use crate::number::words::{Visit, Words, words};
 
 /// The times `start + k size`.
 #[derive(Clone, Copy)]
@@ -10,6 +11,12 @@ pub(crate) struct Clock {
     start: f64,
     size: f64,
     count: u64,
+}
+
+impl Words for Clock {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: self.start, self.size, self.count);
+    }
 }
 
 impl Clock {

@@ -1,7 +1,9 @@
 //! What a search for events leaves behind for the next one.
 
+use crate::number::words::{Visit, Words, words};
+
 /// The event that was found last: a search that starts at its time starts on it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LastEvent {
     pub(crate) time: f64,
     pub(crate) index: usize,
@@ -9,4 +11,10 @@ pub(crate) struct LastEvent {
     pub(crate) side: f64,
     /// How many events have been found at this time.
     pub(crate) count: u32,
+}
+
+impl Words for LastEvent {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: self.time, self.index, self.side, self.count);
+    }
 }

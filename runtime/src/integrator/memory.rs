@@ -13,6 +13,7 @@ use crate::state::State;
 use crate::system::System;
 
 /// What steps change: the state, and what a step leaves behind for the next one.
+#[derive(Clone)]
 pub(super) struct StepMemory<V, T> {
     pub(super) state: State<V>,
     /// What the position and the momentum of the state leave out.
@@ -22,7 +23,7 @@ pub(super) struct StepMemory<V, T> {
     /// What they leave out.
     pub(super) next_low: (V, V),
     /// What that step took.
-    work: StepStatistics,
+    pub(super) work: StepStatistics,
     pub(super) memory: T,
     /// What `memory` holds for the next step.
     pub(super) kept: WarmStart,

@@ -7,6 +7,8 @@ pub(crate) mod partial_step;
 pub(crate) mod retry;
 pub(crate) mod statistics;
 
+#[cfg(feature = "alloc")]
+pub use checkpoint::{Checkpoint, CheckpointError};
 pub use retry::Retry;
 pub use statistics::Statistics;
 
@@ -27,6 +29,8 @@ use crate::number::{Compensated, Plain, Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::{Class, System};
 
+#[cfg(feature = "alloc")]
+mod checkpoint;
 mod many_steps;
 mod memory;
 mod one_step;
@@ -188,7 +192,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// ```
     /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
     /// # use symplectic::nalgebra::Vector1;
-    /// # use symplectic::{Error, Integrator, Hamiltonian, Method, acceleration};
+    /// # use symplectic::{Error, Integrator, Method, System, acceleration};
     /// # use symplectic::output::Interpolation;
     /// fn order<M: Method, S: System<Vector1<f64>>>(_method: M, _system: S) -> u32 {
     ///     Integrator::<M, S, Vector1<f64>>::INTERPOLATION.order()
@@ -562,6 +566,19 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
     const fn restart_clock(&mut self) {
         self.clock = Clock::new(self.course.state.time, self.step_size);
+    }
+}
+
+impl<M: Method, S: System<V> + Clone, V: Vector, R: Summation, N: Solver<V, S>> Clone
+    for Integrator<M, S, V, R, N>
+{
+    /// Both go on with the same bits.
+    fn clone(&self) -> Self {
+        Self {
+            system: self.system.clone(),
+            course: self.course.clone(),
+            ..*self
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use crate::method::{
     EvaluationObserver, Failure, Inside, Interpolation, Outcome, Plan, Solver, StageStorage, Step,
     StepStatistics, Stopping, WarmStart,
 };
-use crate::number::{Coefficient, Summation, Vector};
+use crate::number::{Coefficient, Summation, Vector, Visit, vector_words};
 use crate::system::{Class, System};
 
 /// A step `Φ_{γh}` of a composition.
@@ -94,6 +94,11 @@ impl<V: Vector, T: StageStorage<V>> StageStorage<V> for CompositionMemory<V, T> 
             plans: T::like(prototype),
             between: core::array::from_fn(|_| prototype.zeros_like()),
         }
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        self.plans.words(visit);
+        vector_words(&mut self.between, visit);
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {

@@ -141,8 +141,8 @@ impl KickDrift for () {
 
 /// A force that has not been evaluated yet, and kicks by one force that the momentum has not been given yet: they wait for the drift
 /// that comes next, which makes them on its own way through the momentum. With long vectors every way through memory counts. The
-/// force too is made on this way if the system [can](Hamiltonian::kick_and_drift), and many ways are made in the
-/// [layout](Hamiltonian::layout) that it likes best.
+/// force too is made on this way if the system [can](System::kick_and_drift), and many ways are made in the
+/// [layout](System::layout) that it likes best.
 ///
 /// The sums are plain, and every component has the same bits as where nothing waits.
 #[derive(Clone, Copy, Debug)]
@@ -333,7 +333,7 @@ impl KickDrift for FusedKicks {
     }
 }
 
-/// The velocity of a drift: the momentum itself where [masses are one](Hamiltonian::UNIT_MASSES), else what is in `place`,
+/// The velocity of a drift: the momentum itself where [masses are one](System::UNIT_MASSES), else what is in `place`,
 /// which is evaluated unless it is `known`.
 #[inline(always)]
 fn velocity<'a, V: Vector, S: System<V>>(

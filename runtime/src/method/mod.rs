@@ -193,7 +193,7 @@ pub trait Plan {
 /// `increments`, then `finish`.
 ///
 /// Stage `i` evaluates the force at `t0 + c_i h` and the velocity at `t0 + c̃_i h`: see
-/// [`Hamiltonian`](Hamiltonian#time). Plans of the class [`Separable`] pass for the argument that the system does not
+/// [`Hamiltonian`](crate::Hamiltonian#time). Plans of the class [`Separable`] pass for the argument that the system does not
 /// read whatever vector is at hand.
 ///
 /// Where the method is symplectic and no weight is zero, coupled stages are sums of increments `h b_j velocity_j` and

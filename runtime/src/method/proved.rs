@@ -33,7 +33,7 @@ use crate::number::Coefficients;
 #[diagnostic::on_unimplemented(
     message = "`{Self}` loses its order or its symplecticity on systems of class `{C}`",
     label = "proved for separable Hamiltonians only",
-    note = "if H = T(p) + U(q), write the system with `separable(…)`, implement `SeparableHamiltonian`, or say `impl System<V, Class = Separable>`",
+    note = "if H = T(p) + U(q), write the system with `separable(…)` or implement `SeparableHamiltonian`; a function that returns one says `impl System<V, Class = Separable>`",
     note = "otherwise take a method for general Hamiltonians, such as `basis: polynomial(s), nodes: gauss(s)` or `lobatto(s)`",
     note = "to go on knowingly, write `.accept_lower_order()` after the method"
 )]

@@ -15,6 +15,11 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     /// Whether it is tried, when an integrator is made, if the velocity is [linear](Step::linear_velocity) in the momentum.
     const TRIES_LINEARITY: bool = false;
 
+    /// Its name in [checkpoints](crate::Checkpoint).
+    fn name() -> &'static str {
+        core::any::type_name::<Self>()
+    }
+
     /// What it needs for one plan, made once and used for every step.
     type Memory<P: StageTableau>: StageStorage<V>;
 

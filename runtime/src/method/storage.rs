@@ -3,15 +3,18 @@
 use core::array;
 
 use crate::error::Quantity;
-use crate::number::{Scalar, Vector};
+use crate::number::{Scalar, Vector, Visit, vector_words};
 
 /// Memory of one [`Plan`](crate::emitted::Plan), made once and used for every step.
-pub trait StageStorage<V: Vector>: Sized {
+pub trait StageStorage<V: Vector>: Sized + Clone {
     /// Whether single doubles are read from groups of lanes that processors read faster from memory than from a register.
     const BROADCASTS: bool = false;
 
     /// Storage for vectors of the dimension of `prototype`; every component is zero.
     fn like(prototype: &V) -> Self;
+
+    /// Shows `visit` all numbers that a step leaves for the next one: a checkpoint holds them.
+    fn words(&mut self, visit: &mut Visit<'_>);
 
     /// The first evaluation that is not finite although the stage value that it was made from is: the quantity
     /// and the number of the stage, from 1; of two with the same number, the force. `None` where stages are not stored.
@@ -31,6 +34,11 @@ pub trait StageStorage<V: Vector>: Sized {
 impl<V: Vector, A: StageStorage<V>, B: StageStorage<V>> StageStorage<V> for (A, B) {
     fn like(prototype: &V) -> Self {
         (A::like(prototype), B::like(prototype))
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        self.0.words(visit);
+        self.1.words(visit);
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
@@ -59,6 +67,11 @@ impl<V: Vector> StageStorage<V> for Evaluations<V> {
             velocity: prototype.zeros_like(),
             force: prototype.zeros_like(),
         }
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        vector_words(array::from_mut(&mut self.velocity), visit);
+        vector_words(array::from_mut(&mut self.force), visit);
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
@@ -97,6 +110,13 @@ impl<V: Vector, const Q: usize, const P: usize> StageStorage<V> for Stages<V, Q,
             velocity: array::from_fn(|_| prototype.zeros_like()),
             force: array::from_fn(|_| prototype.zeros_like()),
         }
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        vector_words(&mut self.q, visit);
+        vector_words(&mut self.p, visit);
+        vector_words(&mut self.velocity, visit);
+        vector_words(&mut self.force, visit);
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {

@@ -8,6 +8,7 @@ use num_traits::{One, Zero};
 use crate::number::Scalar;
 use crate::number::array::array;
 use crate::number::scalar::elementary;
+use crate::number::words::{Visit, words};
 
 /// A few doubles side by side, in one register of the processor where it has so wide ones.
 ///
@@ -180,6 +181,12 @@ macro_rules! lanes {
 
         impl Scalar for $name {
             const EPSILON: f64 = f64::EPSILON;
+
+            fn as_words(&mut self, visit: &mut Visit<'_>) {
+                let mut lanes = self.to_array();
+                words!(visit: lanes);
+                *self = Self::from_array(lanes);
+            }
 
             #[inline(always)]
             fn from_f64(value: f64) -> Self {

@@ -9,6 +9,7 @@ pub(crate) mod rows;
 pub(crate) mod scalar;
 pub(crate) mod summation;
 pub(crate) mod vector;
+pub(crate) mod words;
 
 pub use coefficient::{Coefficient, Coefficients};
 pub use lanes::{F64x2, F64x4, F64x8, Lanes};
@@ -19,3 +20,4 @@ pub use linear_combination::{
 pub use scalar::Scalar;
 pub use summation::{Compensated, Plain, Summation};
 pub use vector::Vector;
+pub use words::{Visit, Words, scalar_words, vector_words};

@@ -7,6 +7,7 @@ use num_traits::{Float, One, Zero};
 
 use crate::number::Coefficient;
 use crate::number::array::array;
+use crate::number::words::{Visit, words};
 
 /// A real number, or something that behaves like one: f32, f64, a dual number, a few numbers side by side.
 ///
@@ -106,6 +107,14 @@ pub trait Scalar:
     fn fused(self, factor: Self, term: Self) -> Self {
         self * factor + term
     }
+
+    /// Its name in checkpoints; `None` where it cannot be saved.
+    #[doc(hidden)]
+    const SAVED_AS: Option<&'static str> = None;
+
+    /// Its [words](crate::number::Words), where it can be [saved](Self::SAVED_AS).
+    #[doc(hidden)]
+    fn as_words(&mut self, _visit: &mut Visit<'_>) {}
 
     /// The numbers, where they are doubles: those have rows, see [`Chain`](crate::system::Chain).
     #[doc(hidden)]
@@ -265,6 +274,12 @@ const fn widen(value: f32) -> f64 {
 }
 
 float!(f64, same, same, double, {
+    const SAVED_AS: Option<&'static str> = Some("f64");
+
+    fn as_words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: *self);
+    }
+
     const IS_DOUBLE: bool = true;
 
     #[inline(always)]
@@ -280,6 +295,14 @@ float!(f64, same, same, double, {
     elementary! { exp -> Self, ln -> Self, sin -> Self, cos -> Self, sin_cos -> (Self, Self) }
 });
 float!(f32, narrow, widen, single, {
+    const SAVED_AS: Option<&'static str> = Some("f32");
+
+    fn as_words(&mut self, visit: &mut Visit<'_>) {
+        let mut bits = self.to_bits();
+        words!(visit: bits);
+        *self = f32::from_bits(bits);
+    }
+
     forward! { exp ln sin cos }
 
     #[inline]

@@ -8,7 +8,7 @@ use crate::method::{
     WarmStart,
 };
 use crate::number::vector::{same, same_mut};
-use crate::number::{Scalar, Summation, Vector};
+use crate::number::{Scalar, Summation, Vector, Visit};
 use crate::solver::FixedPoint;
 use crate::solver::fixed_point::by_stages;
 use crate::solver::nystrom::{self, NystromStages, nystrom};
@@ -22,8 +22,8 @@ use crate::system::{Class, OverEveryScalar, System};
 /// | Scalar | Hamiltonian | Iteration |
 /// |---|---|---|
 /// | f64 | separable, velocity linear in the momentum | positions only (Nyström form), stages in SIMD lanes |
-/// | f64 | separable | [`SimdFixedPoint`] |
-/// | f64 | other | [`SimdJacobi`] |
+/// | f64 | separable | [`SimdFixedPoint`](crate::solver::SimdFixedPoint) |
+/// | f64 | other | [`SimdJacobi`](crate::solver::SimdJacobi) |
 /// | other | any | [`FixedPoint`] |
 ///
 /// Whether the velocity is linear in the momentum, and does not depend on time, is tried when the integrator is made.
@@ -36,6 +36,15 @@ pub enum AutomaticStages<V: Vector, S: OverEveryScalar<V>, P: StageTableau> {
     InLanes(NystromStages<S::Doubles, P>),
     /// Of other scalars.
     OneByOne(P::Stages<V>),
+}
+
+impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> Clone for AutomaticStages<V, S, P> {
+    fn clone(&self) -> Self {
+        match self {
+            Self::InLanes(stages) => Self::InLanes(stages.clone()),
+            Self::OneByOne(stages) => Self::OneByOne(stages.clone()),
+        }
+    }
 }
 
 impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> fmt::Debug for AutomaticStages<V, S, P> {
@@ -62,6 +71,13 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
             Self::InLanes(NystromStages::like(prototype))
         } else {
             Self::OneByOne(StageStorage::like(prototype))
+        }
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        match self {
+            Self::InLanes(stages) => stages.words(visit),
+            Self::OneByOne(stages) => stages.words(visit),
         }
     }
 

@@ -15,7 +15,7 @@ pub use crate::method::{
     Solver, Span, StageChange, StagePolynomial, StageStorage, StageTableau, Step, StepStatistics,
     Stopping, StoredEvaluations, WarmStart,
 };
-pub use crate::number::{Coefficient, Coefficients};
+pub use crate::number::{Coefficient, Coefficients, Visit, Words, scalar_words, vector_words};
 pub use automatic::{Automatic, AutomaticStages};
 pub use fixed_point::FixedPoint;
 #[cfg(feature = "alloc")]

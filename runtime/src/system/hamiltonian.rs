@@ -47,8 +47,9 @@ use crate::system::{Class, Separable};
 /// }
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a Hamiltonian for every scalar",
-    label = "implement `SeparableHamiltonian`, or `Hamiltonian` with `type Class = General`"
+    message = "`{Self}` is not a Hamiltonian system",
+    label = "implement `SeparableHamiltonian`, or `Hamiltonian` with `type Class = General`",
+    note = "for doubles alone there are closures, `separable(…)` and `hamiltonian(…)`, and the trait `System`"
 )]
 pub trait Hamiltonian {
     /// What the derivatives depend on: [`General`](crate::General) or [`Separable`].
@@ -168,8 +169,9 @@ pub trait Hamiltonian {
 /// }
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a separable Hamiltonian for every scalar",
-    label = "implement `SeparableHamiltonian`"
+    message = "`{Self}` is not a Hamiltonian system",
+    label = "implement `SeparableHamiltonian`, or `Hamiltonian` with `type Class = General`",
+    note = "for doubles alone there are closures, `separable(…)` and `hamiltonian(…)`, and the trait `System`"
 )]
 pub trait SeparableHamiltonian {
     /// Positions and momenta over a scalar: [`SVector<T, N>`](nalgebra::SVector), or `DVector<T>` where the dimension is known at

@@ -5,7 +5,7 @@ use crate::system::{Components, System, SystemInLanes};
 
 /// Lanes in which systems are evaluated.
 pub trait SystemLanes: Lanes {
-    /// [`Hamiltonian::velocity`] in every lane at once.
+    /// [`System::velocity`] in every lane at once.
     fn velocity<V, S>(
         system: &S,
         time: Self,
@@ -16,7 +16,7 @@ pub trait SystemLanes: Lanes {
         V: Vector,
         S: SystemInLanes<V>;
 
-    /// [`Hamiltonian::force`] in every lane at once.
+    /// [`System::force`] in every lane at once.
     fn force<V, S>(
         system: &S,
         time: Self,
@@ -27,19 +27,19 @@ pub trait SystemLanes: Lanes {
         V: Vector,
         S: SystemInLanes<V>;
 
-    /// [`Hamiltonian::LOCAL_FORCE`] of a system over these lanes.
+    /// [`System::LOCAL_FORCE`] of a system over these lanes.
     fn has_local_force<V, S>() -> bool
     where
         V: Vector,
         S: SystemInLanes<V>;
 
-    /// [`Hamiltonian::local_force`] in every lane at once.
+    /// [`System::local_force`] in every lane at once.
     fn local_force<V, S>(system: &S, time: Self, components: &mut impl Components<Self>)
     where
         V: Vector,
         S: SystemInLanes<V>;
 
-    /// [`Hamiltonian::slopes`] in every lane at once.
+    /// [`System::slopes`] in every lane at once.
     fn slopes<V, S>(
         system: &S,
         time: Self,

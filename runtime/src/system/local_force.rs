@@ -1,9 +1,9 @@
-//! A system, component by component.
+//! The force of a chain, component by component.
 
 use crate::number::F64x8;
 
-/// The components of a system whose force is [local](crate::SeparableHamiltonian::LOCAL_FORCE): positions are made where they are asked
-/// for, and need not be in memory. The force on every component has to be set, once.
+/// The components of a [`Chain`](crate::system::Chain), whose force is local: positions are made where they are asked for, and need not be
+/// in memory. The force on every component has to be set, once.
 pub trait Components<T> {
     /// How many there are.
     fn dimension(&self) -> usize;
@@ -21,9 +21,6 @@ pub const MOST_ROW_STAGES: usize = 7;
 /// [`Components`] side by side, eight in a row, of all stages of a step at once: the first row is of the components 0 to 7. Every
 /// component is in a row, and the force on every row has to be set, once. The positions of a stage are at the place of its number in what
 /// is given, from 0; what is behind the last stage is not looked at.
-///
-/// A system that asks for a row that there is not, or sets one, is refused when the solver is made. One that does so later only, by
-/// what it sees, panics as it would by an index out of bounds.
 pub trait StageRows {
     /// How many rows there are, one at least.
     fn count(&self) -> usize;

@@ -18,6 +18,8 @@ pub use closures::{
 };
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
 pub use in_lanes::SystemLanes;
+#[doc(hidden)]
 pub use local_force::{Components, MOST_ROW_STAGES, StageRows};
 pub use over_vectors::{OverEveryScalar, System, SystemInLanes};
+#[doc(hidden)]
 pub use strands::Layout;

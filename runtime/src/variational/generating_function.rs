@@ -15,7 +15,7 @@ use crate::method::{
     EvaluationCounts, EvaluationObserver, HalfChange, Method, Outcome, ProvedFor, StageChange,
     StagePlan, StageStorage, Step, Stopping, WarmStart,
 };
-use crate::number::{Coefficient, Coefficients, Plain, Scalar, Summation, Vector};
+use crate::number::{Coefficient, Coefficients, Plain, Scalar, Summation, Vector, Visit};
 use crate::solver::fixed_point::by_stages;
 use crate::system::{Class, System};
 
@@ -61,7 +61,7 @@ pub struct GeneratingFunction<V: Vector> {
 /// # Time
 ///
 /// Where H depends on time, the force is taken at `t0 + c_i h` and the velocity at `t0 + c̃_i h`, as in a step (see
-/// [`Hamiltonian`](Hamiltonian#time)). The energy is the sum of what belongs to both, so it has to be one time: where
+/// [`Hamiltonian`](crate::Hamiltonian#time)). The energy is the sum of what belongs to both, so it has to be one time: where
 /// `c_i ≠ c̃_i`, the energies at the two have to be equal.
 ///
 /// # Errors
@@ -273,6 +273,7 @@ impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
 }
 
 /// The stages, one of each for every stage of the tableau.
+#[derive(Clone)]
 struct Unknowns<M, V: Vector> {
     q: Vec<V>,
     p: Vec<V>,
@@ -285,6 +286,7 @@ struct Unknowns<M, V: Vector> {
 }
 
 /// The coefficients times the step size.
+#[derive(Clone)]
 struct Weights<T> {
     /// `h a_ij`
     a: Vec<Vec<T>>,
@@ -333,6 +335,9 @@ impl<M: Method, V: Vector> StageStorage<V> for Unknowns<M, V> {
             method: PhantomData,
         }
     }
+
+    /// Nothing is left for another step.
+    fn words(&mut self, _visit: &mut Visit<'_>) {}
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         first_non_finite((&self.q, &self.force), (&self.p, &self.velocity))

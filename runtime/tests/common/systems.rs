@@ -1,9 +1,8 @@
 use std::cell::Cell;
 
 use symplectic::nalgebra::{DVector, SVector, Vector1};
-use symplectic::{
-    General, Hamiltonian, Scalar, Separable, State, System, Vector, solver::FixedPoint,
-};
+use symplectic::solver::FixedPoint;
+use symplectic::{General, Hamiltonian, Scalar, Separable, State, System, Vector};
 
 /// H = Σ p²/2 − cos q, over every vector, counting its evaluations.
 #[derive(Default)]

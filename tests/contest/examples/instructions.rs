@@ -13,9 +13,9 @@ use std::hint::black_box;
 use std::process::Command;
 
 use symplectic::nalgebra::{DVector, SVector};
+use symplectic::solver::FixedPoint;
 use symplectic::{
     Compensated, Integrator, Method, Plain, Scalar, Separable, State, Summation, System, Vector,
-    solver::FixedPoint,
 };
 use symplectic_contest::baseline::lanes::{fast_two_sum, two_sum};
 use symplectic_tests::methods::{ForestRuth, VelocityVerlet};

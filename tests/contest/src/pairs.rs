@@ -3,8 +3,8 @@
 mod few;
 mod many;
 
-use symplectic::{Error, Integrator, Method, ProvedFor, State, Summation, Vector};
-use symplectic::{System, solver::Solver};
+use symplectic::solver::Solver;
+use symplectic::{Error, Integrator, Method, ProvedFor, State, Summation, System, Vector};
 
 use crate::baseline::systems;
 use symplectic_tests::measure::largest;

@@ -10,13 +10,13 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use symplectic::nalgebra::SVector;
+use symplectic::output::Inside;
 use symplectic::solver::{
-    Failure, HalfTableau, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics,
-    Stopping, WarmStart,
+    Failure, FixedPoint, HalfTableau, Outcome, Solver, StageStorage, StageTableau, Step,
+    StepStatistics, Stopping, Visit, WarmStart,
 };
-use symplectic::{Class, Quantity, Scalar, Summation};
-use symplectic::{Separable, output::Inside, solver::FixedPoint};
-use symplectic::{System, nalgebra::SVector};
+use symplectic::{Class, Quantity, Scalar, Separable, Summation, System};
 
 use super::systems::Stiff;
 
@@ -96,6 +96,8 @@ impl<T: Scalar, const N: usize> StageStorage<SVector<T, N>> for Nothing {
     fn like(_: &SVector<T, N>) -> Self {
         Self
     }
+
+    fn words(&mut self, _: &mut Visit<'_>) {}
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         None

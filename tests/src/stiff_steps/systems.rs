@@ -5,9 +5,9 @@
     reason = "the indices are those of the formulas"
 )]
 
-use symplectic::Scalar;
-use symplectic::solver::{Jacobian, Linearized};
-use symplectic::{Separable, System, nalgebra::SVector, solver::FixedPoint};
+use symplectic::nalgebra::SVector;
+use symplectic::solver::{FixedPoint, Jacobian, Linearized};
+use symplectic::{Scalar, Separable, System};
 
 /// A separable system with unit masses, of `N` components.
 pub trait Stiff<const N: usize>: Copy {

@@ -2,30 +2,33 @@
 
 symplectic::tableau! { ForestRuth { base: forest-ruth-1990 } }
 
-use symplectic::nalgebra::Vector1;
-use symplectic::{Error, General, Integrator, State, hamiltonian, System, solver::FixedPoint};
+use symplectic::nalgebra::{SVector, Vector1};
+use symplectic::{Error, General, Hamiltonian, Integrator, Scalar, State, hamiltonian};
 
 /// H = (q² + 1)(p² + 1)/2
 struct NotSeparable;
 
-impl System<Vector1<f64>> for NotSeparable {
+impl Hamiltonian for NotSeparable {
     type Class = General;
-    type Solver = FixedPoint;
+    type Vector<T: Scalar> = SVector<T, 1>;
 
-    fn velocity(
+    fn velocity<T: Scalar>(
         &self,
-        _time: f64,
-        q: &Vector1<f64>,
-        p: &Vector1<f64>,
-        velocity: &mut Vector1<f64>,
+        _time: T,
+        q: &SVector<T, 1>,
+        p: &SVector<T, 1>,
+        velocity: &mut SVector<T, 1>,
     ) {
-        velocity[0] = (q[0] * q[0] + 1.0) * p[0];
+        velocity[0] = (q[0] * q[0] + T::one()) * p[0];
     }
 
-    fn force(&self, _time: f64, q: &Vector1<f64>, p: &Vector1<f64>, force: &mut Vector1<f64>) {
-        force[0] = -q[0] * (p[0] * p[0] + 1.0);
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+        force[0] = -q[0] * (p[0] * p[0] + T::one());
     }
 }
+
+/// It has no equations.
+struct Nothing;
 
 fn main() -> Result<(), Error> {
     let start = State::from_arrays(0.0, [0.0], [1.0]);
@@ -35,5 +38,6 @@ fn main() -> Result<(), Error> {
         |_, q, p, force| force[0] = -q[0] * (p[0] * p[0] + 1.0),
     );
     Integrator::plain(ForestRuth, closures, start, 0.1)?;
+    Integrator::new(ForestRuth, Nothing, start, 0.1)?;
     Ok(())
 }

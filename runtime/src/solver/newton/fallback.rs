@@ -9,7 +9,8 @@ use crate::method::{
     Failure, Inside, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics, Stopping,
     WarmStart,
 };
-use crate::number::{Summation, Vector};
+use crate::number::words::words;
+use crate::number::{Summation, Vector, Visit};
 use crate::solver::FixedPoint;
 use crate::solver::fixed_point::by_stages;
 use crate::system::System;
@@ -86,6 +87,18 @@ pub struct FixedPointThenNewtonMemory<
     waiting: u32,
 }
 
+impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> Clone
+    for FixedPointThenNewtonMemory<V, P, S, L>
+{
+    fn clone(&self) -> Self {
+        Self {
+            fixed_point: self.fixed_point.clone(),
+            newton: self.newton.clone(),
+            ..*self
+        }
+    }
+}
+
 impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStorage<V>
     for FixedPointThenNewtonMemory<V, P, S, L>
 {
@@ -96,6 +109,12 @@ impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStora
             was_newton: false,
             waiting: 0,
         }
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        self.fixed_point.words(visit);
+        self.newton.words(visit);
+        words!(visit: self.was_newton, self.waiting);
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {

@@ -39,6 +39,11 @@ impl<T: Scalar> BandMatrix<T> {
         }
     }
 
+    /// The entries, with those of the band beyond the matrix.
+    pub(super) fn entries_mut(&mut self) -> &mut [T] {
+        &mut self.entries
+    }
+
     /// The number of rows.
     pub const fn size(&self) -> usize {
         self.size

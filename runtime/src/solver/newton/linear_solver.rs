@@ -8,7 +8,7 @@ use super::every_stage::{AllStages, EveryStage, NOT_FINITE};
 use super::jacobian::{BandMatrix, Derivatives, Jacobian};
 use super::lu::{Complex, Elimination};
 use crate::method::Failure;
-use crate::number::{Scalar, Vector};
+use crate::number::{Scalar, Vector, Visit, scalar_words};
 use crate::system::{Class, System};
 
 /// How the parts of the unknown of a linear system depend on each other: the factor `γ` in `(1 − γ J) x = r`.
@@ -66,6 +66,9 @@ pub trait LinearSolver<V: Vector, S: System<V>>: Copy + Debug + 'static {
 
     /// That, for vectors of the dimension of `prototype`, and linear systems with these parts.
     fn memory(prototype: &V, systems: &[Parts]) -> Self::Memory;
+
+    /// Shows `visit` all numbers that are left for the next step, the factors of the linear systems say: a checkpoint holds them.
+    fn words(memory: &mut Self::Memory, visit: &mut Visit<'_>);
 
     /// Takes the derivatives at `(time, q, p)` from here on; returns whether they are finite.
     fn linearize(memory: &mut Self::Memory, system: &S, time: V::Scalar, q: &V, p: &V) -> bool;
@@ -175,6 +178,29 @@ impl<T: Scalar, D> Matrices<T, D> {
             matrix,
             jacobian,
             all_stages: None,
+        }
+    }
+
+    /// The derivatives, and the factors made of them; those of all stages are made anew in every sweep.
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        let Jacobian {
+            velocity_by_position,
+            velocity_by_momentum,
+            force_by_position,
+        } = &mut self.jacobian;
+        for matrix in [
+            velocity_by_position,
+            velocity_by_momentum,
+            force_by_position,
+            &mut self.matrix,
+        ] {
+            scalar_words(matrix.entries_mut(), visit);
+        }
+        for factors in &mut self.factors {
+            match factors {
+                Factors::Real(factors) => factors.words(visit),
+                Factors::Complex(factors) => factors.words(visit),
+            }
         }
     }
 
@@ -289,6 +315,10 @@ macro_rules! matrices {
                     systems,
                     D::memory(prototype),
                 )
+            }
+
+            fn words(memory: &mut Self::Memory, visit: &mut Visit<'_>) {
+                memory.words(visit);
             }
 
             fn linearize(

@@ -4,13 +4,16 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::{Add, Mul, Neg, Sub};
 
-use crate::number::Scalar;
+use crate::number::words::words;
+use crate::number::{Scalar, Visit};
 
 /// A number of a field.
 pub(super) trait Entry:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
     fn zero() -> Self;
+    /// Its words, for checkpoints.
+    fn words(&mut self, visit: &mut Visit<'_>);
     /// A norm, for the choice of the pivots.
     fn size(self) -> f64;
     fn inverse(self) -> Self;
@@ -20,6 +23,10 @@ impl<T: Scalar> Entry for T {
     #[inline(always)]
     fn zero() -> Self {
         T::zero()
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        self.as_words(visit);
     }
 
     #[inline(always)]
@@ -82,6 +89,11 @@ impl<T: Scalar + Neg<Output = T>> Entry for Complex<T> {
         }
     }
 
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        self.re.as_words(visit);
+        self.im.as_words(visit);
+    }
+
     #[inline(always)]
     fn size(self) -> f64 {
         self.re.magnitude() + self.im.magnitude()
@@ -138,6 +150,14 @@ impl<E: Entry> Elimination<E> {
             pivots: vec![0; size],
             right: vec![E::zero(); size],
         }
+    }
+
+    /// The factors, for checkpoints.
+    pub(super) fn words(&mut self, visit: &mut Visit<'_>) {
+        for entry in &mut self.entries {
+            entry.words(visit);
+        }
+        words!(visit: self.pivots[..]);
     }
 
     /// The place of an entry.

@@ -11,7 +11,8 @@ use super::linear_solver::{LinearSolver, Parts};
 use crate::error::Quantity;
 use crate::method::storage::{first_mismatch, first_non_finite};
 use crate::method::{StageStorage, StageTableau};
-use crate::number::Vector;
+use crate::number::words::words;
+use crate::number::{Vector, Visit, vector_words};
 use crate::system::{Class, System};
 
 /// The memory of a [`Newton`](crate::solver::Newton) iteration for the plan `P`.
@@ -81,6 +82,31 @@ fn systems<P: StageTableau>() -> Vec<Parts> {
     parts.collect()
 }
 
+impl<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> Clone for NewtonMemory<V, P, S, L> {
+    fn clone(&self) -> Self {
+        Self {
+            q: self.q.clone(),
+            p: self.p.clone(),
+            velocity: self.velocity.clone(),
+            force: self.force.clone(),
+            u: self.u.clone(),
+            w: self.w.clone(),
+            middle: self.middle.clone(),
+            x: self.x.clone(),
+            y: self.y.clone(),
+            transformed: self.transformed.clone(),
+            unknown: self.unknown.clone(),
+            vectors: self.vectors.clone(),
+            couplings: self.couplings.clone(),
+            linear: self.linear.clone(),
+            times: self.times.clone(),
+            scaled: self.scaled.clone(),
+            residuals: self.residuals.clone(),
+            ..*self
+        }
+    }
+}
+
 impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStorage<V>
     for NewtonMemory<V, P, S, L>
 {
@@ -124,6 +150,25 @@ impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStora
             waiting: 0,
             plan: PhantomData,
         }
+    }
+
+    /// What a step begins with: the increments that stages are extrapolated from, the factors, and what the steps before were like.
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        for vectors in [
+            &mut self.q,
+            &mut self.p,
+            &mut self.velocity,
+            &mut self.force,
+            &mut self.u,
+            &mut self.w,
+        ] {
+            vector_words(vectors, visit);
+        }
+        L::words(&mut self.linear, visit);
+        words!(
+            visit: self.factored, self.stale, self.contraction, self.factorisations, self.steps_in_full,
+            self.first_change, self.waiting,
+        );
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {

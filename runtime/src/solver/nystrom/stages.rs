@@ -3,7 +3,8 @@
 use super::rows;
 use crate::error::Quantity;
 use crate::method::{StageStorage, StageTableau};
-use crate::number::Vector;
+use crate::number::words::words;
+use crate::number::{Vector, Visit, vector_words};
 use crate::solver::simd::stages::SimdStages;
 
 /// Stages in lanes, and the velocity that they start from.
@@ -22,6 +23,16 @@ pub struct NystromStages<V: Vector, P: StageTableau> {
     pub(crate) eliminated: bool,
 }
 
+impl<V: Vector, P: StageTableau> Clone for NystromStages<V, P> {
+    fn clone(&self) -> Self {
+        Self {
+            lanes: self.lanes.clone(),
+            start: self.start.clone(),
+            ..*self
+        }
+    }
+}
+
 impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for NystromStages<V, P> {
     const BROADCASTS: bool = <SimdStages<V, P> as StageStorage<V>>::BROADCASTS;
 
@@ -34,6 +45,12 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for NystromStages
             sweeps: 0,
             eliminated: false,
         }
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        self.lanes.words(visit);
+        vector_words(core::array::from_mut(&mut self.start), visit);
+        words!(visit: self.of_increments, self.in_rows, self.sweeps, self.eliminated);
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {

@@ -4,7 +4,7 @@ use core::mem;
 
 use crate::error::Quantity;
 use crate::method::{HalfTableau, StageStorage, StageTableau};
-use crate::number::{Lanes, Vector};
+use crate::number::{Lanes, Vector, Visit, vector_words};
 
 /// A vector of lanes.
 pub(crate) type Laned<V, P> = <V as Vector>::With<<P as StageTableau>::Lanes>;
@@ -17,6 +17,18 @@ pub struct SimdStages<V: Vector, P: StageTableau> {
     /// Evaluations, or the increments made of them.
     pub(crate) velocity: P::Groups<Laned<V, P>>,
     pub(crate) force: P::Groups<Laned<V, P>>,
+}
+
+impl<V: Vector, P: StageTableau> Clone for SimdStages<V, P> {
+    fn clone(&self) -> Self {
+        let clone = |groups: &P::Groups<Laned<V, P>>| P::groups(|k| groups.as_ref()[k].clone());
+        Self {
+            q: clone(&self.q),
+            p: clone(&self.p),
+            velocity: clone(&self.velocity),
+            force: clone(&self.force),
+        }
+    }
 }
 
 impl<V: Vector, P: StageTableau> SimdStages<V, P> {
@@ -49,6 +61,17 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SimdStages<V,
             p: zeros(),
             velocity: zeros(),
             force: zeros(),
+        }
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        for groups in [
+            &mut self.q,
+            &mut self.p,
+            &mut self.velocity,
+            &mut self.force,
+        ] {
+            vector_words(groups.as_mut(), visit);
         }
     }
 

@@ -11,13 +11,13 @@ use std::hint::black_box;
 
 use divan::Bencher;
 use peers::{End, Equations};
-use symplectic::solver::FixedPoint;
-use symplectic::solver::Solver;
+use symplectic::nalgebra::SVector;
+use symplectic::solver::{FixedPoint, Solver};
 use symplectic::system::SystemInLanes;
 use symplectic::{
-    Compensated, Error, Integrator, Method, Plain, ProvedFor, Separable, State, Summation, Vector,
+    Compensated, Error, Integrator, Method, Plain, ProvedFor, Separable, State, Summation, System,
+    Vector,
 };
-use symplectic::{System, nalgebra::SVector};
 use symplectic_contest::baseline::gauss::{FirstOrder, Rule, SecondOrder};
 use symplectic_contest::baseline::no_drift::{Double, NoDrift, NoDriftGeneral};
 use symplectic_contest::baseline::{chain, explicit, systems};

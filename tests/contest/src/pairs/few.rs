@@ -1,11 +1,12 @@
 //! Problems with few components: the stages in lanes.
 
+use symplectic::nalgebra::SVector;
 use symplectic::solver::SimdFixedPoint;
 use symplectic::system::SystemInLanes;
 use symplectic::{
     Compensated, Error, General, Integrator, Method, Plain, ProvedFor, Separable, State, Summation,
+    System,
 };
-use symplectic::{System, nalgebra::SVector};
 use wide::{f64x2, f64x4, f64x8};
 
 use super::{Pair, Problem, TO_ROUNDING, rule};

@@ -4,8 +4,8 @@
 
 use std::f64::consts::TAU;
 
-use symplectic::{Error, Integrator, Separable, State, Vector};
-use symplectic::{System, nalgebra::SVector};
+use symplectic::nalgebra::SVector;
+use symplectic::{Error, Integrator, Separable, State, System, Vector};
 use symplectic_report::{Ladder, Problem, Reference, Study};
 use symplectic_tests::methods::{Gauss8, Midpoint, VelocityVerlet};
 use symplectic_tests::scenes::{

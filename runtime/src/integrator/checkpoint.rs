@@ -1,0 +1,339 @@
+//! Runs that are interrupted and go on with the same bits.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::fmt::Write as _;
+
+use crate::integrator::clock::Clock;
+use crate::integrator::last_event::LastEvent;
+use crate::integrator::memory::StepMemory;
+use crate::integrator::{Integrator, Retry, Statistics};
+use crate::method::{Method, Solver, StageStorage, StepStatistics, Stopping, WarmStart};
+use crate::number::words::{Visit, Words, scalar_words, vector_words, words};
+use crate::number::{Scalar, Summation, Vector};
+use crate::state::State;
+use crate::system::System;
+
+/// Everything that a run needs to go on from its present state with the bits of the run that was not interrupted: the state with what
+/// rounding has left out of it, the stages from which the next ones are extrapolated, matrices of Newton's iteration, clock, step size,
+/// tolerance and statistics.
+///
+/// With the feature `serde` it can be written in any format. All numbers are in `words`: sixteen hexadecimal digits for each word of
+/// 64 bits, the bits of an IEEE 754 double, of a single in its lower half, or of a whole number. The order is that of the version of this
+/// library, so that another version refuses it.
+///
+/// ```
+/// use symplectic::nalgebra::Vector1;
+/// use symplectic::{Error, Integrator, State, acceleration};
+///
+/// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let run = || {
+///     let pendulum = acceleration(|_time, q: &Vector1<f64>, acceleration| acceleration[0] = -q[0].sin());
+///     Integrator::new(Gauss4, pendulum, State::new(0.0, Vector1::new(1.0), Vector1::new(0.0)), 0.1)
+/// };
+/// let mut whole = run()?;
+/// whole.take_steps(100)?;
+/// let checkpoint = whole.checkpoint()?;
+/// whole.take_steps(100)?;
+///
+/// // In another process, say.
+/// let mut resumed = run()?;
+/// resumed.restore(&checkpoint)?;
+/// resumed.take_steps(100)?;
+/// assert_eq!(resumed.state(), whole.state());
+/// assert_eq!(resumed.statistics(), whole.statistics());
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Checkpoint {
+    /// The version of this library.
+    version: String,
+    /// Name and definition of the method.
+    method: String,
+    definition: String,
+    /// The type of the numbers.
+    scalar: String,
+    sums: String,
+    solver: String,
+    dimension: usize,
+    words: String,
+    /// Of all that is before it.
+    checksum: String,
+}
+
+/// Why a run cannot be saved, or cannot go on from a checkpoint.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CheckpointError {
+    /// The numbers of the run are neither f64 nor f32.
+    #[error("numbers of this type cannot be saved: only f64 and f32 can")]
+    Scalar,
+
+    /// The checkpoint is of another run.
+    #[error(
+        "the {what} of the checkpoint is `{found}`, that of this integrator `{expected}`: make the integrator as it was made before"
+    )]
+    OtherRun {
+        /// Version, method, definition, scalar, sums, solver or dimension.
+        what: &'static str,
+        /// In the checkpoint.
+        found: String,
+        /// Of the integrator.
+        expected: String,
+    },
+
+    /// The system gives another velocity or force at the state of the checkpoint.
+    #[error(
+        "the system gives another velocity or force at the state of the checkpoint: it is another system, or has other parameters"
+    )]
+    OtherSystem,
+
+    /// The checkpoint is cut off, or was changed.
+    #[error("the checkpoint is damaged: {reason}; take an earlier one")]
+    Damaged {
+        /// What is wrong.
+        reason: &'static str,
+    },
+}
+
+const DAMAGED: fn(&'static str) -> CheckpointError = |reason| CheckpointError::Damaged { reason };
+
+impl Checkpoint {
+    /// All but the words and the checksum, with their names.
+    fn header(&self) -> [(&'static str, String); 7] {
+        [
+            ("version", self.version.clone()),
+            ("method", self.method.clone()),
+            ("definition", self.definition.clone()),
+            ("scalar", self.scalar.clone()),
+            ("sums", self.sums.clone()),
+            ("solver", self.solver.clone()),
+            ("dimension", self.dimension.to_string()),
+        ]
+    }
+
+    /// FNV-1a of all that is before it.
+    fn sum(&self) -> String {
+        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+        let mut add = |text: &str| {
+            // A byte that no text has ends each of them.
+            for byte in text.bytes().chain([0xff]) {
+                hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+            }
+        };
+        for (_, text) in self.header() {
+            add(&text);
+        }
+        add(&self.words);
+        format!("{hash:016x}")
+    }
+
+    /// The words, if they are as they were written.
+    fn decoded(&self) -> Result<Vec<u64>, CheckpointError> {
+        if self.checksum != self.sum() {
+            return Err(DAMAGED("its checksum is that of other contents"));
+        }
+        let digits = self.words.as_bytes();
+        let words = digits.chunks(16).map(|word| {
+            let word = core::str::from_utf8(word).ok()?;
+            (word.len() == 16).then_some(u64::from_str_radix(word, 16).ok()?)
+        });
+        words.collect::<Option<Vec<u64>>>().ok_or(DAMAGED(
+            "its words are no hexadecimal numbers of sixteen digits",
+        ))
+    }
+}
+
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
+    /// What a run needs to [go on](Self::restore) from here with the same bits.
+    ///
+    /// # Errors
+    ///
+    /// [`CheckpointError::Scalar`]
+    pub fn checkpoint(&self) -> Result<Checkpoint, CheckpointError> {
+        let mut checkpoint = self.blank_checkpoint()?;
+        let mut run = self.all_that_changes();
+        run.words(&mut |word| {
+            // Writing to a string does not fail.
+            let _ = write!(checkpoint.words, "{word:016x}");
+        });
+        checkpoint.checksum = checkpoint.sum();
+        Ok(checkpoint)
+    }
+
+    /// Goes on from a checkpoint of an integrator that was made in the same way: with the same method, system, sums and solver, for vectors
+    /// of the same dimension. Its state and step size are those of the checkpoint, whatever they were.
+    ///
+    /// # Errors
+    ///
+    /// [`CheckpointError`]; the integrator is then as it was.
+    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
+        let mine = self.blank_checkpoint()?.header();
+        for ((what, found), (_, expected)) in checkpoint.header().into_iter().zip(mine) {
+            if found != expected {
+                return Err(CheckpointError::OtherRun {
+                    what,
+                    found,
+                    expected,
+                });
+            }
+        }
+        let mut words = checkpoint.decoded()?.into_iter();
+        let (mut run, mut missing) = (self.all_that_changes(), false);
+        run.words(&mut |word| match words.next() {
+            Some(found) => *word = found,
+            None => missing = true,
+        });
+        if missing || words.next().is_some() {
+            return Err(DAMAGED("it has not as many words as this run"));
+        }
+        if run.evaluations != run.evaluated(&self.system) {
+            return Err(CheckpointError::OtherSystem);
+        }
+        self.course = run.course;
+        self.clock = run.clock;
+        self.step_size = run.step_size;
+        self.stopping = run.stopping;
+        self.retry = run.retry;
+        self.last_event = run.last_event;
+        Ok(())
+    }
+
+    /// A checkpoint without words.
+    fn blank_checkpoint(&self) -> Result<Checkpoint, CheckpointError> {
+        let sums = if R::COMPENSATED {
+            "compensated"
+        } else {
+            "plain"
+        };
+        Ok(Checkpoint {
+            version: env!("CARGO_PKG_VERSION").to_string(),
+            method: M::NAME.to_string(),
+            definition: M::DEFINITION.to_string(),
+            scalar: V::Scalar::SAVED_AS
+                .ok_or(CheckpointError::Scalar)?
+                .to_string(),
+            sums: sums.to_string(),
+            solver: N::name().to_string(),
+            dimension: self.course.state.q.dimension(),
+            words: String::new(),
+            checksum: String::new(),
+        })
+    }
+
+    /// All that the words are of.
+    fn all_that_changes(&self) -> Run<V, super::MemoryOf<M, S, V, N>> {
+        let mut run = Run {
+            course: self.course.clone(),
+            clock: self.clock,
+            step_size: self.step_size,
+            stopping: self.stopping,
+            retry: self.retry,
+            last_event: self.last_event,
+            evaluations: [0; 2],
+        };
+        run.evaluations = run.evaluated(&self.system);
+        run
+    }
+}
+
+/// What changes in a run.
+struct Run<V, T> {
+    course: StepMemory<V, T>,
+    clock: Clock,
+    step_size: f64,
+    stopping: Stopping,
+    retry: Retry,
+    last_event: Option<LastEvent>,
+    /// Velocity and force at the state, in brief: they tell systems with other parameters.
+    evaluations: [u64; 2],
+}
+
+impl<V: Vector, T: StageStorage<V>> Run<V, T> {
+    /// Shows `visit` every word, first those of the state.
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        let StepMemory {
+            state: State { time, q, p },
+            low,
+            next,
+            next_low,
+            work,
+            memory,
+            kept,
+            last_size,
+            last_time,
+            statistics,
+            linear_velocity,
+        } = &mut self.course;
+        words!(visit: *time, self.step_size);
+        for vector in [
+            q,
+            p,
+            &mut low.0,
+            &mut low.1,
+            &mut next.0,
+            &mut next.1,
+            &mut next_low.0,
+            &mut next_low.1,
+        ] {
+            scalar_words(vector.as_mut_slice(), visit);
+        }
+        memory.words(visit);
+        let WarmStart {
+            evaluation,
+            stages,
+            scales,
+        } = kept;
+        words!(visit: *evaluation, *stages, *scales, *last_size, *last_time, *linear_velocity);
+        let StepStatistics {
+            iterations,
+            evaluations,
+            factorisations,
+            rejected,
+            scales,
+            residual,
+        } = work;
+        words!(visit: *iterations, *evaluations, *factorisations, *rejected, *scales, *residual);
+        let Statistics {
+            steps,
+            rejected,
+            iterations,
+            most_iterations,
+            evaluations,
+            factorisations,
+            largest_residual,
+        } = statistics;
+        words!(visit: *steps, *rejected, *iterations, *most_iterations, *evaluations, *factorisations, *largest_residual);
+        self.clock.words(visit);
+        words!(visit: self.stopping.max_iterations, self.stopping.tolerance);
+        let mut halvings = match self.retry {
+            Retry::Never => None,
+            Retry::Split { halvings } => Some(halvings),
+        };
+        words!(visit: halvings, self.last_event, self.evaluations);
+        self.retry = halvings.map_or(Retry::Never, |halvings| Retry::Split { halvings });
+    }
+
+    /// Velocity and force at the state: sums of their bits, each multiplied by another odd number.
+    fn evaluated<S: System<V>>(&self, system: &S) -> [u64; 2] {
+        let State { time, q, p } = &self.course.state;
+        let time = V::Scalar::from_f64(*time);
+        let mut found = [q.zeros_like(), q.zeros_like()];
+        system.velocity(time, q, p, &mut found[0]);
+        system.force(time, q, p, &mut found[1]);
+        found.map(|mut vector| {
+            let (mut sum, mut factor) = (0_u64, 1_u64);
+            vector_words(core::slice::from_mut(&mut vector), &mut |word| {
+                sum = sum.wrapping_add(word.wrapping_mul(factor));
+                factor = factor.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            });
+            sum
+        })
+    }
+}
