@@ -10,7 +10,7 @@ use crate::algebra::Ball;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::dyadic;
 
-/// Half-open intervals `(low, high]·2⁻ᵇⁱᵗˢ` in ascending order, in each of which a polynomial is monotonic, and
+/// Half-open intervals `(low, high]·2⁻ᵇⁱᵗˢ` in ascending order, in each of which a polynomial has at most one root and changes its sign there, and
 /// outside of which it has no positive root.
 ///
 /// With `f(m + ry) = Σ c_k yᵏ` there is no root for `|y| ≤ 1` if `|c_0| > Σ_{k>0} |c_k|`, and `f` is monotonic if
