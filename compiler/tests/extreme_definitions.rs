@@ -61,10 +61,9 @@ fn long_weights(count: usize, digits: usize, random: &mut Random) -> String {
     all.join(", ")
 }
 
-/// Before, these took from ten seconds to more than a minute each.
+/// They are not refused: enclosures decide what exact numbers of so many digits take minutes for.
 #[test]
-fn implicit_compositions_with_many_digits_have_an_answer_in_time() {
-    const SOON: Duration = Duration::from_secs(60);
+fn implicit_compositions_with_many_digits_have_an_answer() {
     for (base, digits) in [
         ("[basis: 1, nodes: 1/2]", 1000),
         ("[basis: polynomial(2), nodes: gauss(2)]", 1000),
@@ -73,7 +72,7 @@ fn implicit_compositions_with_many_digits_have_an_answer_in_time() {
         let weights = long_weights(9, digits, &mut Random::new(1));
         let parts = [(Key::Base, base), (Key::Weights, &*weights)];
         let definition = Definition::new(parts);
-        let (derived, _) = within(SOON, base, move || answered(&definition));
+        let (derived, _) = within(DEADLINE, base, move || answered(&definition));
         assert!(derived, "{base}");
     }
     let small = "(pi - 355/113)^100";
@@ -81,18 +80,18 @@ fn implicit_compositions_with_many_digits_have_an_answer_in_time() {
         "base: [basis: polynomial(3), nodes: lobatto(3)], weights: [{small}, 1 - 2*{small}, {small}]"
     );
     let definition = Definition::parse(&text).expect("a definition");
-    assert!(within(SOON, small, move || answered(&definition)).0);
+    assert!(within(DEADLINE, small, move || answered(&definition)).0);
 }
 
 #[test]
-fn ten_thousand_digits_of_twenty_nodes_are_written_in_time() {
+fn ten_thousand_digits_of_twenty_nodes_are_written() {
     let definition = Definition::parse("basis: polynomial(20), nodes: gauss(20)");
     let definition = definition.expect("a definition");
     let write = move || {
         let tableau = definition.derive(&Limits::default()).expect("a tableau");
         text::write(&tableau, 10_000).len()
     };
-    let (length, _) = within(Duration::from_secs(100), "gauss(20)", write);
+    let (length, _) = within(DEADLINE, "gauss(20)", write);
     assert!(length > 440 * 10_000);
 }
 
