@@ -61,7 +61,7 @@ fn long_weights(count: usize, digits: usize, random: &mut Random) -> String {
     all.join(", ")
 }
 
-/// They are not refused: enclosures decide what exact numbers of so many digits take minutes for.
+/// These have an answer and are not refused. Exact numbers with so many digits would take minutes; enclosures decide.
 #[test]
 fn implicit_compositions_with_many_digits_have_an_answer() {
     for (base, digits) in [

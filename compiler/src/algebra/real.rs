@@ -201,7 +201,7 @@ pub struct Reals;
 /// The bits of a rational beyond which enclosures take less time than lowest terms.
 const LONGEST: u64 = 4096;
 
-/// Whether the sum of two rationals has at most so many bits, or no more than they have.
+/// Whether the sum of two rationals stays short: below that bound, or over the denominator that both have.
 fn is_short_sum(p: &BigRational, q: &BigRational) -> bool {
     p.denom() == q.denom() || length(p) + length(q) <= LONGEST
 }

@@ -292,8 +292,7 @@ impl Interval {
         })
     }
 
-    /// The value of a polynomial from enclosures of the powers of a number, from the power 0 on, as many as there are
-    /// coefficients.
+    /// The value of a polynomial at a number, from enclosures of the powers of the number: 0, 1, …, one for each coefficient.
     pub(crate) fn combination(powers: &[Interval], polynomial: &Polynomial) -> Interval {
         let bits = powers[0].bits;
         let (mut low, mut high) = (BigInt::zero(), BigInt::zero());

@@ -36,10 +36,9 @@ use crate::system::{Class, System, SystemInLanes, SystemLanes};
 ///
 /// A [`Chain`](crate::system::Chain) on the heap, with up to eight stages at different times, is gone through once in a sweep, as long
 /// as a step goes on from the one before and settles in its first sweeps: the positions of the stages are made, and used, component by
-/// component. What is then compared with a tolerance is by how much the next positions can differ, at most but for rounding, from those
-/// of the sweep.
-/// Of the first sweeps of a step it is not asked how far they move the stages: as many as there were in the step before, but for three. So
-/// a step takes at most two sweeps less than the one before.
+/// component. A tolerance is then compared with a bound on how far the next positions can be from those of the sweep, up to rounding.
+/// The first sweeps of a step are not measured: all but three of as many as the step before took. So a step takes at most two sweeps
+/// less than the one before.
 /// With fewer than eight stages, and a number of components that is a multiple of eight, the lanes run along the components. Both have
 /// the same bits.
 #[inline(always)]

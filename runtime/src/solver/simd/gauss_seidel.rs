@@ -90,6 +90,17 @@ where
     if !R::COMPENSATED {
         sweeps.increments();
     }
+    totals::<R, P, V>(step, stages, outcome);
+    Ok(work)
+}
+
+/// The results of both halves.
+#[inline(always)]
+pub(crate) fn totals<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
+    step: &Step<'_, V>,
+    stages: &SimdStages<V, P>,
+    outcome: Outcome<'_, V>,
+) {
     let Outcome { q, q_low, p, p_low } = outcome;
     total::<R, P, V>(
         (q, q_low),
@@ -105,7 +116,6 @@ where
         &P::POSITIONS,
         step.size,
     );
-    Ok(work)
 }
 
 /// Adds to `out` the part that vanishes at both ends of the step, of the evaluations of one half, by stage and component.

@@ -14,7 +14,7 @@ use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
 use crate::solver::predictor::{Starting, starts_at_once};
 use crate::solver::simd::change::LaneMovement;
 use crate::solver::simd::gauss_seidel::{
-    ByLanes, Sums, extrapolate, extrapolates, fill, gauss_seidel, sum, sums, total, values,
+    ByLanes, Sums, extrapolate, extrapolates, fill, gauss_seidel, sum, sums, totals, values,
 };
 use crate::solver::simd::stages::{Laned, SimdStages};
 use crate::system::SystemInLanes;
@@ -90,21 +90,7 @@ where
     if !R::COMPENSATED {
         sweeps.0.increments();
     }
-    let Outcome { q, q_low, p, p_low } = outcome;
-    total::<R, P, V>(
-        (q, q_low),
-        (step.q, step.q_low),
-        stages.velocity.as_ref(),
-        &P::MOMENTA,
-        step.size,
-    );
-    total::<R, P, V>(
-        (p, p_low),
-        (step.p, step.p_low),
-        stages.force.as_ref(),
-        &P::POSITIONS,
-        step.size,
-    );
+    totals::<R, P, V>(step, stages, outcome);
     Ok(work)
 }
 
