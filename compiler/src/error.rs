@@ -3,6 +3,8 @@
 use std::fmt;
 use std::ops::Range;
 
+use crate::formula::FormulaError;
+
 /// An input that cannot be compiled: what is wrong, where it stands, and what to do instead.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Error {
@@ -35,6 +37,9 @@ pub enum ErrorKind {
         /// What could have stood there.
         expected: String,
     },
+    /// A formula that no system can have.
+    #[error(transparent)]
+    Formula(#[from] FormulaError),
     /// A parenthesis or bracket without its partner.
     #[error("`{bracket}` has no matching `{partner}`")]
     Unbalanced {

@@ -50,6 +50,7 @@ mod evidence;
 mod exact;
 pub mod export;
 pub mod expression;
+pub mod formula;
 mod limits;
 mod operations;
 pub mod order;

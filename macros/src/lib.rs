@@ -1,4 +1,4 @@
-//! The macros `tableau!`, `splitting!` and `composition!` of the crate `symplectic`, which re-exports and documents them.
+//! The macros `tableau!`, `splitting!`, `composition!` and `hamiltonian!` of the crate `symplectic`, which re-exports and documents them.
 //!
 //! They hold no mathematics: they read the definition, call the compiler, and hand back the generated
 //! code or errors at the offending tokens.
@@ -7,6 +7,7 @@ mod definition;
 mod expand;
 mod form;
 mod source;
+mod system;
 
 use proc_macro::TokenStream;
 
@@ -30,7 +31,16 @@ pub fn composition(input: TokenStream) -> TokenStream {
     methods(input, Form::Composition)
 }
 
-/// The three macros are one; they differ in the keys that they expect.
+/// Reads the formula of a Hamiltonian, derives what an integrator needs, and emits the system.
+#[proc_macro]
+pub fn hamiltonian(input: TokenStream) -> TokenStream {
+    let definition = syn::parse_macro_input!(input as system::Definition);
+    system::expand(definition)
+        .unwrap_or_else(|error| error.to_compile_error())
+        .into()
+}
+
+/// The three macros of methods are one; they differ in the keys that they expect.
 fn methods(input: TokenStream, form: Form) -> TokenStream {
     let parse = |input: syn::parse::ParseStream<'_>| definition::Definitions::parse(input, form);
     let definitions = syn::parse_macro_input!(input with parse);

@@ -14,7 +14,7 @@
 //!
 //! | What | Where |
 //! |---|---|
-//! | The system: closures or a trait | [`separable`], [`hamiltonian`], [`acceleration`]; [`SeparableHamiltonian`], [`Hamiltonian`]; [`system`] |
+//! | The system: a formula, closures or a trait | [`hamiltonian!`]; [`separable`], [`hamiltonian`], [`acceleration`]; [`SeparableHamiltonian`], [`Hamiltonian`]; [`system`] |
 //! | Numbers and vectors | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors), [`simd`] |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`] |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
@@ -93,6 +93,22 @@ pub use system::{
     hamiltonian, separable,
 };
 
+/// Code that needs vectors on the heap.
+#[cfg(feature = "alloc")]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! if_alloc {
+    ($($code:tt)*) => { $($code)* };
+}
+
+/// Code that needs vectors on the heap: there are none.
+#[cfg(not(feature = "alloc"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! if_alloc {
+    ($($code:tt)*) => {};
+}
+
 /// Doubles side by side.
 pub mod simd {
     pub use crate::number::{F64x2, F64x4, F64x8, Lanes};
@@ -101,10 +117,16 @@ pub mod simd {
 /// What emitted code names; not for people.
 #[doc(hidden)]
 pub mod emitted {
+    #[cfg(feature = "alloc")]
+    pub use alloc::vec::Vec;
+
+    pub use num_traits::{One, Zero};
+
     pub use crate::method::*;
     pub use crate::number::*;
     pub use crate::solver::*;
     pub use crate::system::*;
+    pub use crate::{chain_system, if_alloc};
 }
 
 /// The Rust code of the README and of the book, compiled and run by `cargo test --doc`.
@@ -112,6 +134,8 @@ pub mod emitted {
 mod book {
     #[doc = include_str!("../../README.md")]
     struct Readme;
+    #[doc = include_str!("../../docs/src/guide/formulas.md")]
+    struct Formulas;
     #[doc = include_str!("../../docs/src/guide/hamiltonian.md")]
     struct Hamiltonian;
     #[doc = include_str!("../../docs/src/guide/choosing.md")]

@@ -4,6 +4,7 @@
 
 pub mod counting;
 pub mod drift;
+pub mod formulas;
 pub mod linear_stability;
 pub mod measure;
 pub mod methods;

@@ -14,6 +14,9 @@ mod nystrom;
 mod plan;
 mod predictor;
 mod symplectic_rounding;
+mod system;
+
+pub use self::system::system;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};

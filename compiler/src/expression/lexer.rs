@@ -79,7 +79,7 @@ pub(super) fn tokenize(input: Input<'_>) -> Result<Vec<(Token, Range<usize>)>, E
 }
 
 /// The end of the number that starts at a position: digits, a fraction, an exponent.
-fn number_end(text: &str, start: usize) -> usize {
+pub(crate) fn number_end(text: &str, start: usize) -> usize {
     let digits = |from: usize| {
         text[from..]
             .find(|c: char| !c.is_ascii_digit())
@@ -99,7 +99,8 @@ fn number_end(text: &str, start: usize) -> usize {
     end
 }
 
-fn number(input: Input<'_>, span: Range<usize>) -> Result<BigRational, Error> {
+/// The number that stands somewhere, exactly.
+pub(crate) fn number(input: Input<'_>, span: Range<usize>) -> Result<BigRational, Error> {
     let text = &input.text[span.clone()];
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));

@@ -14,6 +14,7 @@ mod lexer;
 mod parser;
 mod value;
 
+pub(crate) use lexer::{number, number_end};
 pub(crate) use value::shown;
 
 use std::ops::Range;

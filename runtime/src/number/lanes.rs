@@ -237,6 +237,12 @@ macro_rules! lanes {
             elementary! { exp -> Self, ln -> Self, sin -> Self, cos -> Self, sin_cos -> (Self, Self) }
 
             lane_by_lane! { tan asin acos atan sinh cosh tanh }
+
+            #[inline]
+            fn atan2(self, x: Self) -> Self {
+                let (y, x) = (self.to_array(), x.to_array());
+                Self::from_fn(|lane| Scalar::atan2(y[lane], x[lane]))
+            }
         }
 
         impl $name {

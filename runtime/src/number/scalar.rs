@@ -168,6 +168,14 @@ pub trait Scalar:
     fn acos(self) -> Self;
     /// Inverse tangent, in radians.
     fn atan(self) -> Self;
+    /// The angle of the point `(x, self)` in radians, from −π to π.
+    ///
+    /// Unless a scalar has its own, it is `2 atan(y/(√(x² + y²) + x))`, which loses digits near the negative half of the x axis.
+    #[inline]
+    fn atan2(self, x: Self) -> Self {
+        let angle = (self / ((self * self + x * x).sqrt() + x)).atan();
+        angle + angle
+    }
     /// Hyperbolic sine.
     fn sinh(self) -> Self;
     /// Hyperbolic cosine.
@@ -255,6 +263,11 @@ macro_rules! float {
             }
 
             forward! { sqrt recip abs tan asin acos atan sinh cosh tanh }
+
+            #[inline]
+            fn atan2(self, x: Self) -> Self {
+                Float::atan2(self, x)
+            }
 
             $($own)*
         }

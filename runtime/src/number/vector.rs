@@ -4,7 +4,7 @@ use core::any::Any;
 use core::fmt::Debug;
 use core::mem;
 
-use nalgebra::SVector;
+use nalgebra::SMatrix;
 
 use crate::error::Error;
 use crate::number::Scalar;
@@ -24,8 +24,8 @@ pub(crate) fn is_in_place<V: Vector>(vector: &V) -> bool {
 
 /// A position, a momentum or one of their derivatives: components of one [`Scalar`] type, contiguous in memory.
 ///
-/// Implemented by [`nalgebra::SVector`] (static dimension, nothing on the heap) and, with the feature `alloc`, by
-/// [`nalgebra::DVector`] (dimension known at run time).
+/// Implemented by [`nalgebra::SVector`] and [`nalgebra::SMatrix`] (static dimension, nothing on the heap; the columns of a matrix are
+/// bodies in space) and, with the feature `alloc`, by [`nalgebra::DVector`] (dimension known at run time).
 ///
 /// ```
 /// use symplectic::Vector;
@@ -73,39 +73,41 @@ pub(crate) fn same_mut<V: Vector, W: Vector>(vector: &mut V) -> Option<&mut W> {
     (vector as &mut dyn Any).downcast_mut()
 }
 
-impl<T: Scalar, const N: usize> Vector for SVector<T, N> {
+impl<T: Scalar, const R: usize, const C: usize> Vector for SMatrix<T, R, C> {
     type Scalar = T;
-    type With<U: Scalar> = SVector<U, N>;
+    type With<U: Scalar> = SMatrix<U, R, C>;
 
     #[inline(always)]
     fn dimension(&self) -> usize {
-        N
+        R * C
     }
 
     #[inline(always)]
     fn as_slice(&self) -> &[T] {
-        &self.data.0[0]
+        self.data.0.as_flattened()
     }
 
     #[inline(always)]
     fn as_mut_slice(&mut self) -> &mut [T] {
-        &mut self.data.0[0]
+        self.data.0.as_flattened_mut()
     }
 
     #[inline]
     fn from_slice(components: &[T]) -> Result<Self, Error> {
-        match <[T; N]>::try_from(components) {
-            Ok(components) => Ok(Self::from(components)),
-            Err(_) => Err(Error::Length {
-                expected: N,
+        let mut vector = Self::blank();
+        if components.len() != R * C {
+            return Err(Error::Length {
+                expected: R * C,
                 found: components.len(),
-            }),
+            });
         }
+        vector.as_mut_slice().copy_from_slice(components);
+        Ok(vector)
     }
 
     #[inline]
     fn blank() -> Self {
-        SVector::from([T::zero(); N])
+        SMatrix::from([[T::zero(); R]; C])
     }
 
     #[inline]
@@ -114,8 +116,8 @@ impl<T: Scalar, const N: usize> Vector for SVector<T, N> {
     }
 
     #[inline]
-    fn zeros_with<U: Scalar>(&self) -> SVector<U, N> {
-        SVector::from([U::zero(); N])
+    fn zeros_with<U: Scalar>(&self) -> SMatrix<U, R, C> {
+        SMatrix::from([[U::zero(); R]; C])
     }
 }
 

@@ -587,3 +587,66 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
 impl<V: Vector, B: Bonds> OverEveryScalar<V> for Chain<B> {
     type Doubles = V::With<f64>;
 }
+
+/// A system that is a chain, for a type that says what its bonds are.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! chain_system {
+    (($($parameters:tt)*) ($name:ty), $ends:ident) => {
+        impl<V: $crate::Vector, $($parameters)*> $crate::System<V> for $name {
+            type Class = $crate::Separable;
+            type Solver = $crate::solver::Automatic;
+
+            const UNIT_MASSES: bool = true;
+
+            #[inline(always)]
+            fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
+                $crate::System::velocity(&$crate::system::Chain::$ends(self), time, q, p, velocity);
+            }
+
+            #[inline(always)]
+            fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
+                $crate::System::force(&$crate::system::Chain::$ends(self), time, q, p, force);
+            }
+
+            const LOCAL_FORCE: bool = true;
+
+            #[inline(always)]
+            fn local_force(&self, time: V::Scalar, components: &mut impl $crate::emitted::Components<V::Scalar>) {
+                $crate::System::<V>::local_force(&$crate::system::Chain::$ends(self), time, components);
+            }
+
+            const ROW_FORCES: bool = true;
+
+            #[inline(always)]
+            fn row_forces(&self, rows: &mut impl $crate::emitted::StageRows) {
+                $crate::System::<V>::row_forces(&$crate::system::Chain::$ends(self), rows);
+            }
+
+            #[inline]
+            fn kick_and_drift(
+                &self,
+                time: V::Scalar,
+                state: (&mut [V::Scalar], &mut [V::Scalar]),
+                layout: $crate::emitted::Layout,
+                kicks: &[V::Scalar],
+                drift: V::Scalar,
+            ) -> bool {
+                $crate::System::<V>::kick_and_drift(&$crate::system::Chain::$ends(self), time, state, layout, kicks, drift)
+            }
+
+            #[inline]
+            fn layout(&self, q: &[V::Scalar], p: &[V::Scalar]) -> $crate::emitted::Layout {
+                $crate::System::<V>::layout(&$crate::system::Chain::$ends(self), q, p)
+            }
+
+            fn energy(&self, time: V::Scalar, q: &V, p: &V) -> ::core::option::Option<V::Scalar> {
+                $crate::System::energy(&$crate::system::Chain::$ends(self), time, q, p)
+            }
+        }
+
+        impl<V: $crate::Vector, $($parameters)*> $crate::system::OverEveryScalar<V> for $name {
+            type Doubles = V::With<f64>;
+        }
+    };
+}

@@ -4,6 +4,7 @@ pub(crate) mod chain;
 pub(crate) mod class;
 pub(crate) mod closures;
 pub(crate) mod hamiltonian;
+pub(crate) mod hamiltonian_macro;
 pub(crate) mod in_lanes;
 pub(crate) mod linearity;
 pub(crate) mod local_force;
@@ -17,6 +18,7 @@ pub use closures::{
     separable,
 };
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
+pub use hamiltonian_macro::hamiltonian;
 pub use in_lanes::SystemLanes;
 #[doc(hidden)]
 pub use local_force::{Components, MOST_ROW_STAGES, StageRows};

@@ -1,11 +1,12 @@
-//! The command line of the compiler: derive a tableau, show and list known ones, check files, refine printed
-//! coefficients.
+//! The command line of the compiler: derive a tableau or the equations of a Hamiltonian, show and list known methods, check files,
+//! refine printed coefficients.
 //!
 //! Exit status: 0; 1 where a file's entries do not fit, or its digits are not those of a method as claimed; 2 for bad input.
 
 mod check;
 mod choice;
 mod derive;
+mod derive_system;
 mod list;
 mod output;
 mod refine;
@@ -27,6 +28,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Derive(Box<derive::Arguments>),
+    DeriveSystem(derive_system::Arguments),
     List(list::Arguments),
     Show(show::Arguments),
     Check(check::Arguments),
@@ -36,6 +38,7 @@ enum Command {
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Derive(arguments) => derive::run(&arguments),
+        Command::DeriveSystem(arguments) => derive_system::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Show(arguments) => show::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

@@ -45,6 +45,11 @@ impl Scalar for Dual64 {
         }
     }
 
+    #[inline]
+    fn atan2(self, x: Self) -> Self {
+        DualNum::atan2(&self, x)
+    }
+
     forward! { sqrt recip exp ln sin cos tan asin acos atan sinh cosh tanh }
 }
 

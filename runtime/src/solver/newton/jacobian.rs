@@ -76,6 +76,14 @@ impl<T: Scalar> BandMatrix<T> {
         }
     }
 
+    /// Adds to an entry; outside the band it stays zero.
+    #[inline]
+    pub fn add(&mut self, i: usize, j: usize, value: T) {
+        if let Some(place) = self.place(i, j) {
+            self.entries[place] += value;
+        }
+    }
+
     /// The columns of the band in a row.
     pub fn columns(&self, i: usize) -> core::ops::Range<usize> {
         i.saturating_sub(self.half_bandwidth)..(i + self.half_bandwidth + 1).min(self.size)

@@ -1,0 +1,372 @@
+//! A formula as operations of two numbers, in the order in which they are computed.
+//!
+//! Terms and factors are taken in the order of the graph. Factors that depend on parameters only come first and are computed in double
+//! precision; what divides comes last, in one quotient. Whole powers are products, by squaring; halves of powers are square roots.
+
+use std::collections::HashMap;
+
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+use crate::formula::function::Elementary;
+use crate::formula::graph::{Coordinate, Dependence, Graph, Id, Index, LoopId, Node, Number};
+
+/// An operation, by its number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Op(pub usize);
+
+/// What is computed.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum Operation {
+    /// A number.
+    Constant(Number),
+    /// π
+    Pi,
+    /// The time.
+    Time,
+    /// A parameter, or an entry of one.
+    Parameter(usize, Vec<Index>),
+    /// A coordinate or momentum.
+    Coordinate(Coordinate),
+    /// `−a`
+    Negative(Op),
+    /// `a + b`
+    Add(Op, Op),
+    /// `a − b`
+    Subtract(Op, Op),
+    /// `a b`
+    Multiply(Op, Op),
+    /// `1/a`
+    Reciprocal(Op),
+    /// `√a`
+    Root(Op),
+    /// `|a|`
+    Absolute(Op),
+    /// An elementary function.
+    Elementary(Elementary, Op),
+    /// The angle of the point (second, first).
+    Atan2(Op, Op),
+    /// A function of the user, or one of its derivatives.
+    User(usize, usize, Op),
+    /// A sum over a loop.
+    Total(LoopId, Op),
+}
+
+impl Operation {
+    /// What it is computed from.
+    pub fn operands(&self) -> Vec<Op> {
+        match *self {
+            Operation::Negative(a)
+            | Operation::Reciprocal(a)
+            | Operation::Root(a)
+            | Operation::Absolute(a)
+            | Operation::Elementary(_, a)
+            | Operation::User(_, _, a)
+            | Operation::Total(_, a) => vec![a],
+            Operation::Add(a, b)
+            | Operation::Subtract(a, b)
+            | Operation::Multiply(a, b)
+            | Operation::Atan2(a, b) => vec![a, b],
+            Operation::Constant(_)
+            | Operation::Pi
+            | Operation::Time
+            | Operation::Parameter(..)
+            | Operation::Coordinate(_) => Vec::new(),
+        }
+    }
+
+    /// Whether it is read where it is needed, and not kept.
+    pub fn is_leaf(&self) -> bool {
+        self.operands().is_empty()
+    }
+}
+
+/// The operations of some formulas, equal ones once.
+pub struct Operations<'a> {
+    graph: &'a Graph,
+    list: Vec<Operation>,
+    depends: Vec<Dependence>,
+    numbers: HashMap<Operation, Op>,
+    /// What nodes have become.
+    known: HashMap<Id, Op>,
+    /// Nodes by which is divided more than once.
+    divisors: HashMap<Id, usize>,
+}
+
+impl<'a> Operations<'a> {
+    /// The operations for some nodes of a graph.
+    pub fn new(graph: &'a Graph, roots: &[Id]) -> Self {
+        let mut divisors = HashMap::new();
+        let order = graph.below(roots.iter().copied());
+        for &id in &order {
+            if let Node::Product(factors) = graph.node(id) {
+                for (x, exponent) in factors {
+                    if exponent.is_negative() && exponent.is_integer() {
+                        *divisors.entry(*x).or_insert(0) += 1;
+                    }
+                }
+            }
+        }
+        let mut operations = Operations {
+            graph,
+            list: Vec::new(),
+            depends: Vec::new(),
+            numbers: HashMap::new(),
+            known: HashMap::new(),
+            divisors,
+        };
+        for id in order {
+            let op = operations.lower(id);
+            operations.known.insert(id, op);
+        }
+        operations
+    }
+
+    /// What a node has become.
+    pub fn of(&self, id: Id) -> Op {
+        self.known[&id]
+    }
+
+    /// An operation.
+    pub fn get(&self, op: Op) -> &Operation {
+        &self.list[op.0]
+    }
+
+    /// What its result depends on.
+    pub fn depends(&self, op: Op) -> Dependence {
+        self.depends[op.0]
+    }
+
+    fn add(&mut self, operation: Operation) -> Op {
+        // −(a − b) = b − a
+        let operation = match operation {
+            Operation::Negative(a) => match *self.get(a) {
+                Operation::Negative(a) => return a,
+                Operation::Subtract(a, b) => Operation::Subtract(b, a),
+                _ => operation,
+            },
+            operation => operation,
+        };
+        if let Some(&op) = self.numbers.get(&operation) {
+            return op;
+        }
+        let mut depends = Dependence::default();
+        for operand in operation.operands() {
+            let inner = self.depends(operand);
+            depends.q |= inner.q;
+            depends.p |= inner.p;
+            depends.time |= inner.time;
+            depends.loops |= inner.loops;
+        }
+        if let Operation::Total(id, _) = operation {
+            depends.loops &= !(1 << id.0);
+            depends.loops |= self.graph.range_loops(id);
+        }
+        self.push(operation, depends)
+    }
+
+    fn push(&mut self, operation: Operation, depends: Dependence) -> Op {
+        let op = Op(self.list.len());
+        self.list.push(operation.clone());
+        self.depends.push(depends);
+        self.numbers.insert(operation, op);
+        op
+    }
+
+    fn constant(&mut self, value: &Number) -> Op {
+        self.add(Operation::Constant(value.clone()))
+    }
+
+    fn lower(&mut self, id: Id) -> Op {
+        let graph = self.graph;
+        let leaf = |operation: Operation| (operation, graph.depends(id));
+        let (operation, depends) = match graph.node(id) {
+            Node::Constant(value) if value.is_negative() => {
+                let size = self.constant(&-value);
+                return self.add(Operation::Negative(size));
+            }
+            Node::Constant(value) => return self.constant(value),
+            Node::Pi => leaf(Operation::Pi),
+            Node::Time => leaf(Operation::Time),
+            Node::Parameter(parameter, indices) => {
+                leaf(Operation::Parameter(*parameter, indices.clone()))
+            }
+            Node::Coordinate(coordinate) => leaf(Operation::Coordinate(coordinate.clone())),
+            Node::Sum(terms, constant) => return self.sum(terms, constant),
+            Node::Product(factors) => return self.product(&Number::one(), factors),
+            Node::Elementary(function, x) => {
+                return self.add(Operation::Elementary(*function, self.of(*x)));
+            }
+            Node::Atan2(y, x) => return self.add(Operation::Atan2(self.of(*y), self.of(*x))),
+            Node::User(function, derivative, x) => {
+                return self.add(Operation::User(*function, *derivative, self.of(*x)));
+            }
+            Node::Total(over, body) => return self.add(Operation::Total(*over, self.of(*body))),
+        };
+        match self.numbers.get(&operation) {
+            Some(&op) => op,
+            None => self.push(operation, depends),
+        }
+    }
+
+    /// `Σ c x + constant`: what depends on parameters only is one number.
+    fn sum(&mut self, terms: &[(Number, Id)], constant: &Number) -> Op {
+        let graph = self.graph;
+        let (fixed, free): (Vec<_>, Vec<_>) = terms
+            .iter()
+            .partition(|(_, x)| graph.depends(*x).is_fixed());
+        let mut list: Vec<(bool, Op)> = Vec::new();
+        for (factor, x) in free {
+            list.push((factor.is_negative(), self.scaled(&factor.abs(), *x)));
+        }
+        let mut numbers: Vec<(bool, Op)> = Vec::new();
+        for (factor, x) in fixed {
+            numbers.push((factor.is_negative(), self.scaled(&factor.abs(), *x)));
+        }
+        if !constant.is_zero() {
+            numbers.push((constant.is_negative(), self.constant(&constant.abs())));
+        }
+        // The numbers together, with a sign of their own.
+        if !numbers.is_empty() {
+            let negative = numbers.iter().all(|(minus, _)| *minus);
+            if negative {
+                numbers.iter_mut().for_each(|term| term.0 = false);
+            }
+            let number = self.chain(numbers);
+            list.push((negative, number));
+        }
+        self.chain(list)
+    }
+
+    /// The sum of terms, `true` for those that are subtracted, one after the other; the first that is added begins.
+    fn chain(&mut self, mut terms: Vec<(bool, Op)>) -> Op {
+        let start = terms.iter().position(|(minus, _)| !minus).unwrap_or(0);
+        let (minus, first) = terms.remove(start);
+        let mut sum = if minus {
+            self.add(Operation::Negative(first))
+        } else {
+            first
+        };
+        for (minus, term) in terms {
+            sum = self.add(match minus {
+                true => Operation::Subtract(sum, term),
+                false => Operation::Add(sum, term),
+            });
+        }
+        sum
+    }
+
+    /// `factor·x` for a positive factor.
+    fn scaled(&mut self, factor: &Number, x: Id) -> Op {
+        if factor.is_one() {
+            return self.of(x);
+        }
+        match self.graph.node(x) {
+            Node::Product(factors) => self.product(factor, factors),
+            _ => self.product(factor, &[(x, Number::one())]),
+        }
+    }
+
+    /// `factor·Π xᵉ`
+    fn product(&mut self, factor: &Number, factors: &[(Id, Number)]) -> Op {
+        let graph = self.graph;
+        // By parameters only, and not; in numerator and denominator.
+        let mut parts: [[Vec<Op>; 2]; 2] = Default::default();
+        if !factor.is_one() {
+            let number = self.constant(factor);
+            parts[0][0].push(number);
+        }
+        for (x, exponent) in factors {
+            let fixed = usize::from(!graph.depends(*x).is_fixed());
+            let often = self.divisors.get(x).is_some_and(|&times| times > 1);
+            let base = self.of(*x);
+            if exponent.is_negative() && exponent.is_integer() && often {
+                let reciprocal = self.add(Operation::Reciprocal(base));
+                let power = self.power(reciprocal, &-exponent, *x);
+                parts[fixed][0].push(power);
+            } else {
+                let power = self.power(base, &exponent.abs(), *x);
+                parts[fixed][usize::from(exponent.is_negative())].push(power);
+            }
+        }
+        let [fixed, [above, below]] = parts;
+        let number = match fixed {
+            [above, below] if above.is_empty() && below.is_empty() => None,
+            [above, below] => Some(self.quotient(above, below)),
+        };
+        if above.is_empty() && below.is_empty() {
+            return number.unwrap_or_else(|| self.constant(&Number::one()));
+        }
+        self.quotient(number.into_iter().chain(above).collect(), below)
+    }
+
+    fn quotient(&mut self, above: Vec<Op>, below: Vec<Op>) -> Op {
+        let multiply = |this: &mut Self, factors: Vec<Op>| {
+            factors
+                .into_iter()
+                .reduce(|a, b| this.add(Operation::Multiply(a, b)))
+        };
+        let (above, below) = (multiply(self, above), multiply(self, below));
+        let reciprocal = below.map(|below| self.add(Operation::Reciprocal(below)));
+        match (above, reciprocal) {
+            (Some(above), Some(reciprocal)) => self.add(Operation::Multiply(above, reciprocal)),
+            (Some(op), None) | (None, Some(op)) => op,
+            (None, None) => self.constant(&Number::one()),
+        }
+    }
+
+    /// `baseᵉ` for a positive exponent; `node` is the base.
+    fn power(&mut self, base: Op, exponent: &Number, node: Id) -> Op {
+        let whole = exponent.floor();
+        let rest = exponent - &whole;
+        let mut power = whole
+            .to_u32()
+            .filter(|&n| n > 0)
+            .map(|n| self.whole_power(base, n));
+        if !rest.is_zero() {
+            let part = match *rest.denom() == 2.into() {
+                true => match self.square_root_of_square(node) {
+                    Some(op) => self.add(Operation::Absolute(op)),
+                    None => self.add(Operation::Root(base)),
+                },
+                false => {
+                    let logarithm = self.add(Operation::Elementary(Elementary::Ln, base));
+                    let rest = self.constant(&rest);
+                    let product = self.add(Operation::Multiply(rest, logarithm));
+                    self.add(Operation::Elementary(Elementary::Exp, product))
+                }
+            };
+            power = Some(match power {
+                Some(whole) => self.add(Operation::Multiply(whole, part)),
+                None => part,
+            });
+        }
+        power.unwrap_or_else(|| self.constant(&Number::one()))
+    }
+
+    fn square_root_of_square(&self, node: Id) -> Option<Op> {
+        let Node::Product(factors) = self.graph.node(node) else {
+            return None;
+        };
+        match factors.as_slice() {
+            [(x, exponent)] if *exponent == Number::from_integer(2.into()) => Some(self.of(*x)),
+            _ => None,
+        }
+    }
+
+    fn whole_power(&mut self, base: Op, exponent: u32) -> Op {
+        let (mut rest, mut square, mut power) = (exponent, base, None);
+        while rest > 0 {
+            if rest % 2 == 1 {
+                power = Some(match power {
+                    None => square,
+                    Some(power) => self.add(Operation::Multiply(power, square)),
+                });
+            }
+            rest /= 2;
+            if rest > 0 {
+                square = self.add(Operation::Multiply(square, square));
+            }
+        }
+        power.unwrap_or(base)
+    }
+}

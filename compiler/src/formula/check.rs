@@ -1,0 +1,301 @@
+//! What a definition asks for: properties of the system, and functions that are conserved.
+
+use num_traits::One;
+
+use super::derivative::{Scatter, directional, gradient};
+use super::error::FormulaError;
+use super::evaluate::{Evaluator, Point};
+use super::graph::{Base, Coordinate, Graph, Half, Id, Index, Node, Number, integer};
+use super::structure::{Kinetic, Structure, goes_over_all};
+use super::syntax::{Length, Name};
+use super::system::{Invariant, Layout, Shape, System};
+use crate::error::{Error, ErrorKind};
+use crate::expression::Input;
+
+/// The properties that can be required.
+pub const PROPERTIES: [&str; 5] = [
+    "separable",
+    "quadratic_kinetic",
+    "unit_masses",
+    "time_independent",
+    "chain",
+];
+
+/// A bracket above this, relative to its parts, is not zero.
+const ROUNDING: f64 = 1e-8;
+
+impl System {
+    /// Checks what the definition requires, and refutes invariants that are none; `text` is that of the definition.
+    ///
+    /// # Errors
+    /// A property that does not hold, at the term that violates it; a function that is not conserved.
+    pub fn check(&mut self, structure: &Structure, text: &str) -> Result<(), Error> {
+        let input = Input {
+            name: &self.name.clone(),
+            text,
+        };
+        for name in self.required.clone() {
+            self.require(structure, &name, input)?;
+        }
+        for invariant in self.invariants.clone() {
+            self.conserved(&invariant, input)?;
+        }
+        Ok(())
+    }
+
+    fn require(&self, structure: &Structure, name: &Name, input: Input<'_>) -> Result<(), Error> {
+        let fail = |property: &'static str, reason: String, id: Option<Id>| {
+            let place = id.and_then(|id| {
+                self.places
+                    .get(&self.graph.scaled(id).1)
+                    .or_else(|| self.places.get(&id))
+            });
+            let span = place.unwrap_or(&name.span);
+            Err(input.error(span, FormulaError::Property { property, reason }.into()))
+        };
+        let mixed = |property| match structure.split {
+            Ok(_) => Ok(()),
+            Err(term) => fail(
+                property,
+                "this term depends on positions and momenta".to_owned(),
+                Some(term),
+            ),
+        };
+        match name.text.as_str() {
+            "separable" => mixed("separable"),
+            "quadratic_kinetic" => {
+                mixed("of quadratic kinetic energy")?;
+                match structure.kinetic {
+                    Kinetic::General => fail(
+                        "of quadratic kinetic energy",
+                        "the second derivatives of T(p) are not constant".to_owned(),
+                        None,
+                    ),
+                    _ => Ok(()),
+                }
+            }
+            "unit_masses" => {
+                mixed("of unit masses")?;
+                match structure.kinetic {
+                    Kinetic::Unit => Ok(()),
+                    _ => fail(
+                        "of unit masses",
+                        "the velocity is not the momentum".to_owned(),
+                        None,
+                    ),
+                }
+            }
+            "time_independent" => match structure.time_dependent {
+                false => Ok(()),
+                true => {
+                    let time = self
+                        .graph
+                        .below([self.energy])
+                        .into_iter()
+                        .find(|&id| matches!(self.graph.node(id), Node::Time));
+                    fail("independent of time", "here is the time".to_owned(), time)
+                }
+            },
+            "chain" => match structure.chain {
+                Some(_) => Ok(()),
+                None => fail(
+                    "a chain",
+                    "H is not Σ p_i²/2, a sum over bonds and one over all particles".to_owned(),
+                    None,
+                ),
+            },
+            _ => {
+                let known = PROPERTIES.join(", ");
+                Err(input.error(
+                    &name.span,
+                    ErrorKind::Unknown {
+                        what: "property",
+                        name: name.text.clone(),
+                        known,
+                    },
+                ))
+            }
+        }
+    }
+
+    /// Whether it is proved that a function is conserved, by a symmetry that shows in the formula. Else it is compared at a few states.
+    ///
+    /// # Errors
+    /// [`FormulaError::NotConserved`].
+    pub fn conserved(&mut self, invariant: &Invariant, input: Input<'_>) -> Result<bool, Error> {
+        let mut proved = true;
+        for &part in &invariant.parts {
+            if self.is_symmetry(part) {
+                continue;
+            }
+            proved = false;
+            for seed in 0..3 {
+                let Some((bracket, size)) = self.bracket(part, seed) else {
+                    continue;
+                };
+                if bracket.abs() > ROUNDING * size {
+                    let kind = FormulaError::NotConserved {
+                        name: invariant.name.clone(),
+                        bracket: format!("{bracket:.3e}"),
+                    };
+                    return Err(input.error(&invariant.span, kind.into()));
+                }
+            }
+        }
+        Ok(proved)
+    }
+
+    /// Whether H does not change in the direction that a function generates, seen from the formulas.
+    fn is_symmetry(&mut self, function: Id) -> bool {
+        if self.graph.depends(function).time {
+            return false;
+        }
+        let by_p = gradient(&mut self.graph, function, &[], Number::one(), Half::P);
+        let by_q = gradient(&mut self.graph, function, &[], -Number::one(), Half::Q);
+        let system = self.clone();
+        let mut seen = true;
+        let energy = self.energy;
+        let speed = directional(&mut self.graph, energy, None, |graph, coordinate| {
+            let parts = if coordinate.half == Half::Q {
+                &by_p
+            } else {
+                &by_q
+            };
+            let speed = at(&system, graph, parts, coordinate);
+            seen &= speed.is_some();
+            speed.unwrap_or_else(|| graph.integer(0))
+        });
+        seen && self.graph.is_zero(speed)
+    }
+
+    /// The Poisson bracket `{function, H}` and the time derivative at a state, and the size of its terms.
+    fn bracket(&mut self, function: Id, seed: u64) -> Option<(f64, f64)> {
+        let energy = self.energy;
+        let mut derivatives = Vec::new();
+        for (of, half) in [
+            (function, Half::Q),
+            (function, Half::P),
+            (energy, Half::Q),
+            (energy, Half::P),
+        ] {
+            derivatives.push(gradient(&mut self.graph, of, &[], Number::one(), half));
+        }
+        let one = self.graph.integer(1);
+        let by_time = directional(&mut self.graph, function, Some(one), |graph, _| {
+            graph.integer(0)
+        });
+        let point = self.random_point(seed)?;
+        let mut evaluator = Evaluator::new(&self.graph, &point);
+        let values: Option<Vec<_>> = derivatives
+            .iter()
+            .map(|parts| evaluator.sum(parts))
+            .collect();
+        let [f_q, f_p, h_q, h_p] = <[_; 4]>::try_from(values?).ok()?;
+        let mut sum = evaluator.value(by_time)?;
+        let mut size = sum.abs();
+        for (i, row) in f_q.iter().enumerate() {
+            for k in 0..row.len() {
+                let terms = [f_q[i][k] * h_p[i][k], -f_p[i][k] * h_q[i][k]];
+                sum += terms[0] + terms[1];
+                size += terms[0].abs() + terms[1].abs();
+            }
+        }
+        sum.is_finite().then_some((sum, size))
+    }
+
+    /// A state and parameters, without a pattern; the same for the same seed.
+    pub fn random_point(&self, seed: u64) -> Option<Point<f64>> {
+        let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x5851_F42D_4C95_7F2D;
+        let mut next = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            0.25 + (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let length = |length: &Length| match length {
+            Length::Fixed(n) => *n,
+            Length::Generic(_) | Length::Runtime => 3.max(self.least),
+            Length::PairsOf(_) => 2,
+        };
+        let count = length(&self.layout.length());
+        if count > 1000 {
+            return None;
+        }
+        let components = self.layout.components();
+        let mut vector = || {
+            (0..count)
+                .map(|_| (0..components).map(|_| next()).collect())
+                .collect()
+        };
+        let halves = [vector(), vector()];
+        let parameters = self
+            .parameters
+            .iter()
+            .map(|parameter| match &parameter.shape {
+                Shape::Number(Some(value)) => {
+                    vec![vec![crate::arithmetic::rounding::to_f64(value)]]
+                }
+                Shape::Number(None) => vec![vec![next()]],
+                Shape::Pairs => Vec::new(),
+                Shape::Array(lengths) => {
+                    let columns = lengths.get(1).map_or(1, length);
+                    (0..length(&lengths[0]))
+                        .map(|_| (0..columns).map(|_| next()).collect())
+                        .collect()
+                }
+            });
+        let parameters = parameters.collect();
+        let pairs = self
+            .parameters
+            .iter()
+            .map(|parameter| match parameter.shape {
+                Shape::Pairs if count > 2 => vec![[0, 1], [2, 1]],
+                Shape::Pairs => vec![[0, count - 1]; 2],
+                _ => Vec::new(),
+            });
+        let pairs = pairs.collect();
+        Some(Point {
+            time: next(),
+            halves,
+            parameters,
+            pairs,
+        })
+    }
+}
+
+/// The derivative by a coordinate, from the parts of a derivative; `None` where that is not seen.
+fn at(
+    system: &System,
+    graph: &mut Graph,
+    parts: &[Scatter],
+    coordinate: &Coordinate,
+) -> Option<Id> {
+    let mut terms = Vec::new();
+    for part in parts
+        .iter()
+        .filter(|part| part.target.component == coordinate.component)
+    {
+        let single =
+            matches!(system.layout, Layout::Named(_)) || part.target.index.base == Base::Start;
+        match part.loops.as_slice() {
+            [] if part.target.index == coordinate.index => terms.push(part.value),
+            [] if single && coordinate.index.base == Base::Start => {}
+            [over]
+                if goes_over_all(system, *over)
+                    && part.target.index == Index::of(Base::Loop(*over)) =>
+            {
+                let inner = graph.below([part.value]);
+                let nested = inner.iter().any(|&id| {
+                    matches!(graph.node(id), Node::Total(..)) && graph.depends(id).changes_in(*over)
+                });
+                if nested {
+                    return None;
+                }
+                terms.push(graph.with_index(part.value, *over, &coordinate.index));
+            }
+            _ => return None,
+        }
+    }
+    let terms: Vec<_> = terms.into_iter().map(|term| (integer(1), term)).collect();
+    Some(graph.sum(terms))
+}

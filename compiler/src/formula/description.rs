@@ -1,0 +1,332 @@
+//! A system in words: H, the equations of motion, and what was found.
+
+use num_traits::One;
+
+use serde_json::{Value, json};
+
+use super::derivative::gradient;
+use super::display::{Notation, number_text};
+use super::graph::{Base, Coordinate, Half, Id, Index, Loop, LoopId, LoopRange, Number, integer};
+use super::structure::{Kinetic, Structure};
+use super::syntax::Length;
+use super::system::{Layout, Shape, System};
+
+/// Longest page.
+const MOST_CHARACTERS: usize = 8_000;
+
+/// The two halves of the equations of motion: what is differentiated by, what changes, and the sign.
+const HALVES: [(Half, Half, i64); 2] = [(Half::P, Half::Q, 1), (Half::Q, Half::P, -1)];
+
+impl System {
+    /// Hamilton's equations, a line for each part.
+    pub fn equations_of_motion(&self, notation: Notation) -> Vec<String> {
+        let mut copy = self.clone();
+        let mut lines = Vec::new();
+        for (half, dotted, sign) in HALVES {
+            let parts = gradient(&mut copy.graph, self.energy, &[], integer(sign), half);
+            lines.extend(copy.equations(dotted, &parts, notation));
+        }
+        lines
+    }
+
+    /// The second derivatives of H, a line for each part of one that is not zero.
+    pub fn second_derivatives(&self, notation: Notation) -> Vec<String> {
+        let mut copy = self.clone();
+        let mut lines = Vec::new();
+        for (row, column) in [(Half::P, Half::P), (Half::P, Half::Q), (Half::Q, Half::Q)] {
+            for first in gradient(&mut copy.graph, self.energy, &[], Number::one(), row) {
+                for second in gradient(
+                    &mut copy.graph,
+                    first.value,
+                    &first.loops,
+                    Number::one(),
+                    column,
+                ) {
+                    let [row, column] = [&first.target, &second.target]
+                        .map(|target| copy.coordinate_name(target, notation));
+                    let value = copy.formula(second.value, notation);
+                    lines.push(match notation {
+                        Notation::Text => format!("∂²H/∂{row}∂{column} += {value}{}", copy.ranges(&second.loops, notation)),
+                        Notation::Latex => format!(
+                            "\\frac{{\\partial^2 H}}{{\\partial {row}\\,\\partial {column}}} \\mathrel{{+}}= {value}{}",
+                            copy.ranges(&second.loops, notation)
+                        ),
+                    });
+                }
+            }
+        }
+        lines
+    }
+}
+
+/// The documentation of the type of a system.
+pub fn page(system: &System, structure: &Structure) -> String {
+    let energy = system.formula(system.energy, Notation::Text);
+    let equations = system.equations_of_motion(Notation::Text).join("\n");
+    let mut text = format!("H = {energy}\n\n{equations}");
+    if text.len() > MOST_CHARACTERS {
+        text = "The formula is too long to be shown.".to_owned();
+    }
+    let facts = facts(system, structure).join("; ");
+    format!("\n\n```text\n{text}\n```\n\nFound in the formula: {facts}.\n")
+}
+
+/// Everything about a system, for people.
+pub fn text(system: &System, structure: &Structure) -> String {
+    let mut text = format!("{}\n", system.name);
+    let mut section = |title: &str, lines: &[String]| {
+        text.push_str(&format!("\n{title}\n"));
+        for line in lines {
+            text.push_str(&format!("  {line}\n"));
+        }
+    };
+    let parameters: Vec<String> = system
+        .parameters
+        .iter()
+        .map(|parameter| match parameter_value(&parameter.shape) {
+            Some(value) => format!("{} = {value}", parameter.name),
+            None => parameter.name.clone(),
+        })
+        .collect();
+    if !parameters.is_empty() {
+        section("parameters", &parameters);
+    }
+    section(
+        "Hamiltonian",
+        &[format!(
+            "H = {}",
+            system.formula(system.energy, Notation::Text)
+        )],
+    );
+    section(
+        "equations of motion",
+        &system.equations_of_motion(Notation::Text),
+    );
+    section(
+        "second derivatives",
+        &system.second_derivatives(Notation::Text),
+    );
+    section("found in the formula", &facts(system, structure));
+    text
+}
+
+/// The equations of a system for LaTeX: an `aligned` environment.
+pub fn latex(system: &System) -> String {
+    let mut lines = vec![format!(
+        "H = {}",
+        system.formula(system.energy, Notation::Latex)
+    )];
+    lines.extend(system.equations_of_motion(Notation::Latex));
+    lines.extend(system.second_derivatives(Notation::Latex));
+    let lines: Vec<String> = lines
+        .iter()
+        .map(|line| match line.find(['=']) {
+            Some(place) => {
+                let (left, right) = line.split_at(place);
+                match left.strip_suffix("\\mathrel{+}") {
+                    Some(left) => format!("  {left}&\\mathrel{{+}}{right}"),
+                    None => format!("  {left}&{right}"),
+                }
+            }
+            None => format!("  {line}"),
+        })
+        .collect();
+    format!(
+        "\\begin{{aligned}}\n{}\n\\end{{aligned}}\n",
+        lines.join(" \\\\\n")
+    )
+}
+
+/// Everything about a system, for programs.
+pub fn json(system: &System, structure: &Structure) -> Value {
+    let parameters: Vec<Value> = system.parameters.iter().map(|parameter| {
+        json!({ "name": parameter.name, "value": parameter_value(&parameter.shape) })
+    }).collect();
+    let kinetic = match (&structure.split, structure.kinetic) {
+        (Err(_), _) => None,
+        (Ok(_), Kinetic::Unit) => Some("unit"),
+        (Ok(_), Kinetic::Diagonal) => Some("diagonal"),
+        (Ok(_), Kinetic::Quadratic) => Some("quadratic"),
+        (Ok(_), Kinetic::General) => Some("general"),
+    };
+    let cyclic: Vec<String> = structure
+        .cyclic
+        .iter()
+        .map(|&k| system.layout.name(Half::Q, k))
+        .collect();
+    let conserved: Vec<&str> = momenta(system, structure)
+        .iter()
+        .map(|(name, _)| *name)
+        .collect();
+    let both = |lines: fn(&System, Notation) -> Vec<String>| json!({ "text": lines(system, Notation::Text), "latex": lines(system, Notation::Latex) });
+    json!({
+        "name": system.name,
+        "parameters": parameters,
+        "hamiltonian": {
+            "text": system.formula(system.energy, Notation::Text),
+            "latex": system.formula(system.energy, Notation::Latex),
+        },
+        "equations_of_motion": both(System::equations_of_motion),
+        "second_derivatives": both(System::second_derivatives),
+        "separable": structure.split.is_ok(),
+        "kinetic_energy": kinetic,
+        "time_dependent": structure.time_dependent,
+        "chain": structure.chain.is_some(),
+        "cyclic": cyclic,
+        "conserved": conserved,
+    })
+}
+
+/// The value of a parameter, or the shape that it has.
+fn parameter_value(shape: &Shape) -> Option<String> {
+    let length = |length: &Length| match length {
+        Length::Fixed(n) => n.to_string(),
+        Length::Generic(name) | Length::PairsOf(name) => name.clone(),
+        Length::Runtime => "..".to_owned(),
+    };
+    match shape {
+        Shape::Number(value) => value.as_ref().map(number_text),
+        Shape::Pairs => Some("pairs".to_owned()),
+        Shape::Array(lengths) => {
+            let lengths: Vec<String> = lengths.iter().map(length).collect();
+            Some(format!("[{}]", lengths.join(", ")))
+        }
+    }
+}
+
+/// What was found, in words.
+pub fn facts(system: &System, structure: &Structure) -> Vec<String> {
+    let mut facts = Vec::new();
+    facts.push(match (&structure.split, structure.kinetic) {
+        (Err(_), _) => "not separable".to_owned(),
+        (Ok(_), Kinetic::Unit) => "separable, with the kinetic energy |p|²/2".to_owned(),
+        (Ok(_), Kinetic::Diagonal) => {
+            "separable, with a kinetic energy of constant masses".to_owned()
+        }
+        (Ok(_), Kinetic::Quadratic) => {
+            "separable, with a kinetic energy of a constant mass matrix".to_owned()
+        }
+        (Ok(_), Kinetic::General) => "separable".to_owned(),
+    });
+    facts.push(
+        if structure.time_dependent {
+            "dependent on time"
+        } else {
+            "independent of time, so H is conserved"
+        }
+        .to_owned(),
+    );
+    if structure.chain.is_some() {
+        facts.push("a chain of neighbours".to_owned());
+    }
+    for &k in &structure.cyclic {
+        facts.push(format!(
+            "`{}` is cyclic, so `{}` is conserved",
+            system.layout.name(Half::Q, k),
+            system.layout.name(Half::P, k)
+        ));
+    }
+    for (name, _) in momenta(system, structure) {
+        facts.push(format!("`{name}` is conserved"));
+    }
+    facts
+}
+
+/// A conserved momentum that was found.
+#[derive(Debug, Clone)]
+pub enum Momentum {
+    /// `Σ p_i` in these components.
+    Linear(Vec<usize>),
+    /// `Σ q_a p_b − q_b p_a` in these planes.
+    Angular(Vec<[usize; 2]>),
+}
+
+/// The conserved momenta that were found.
+pub fn momenta(system: &System, structure: &Structure) -> Vec<(&'static str, Momentum)> {
+    let mut found = Vec::new();
+    let single = matches!(system.layout, Layout::Named(_));
+    if !structure.translations.is_empty() && !single {
+        found.push((
+            "total_momentum",
+            Momentum::Linear(structure.translations.clone()),
+        ));
+    }
+    match structure.rotations.as_slice() {
+        [] => {}
+        // As (x, y, z).
+        [_, _, _] => found.push((
+            "angular_momentum",
+            Momentum::Angular(vec![[1, 2], [2, 0], [0, 1]]),
+        )),
+        planes => found.push(("angular_momentum", Momentum::Angular(planes.to_vec()))),
+    }
+    found
+}
+
+impl Momentum {
+    /// Its components as formulas.
+    pub fn parts(&self, system: &mut System) -> Vec<Id> {
+        let over = all(system);
+        let bodies = !matches!(system.layout, Layout::Named(_)) && (over.is_some());
+        let vectors = matches!(system.layout, Layout::Numbered(_, Some(_)));
+        let at = |system: &mut System, half: Half, component: usize| {
+            let coordinate = match over {
+                Some((_, ref index))
+                    if vectors || bodies && matches!(self, Momentum::Linear(_)) =>
+                {
+                    Coordinate {
+                        half,
+                        index: index.clone(),
+                        component,
+                    }
+                }
+                _ => Coordinate {
+                    half,
+                    index: Index::number(component as i64),
+                    component: 0,
+                },
+            };
+            system.graph.coordinate(coordinate)
+        };
+        let mut parts = Vec::new();
+        match self {
+            Momentum::Linear(components) => {
+                for &component in components {
+                    let p = at(system, Half::P, component);
+                    parts.push(match &over {
+                        Some((id, _)) => system.graph.total(*id, p),
+                        None => p,
+                    });
+                }
+            }
+            Momentum::Angular(planes) => {
+                for &[a, b] in planes {
+                    let (qa, pb) = (at(system, Half::Q, a), at(system, Half::P, b));
+                    let (qb, pa) = (at(system, Half::Q, b), at(system, Half::P, a));
+                    let (plus, minus) =
+                        (system.graph.multiply(qa, pb), system.graph.multiply(qb, pa));
+                    let whole = system
+                        .graph
+                        .sum([(Number::one(), plus), (-Number::one(), minus)]);
+                    parts.push(match &over {
+                        Some((id, _)) if vectors => system.graph.total(*id, whole),
+                        _ => whole,
+                    });
+                }
+            }
+        }
+        parts
+    }
+}
+
+/// A loop over all numbered coordinates.
+fn all(system: &mut System) -> Option<(LoopId, Index)> {
+    let end = match &system.layout {
+        Layout::Named(_) => return None,
+        Layout::Numbered(Length::Fixed(n), _) => Index::number(*n as i64),
+        Layout::Numbered(length, _) => Index::of(Base::End(length.clone())),
+    };
+    let range = LoopRange::Between(Index::number(0), end);
+    let id = system.graph.add_loop(Loop { range, depth: 0 })?;
+    Some((id, Index::of(Base::Loop(id))))
+}

@@ -1,0 +1,464 @@
+//! Formulas as text and as LaTeX.
+
+use std::collections::HashMap;
+
+use num_traits::{One, Signed, Zero};
+
+use super::derivative::Scatter;
+use super::elaborate::STRETCH;
+use super::graph::{Base, Coordinate, Half, Id, Index, LoopId, LoopRange, Node, Number};
+use super::syntax::Length;
+use super::system::{Layout, System};
+
+/// How formulas are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Notation {
+    /// In one line, with the letters of Unicode.
+    Text,
+    /// For LaTeX and KaTeX.
+    Latex,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Strength {
+    Sum,
+    Product,
+    Power,
+    Atom,
+}
+
+/// What is written already.
+type Texts = HashMap<Id, (String, Strength)>;
+
+/// Longest formula that is written out.
+const MOST_CHARACTERS: usize = 20_000;
+
+impl System {
+    /// A node as a formula.
+    pub fn formula(&self, id: Id, notation: Notation) -> String {
+        let mut texts = Texts::new();
+        for next in self.graph.below([id]) {
+            let text = self.write(next, notation, &texts);
+            if text.0.len() > MOST_CHARACTERS {
+                return "…".to_owned();
+            }
+            texts.insert(next, text);
+        }
+        texts.remove(&id).map_or_else(String::new, |(text, _)| text)
+    }
+
+    /// A derivative, one line for each part: `q'[i] = …`, or `+=` where several are added.
+    pub fn equations(&self, dotted: Half, parts: &[Scatter], notation: Notation) -> Vec<String> {
+        let lines = parts.iter().map(|part| {
+            let mut target = part.target.clone();
+            target.half = dotted;
+            let name = self.coordinate_name(&target, notation);
+            let name = match notation {
+                Notation::Text => match name.split_once('[') {
+                    Some((head, rest)) => format!("{head}'[{rest}"),
+                    None => format!("{name}'"),
+                },
+                Notation::Latex => format!("\\dot{{{name}}}"),
+            };
+            let same = parts
+                .iter()
+                .filter(|other| other.target == part.target)
+                .count()
+                > 1;
+            let shared = part.loops.len() > 1
+                || (part.loops.is_empty() && parts.iter().any(|other| !other.loops.is_empty()));
+            let sign = match (same || shared, notation) {
+                (false, _) => "=",
+                (true, Notation::Text) => "+=",
+                (true, Notation::Latex) => "\\mathrel{+}=",
+            };
+            let value = self.formula(part.value, notation);
+            let ranges = self.ranges(&part.loops, notation);
+            format!("{name} {sign} {value}{ranges}")
+        });
+        lines.collect()
+    }
+
+    /// The loops in which a line holds, in parentheses.
+    pub(super) fn ranges(&self, loops: &[LoopId], notation: Notation) -> String {
+        let ranges: Vec<String> = loops
+            .iter()
+            .map(|&over| self.range(over, notation))
+            .collect();
+        match (ranges.is_empty(), notation) {
+            (true, _) => String::new(),
+            (false, Notation::Text) => format!("    ({})", ranges.join(", ")),
+            (false, Notation::Latex) => format!("\\quad ({})", ranges.join(",\\; ")),
+        }
+    }
+
+    fn range(&self, over: LoopId, notation: Notation) -> String {
+        let index = index_letter(over);
+        match &self.graph.get_loop(over).range {
+            LoopRange::Between(start, end) => {
+                let (start, end) = (index_text(start), index_text(end));
+                match notation {
+                    Notation::Text => format!("{start} ≤ {index} < {end}"),
+                    Notation::Latex => format!("{start} \\le {index} < {end}"),
+                }
+            }
+            LoopRange::List(parameter) => {
+                let list = &self.parameters[*parameter].name;
+                let [first, second] = ["′", "″"].map(|mark| format!("{index}{mark}"));
+                match notation {
+                    Notation::Text => format!("({first}, {second}) in {list}"),
+                    Notation::Latex => format!("({index}', {index}'') \\in \\mathrm{{{list}}}"),
+                }
+            }
+        }
+    }
+
+    /// What a coordinate is called.
+    pub fn coordinate_name(&self, coordinate: &Coordinate, notation: Notation) -> String {
+        if coordinate.index == STRETCH {
+            return "d".to_owned();
+        }
+        let half = match coordinate.half {
+            Half::Q => "q",
+            Half::P => "p",
+        };
+        let index = index_text(&coordinate.index);
+        match (&self.layout, notation) {
+            (Layout::Named(_), _) => {
+                let name = self.layout.name(
+                    coordinate.half,
+                    usize::try_from(coordinate.index.offset).unwrap_or(0),
+                );
+                symbol(&name, notation)
+            }
+            (Layout::Numbered(_, None), Notation::Text) => format!("{half}[{index}]"),
+            (Layout::Numbered(_, None), Notation::Latex) => format!("{half}_{{{index}}}"),
+            (Layout::Numbered(_, Some(_)), Notation::Text) => {
+                format!("{half}[{index}][{}]", coordinate.component)
+            }
+            (Layout::Numbered(_, Some(_)), Notation::Latex) => {
+                format!("{half}_{{{index},{}}}", coordinate.component)
+            }
+        }
+    }
+
+    fn write(&self, id: Id, notation: Notation, known: &Texts) -> (String, Strength) {
+        let plain = |id: &Id| known[id].0.clone();
+        let held = |id: &Id, strength: Strength| {
+            let (text, own) = &known[id];
+            match *own >= strength {
+                true => text.clone(),
+                false => bracket(text, notation),
+            }
+        };
+        match self.graph.node(id) {
+            Node::Constant(value) => number(value, notation),
+            Node::Pi => (
+                if notation == Notation::Text {
+                    "π"
+                } else {
+                    "\\pi"
+                }
+                .to_owned(),
+                Strength::Atom,
+            ),
+            Node::Time => ("t".to_owned(), Strength::Atom),
+            Node::Parameter(parameter, indices) => {
+                let name = symbol(&self.parameters[*parameter].name, notation);
+                let indices: Vec<String> = indices.iter().map(index_text).collect();
+                let text = match (indices.is_empty(), notation) {
+                    (true, _) => name,
+                    (false, Notation::Text) => format!("{name}[{}]", indices.join(", ")),
+                    (false, Notation::Latex) => format!("{name}_{{{}}}", indices.join(",")),
+                };
+                (text, Strength::Atom)
+            }
+            Node::Coordinate(coordinate) => {
+                (self.coordinate_name(coordinate, notation), Strength::Atom)
+            }
+            Node::Sum(terms, constant) => {
+                // −(a − b) is b − a.
+                if let [(factor, x)] = terms.as_slice()
+                    && constant.is_zero()
+                    && *factor == -Number::one()
+                    && let Node::Sum(inner, constant) = self.graph.node(*x)
+                {
+                    let terms: Vec<(Number, Id)> =
+                        inner.iter().map(|(factor, x)| (-factor, *x)).collect();
+                    return self.terms(&terms, &-constant, notation, known);
+                }
+                self.terms(terms, constant, notation, known)
+            }
+            Node::Product(factors) => {
+                let power = |x: &Id, exponent: &Number| {
+                    self.power(
+                        &held(x, Strength::Power),
+                        &held(x, Strength::Atom),
+                        &plain(x),
+                        exponent,
+                        notation,
+                    )
+                };
+                if let [(x, exponent)] = factors.as_slice()
+                    && !exponent.is_negative()
+                {
+                    return (power(x, exponent), Strength::Power);
+                }
+                let above: Vec<String> = factors
+                    .iter()
+                    .filter(|(_, e)| e.is_positive())
+                    .map(|(x, e)| power(x, e))
+                    .collect();
+                let below: Vec<String> = factors
+                    .iter()
+                    .filter(|(_, e)| e.is_negative())
+                    .map(|(x, e)| power(x, &-e))
+                    .collect();
+                let join = |parts: &[String]| parts.join(space(notation));
+                let above_text = if above.is_empty() {
+                    "1".to_owned()
+                } else {
+                    join(&above)
+                };
+                let text = match (below.len(), notation) {
+                    (0, _) => above_text,
+                    (_, Notation::Latex) => format!("\\frac{{{above_text}}}{{{}}}", join(&below)),
+                    (1, Notation::Text) => format!("{above_text}/{}", below[0]),
+                    (_, Notation::Text) => format!("{above_text}/({})", join(&below)),
+                };
+                (text, Strength::Product)
+            }
+            Node::Elementary(function, x) => {
+                let name = match notation {
+                    Notation::Text => function.name().to_owned(),
+                    Notation::Latex => match function.name() {
+                        "asin" => "\\arcsin".to_owned(),
+                        "acos" => "\\arccos".to_owned(),
+                        "atan" => "\\arctan".to_owned(),
+                        name => format!("\\{name}"),
+                    },
+                };
+                (
+                    format!("{name}{}", bracket(&plain(x), notation)),
+                    Strength::Atom,
+                )
+            }
+            Node::Atan2(y, x) => (
+                format!(
+                    "{}({}, {})",
+                    operator("atan2", notation),
+                    plain(y),
+                    plain(x)
+                ),
+                Strength::Atom,
+            ),
+            Node::User(function, derivative, x) => {
+                let mark = "'".repeat(*derivative);
+                let name = symbol(&self.functions[*function][0], notation);
+                (
+                    format!("{name}{mark}{}", bracket(&plain(x), notation)),
+                    Strength::Atom,
+                )
+            }
+            Node::Total(over, body) => {
+                let range = self.range(*over, notation);
+                let body = held(body, Strength::Product);
+                let text = match notation {
+                    Notation::Text => format!("Σ({range}) {body}"),
+                    Notation::Latex => format!("\\sum_{{{range}}} {body}"),
+                };
+                (text, Strength::Product)
+            }
+        }
+    }
+
+    fn terms(
+        &self,
+        terms: &[(Number, Id)],
+        constant: &Number,
+        notation: Notation,
+        known: &Texts,
+    ) -> (String, Strength) {
+        let held = |id: &Id, strength: Strength| {
+            let (text, own) = &known[id];
+            match *own >= strength {
+                true => text.clone(),
+                false => bracket(text, notation),
+            }
+        };
+        let mut text = String::new();
+        let mut push = |minus: bool, term: String| {
+            match (text.is_empty(), minus, notation) {
+                (true, false, _) => {}
+                (true, true, Notation::Text) => text.push('−'),
+                (true, true, Notation::Latex) => text.push('-'),
+                (false, false, _) => text.push_str(" + "),
+                (false, true, Notation::Text) => text.push_str(" − "),
+                (false, true, Notation::Latex) => text.push_str(" - "),
+            }
+            text.push_str(&term);
+        };
+        let alone = terms.len() == 1 && constant.is_zero();
+        // What is added comes first.
+        let first = terms
+            .iter()
+            .position(|(factor, _)| factor.is_positive())
+            .unwrap_or(0);
+        let order = std::iter::once(first).chain((0..terms.len()).filter(|&k| k != first));
+        for k in order {
+            let (factor, x) = &terms[k];
+            let size = factor.abs();
+            let term = match size.is_one() {
+                true => held(x, Strength::Product),
+                false => format!(
+                    "{}{}{}",
+                    number(&size, notation).0,
+                    space(notation),
+                    held(x, Strength::Product)
+                ),
+            };
+            push(factor.is_negative(), term);
+        }
+        if !constant.is_zero() {
+            push(constant.is_negative(), number(&constant.abs(), notation).0);
+        }
+        let product = alone && terms[0].0.is_positive();
+        (
+            text,
+            if product {
+                Strength::Product
+            } else {
+                Strength::Sum
+            },
+        )
+    }
+
+    fn power(
+        &self,
+        base: &str,
+        atom: &str,
+        plain: &str,
+        exponent: &Number,
+        notation: Notation,
+    ) -> String {
+        if exponent.is_one() {
+            return base.to_owned();
+        }
+        let half = *exponent == Number::new(1.into(), 2.into());
+        match (half, notation) {
+            (true, Notation::Text) => format!(
+                "√{}",
+                if atom == plain {
+                    plain.to_owned()
+                } else {
+                    format!("({plain})")
+                }
+            ),
+            (true, Notation::Latex) => format!("\\sqrt{{{plain}}}"),
+            (false, Notation::Text) => match exponent
+                .is_integer()
+                .then(|| superscript(&exponent.to_string()))
+            {
+                Some(raised) => format!("{atom}{raised}"),
+                None => format!("{atom}^({exponent})"),
+            },
+            (false, Notation::Latex) => format!("{{{atom}}}^{{{exponent}}}"),
+        }
+    }
+}
+
+fn space(notation: Notation) -> &'static str {
+    match notation {
+        Notation::Text => " ",
+        Notation::Latex => "\\,",
+    }
+}
+
+fn bracket(text: &str, notation: Notation) -> String {
+    match notation {
+        Notation::Text => format!("({text})"),
+        Notation::Latex => format!("\\left({text}\\right)"),
+    }
+}
+
+fn operator(name: &str, notation: Notation) -> String {
+    match notation {
+        Notation::Text => name.to_owned(),
+        Notation::Latex => format!("\\operatorname{{{name}}}"),
+    }
+}
+
+/// A name; in LaTeX a long one is upright.
+fn symbol(name: &str, notation: Notation) -> String {
+    let escaped = name.replace('_', "\\_");
+    match (notation, name.chars().count()) {
+        (Notation::Text, _) => name.to_owned(),
+        (Notation::Latex, 1) => escaped,
+        (Notation::Latex, _) => format!("\\mathrm{{{escaped}}}"),
+    }
+}
+
+fn superscript(digits: &str) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = digits
+        .chars()
+        .map(|c| c.to_digit(10).map_or('⁻', |digit| RAISED[digit as usize]));
+    raised.collect()
+}
+
+/// A number.
+pub fn number_text(value: &Number) -> String {
+    number(value, Notation::Text).0
+}
+
+fn number(value: &Number, notation: Notation) -> (String, Strength) {
+    let (numerator, denominator) = (value.numer(), value.denom());
+    let mut twos_and_fives = denominator.clone();
+    for prime in [2, 5] {
+        while (&twos_and_fives % num_bigint::BigInt::from(prime)).is_zero() {
+            twos_and_fives /= prime;
+        }
+    }
+    let strength = if value.is_negative() {
+        Strength::Sum
+    } else {
+        Strength::Atom
+    };
+    // Decimals as decimals.
+    if denominator.bits() > 4 && twos_and_fives.is_one() {
+        let double = crate::arithmetic::rounding::to_f64(value);
+        if crate::arithmetic::rounding::exact(double) == *value || double.to_string().len() < 25 {
+            return (double.to_string(), strength);
+        }
+    }
+    if denominator.is_one() {
+        return (numerator.to_string(), strength);
+    }
+    match notation {
+        Notation::Text => (format!("({numerator}/{denominator})"), strength),
+        Notation::Latex => (format!("\\tfrac{{{numerator}}}{{{denominator}}}"), strength),
+    }
+}
+
+fn index_letter(over: LoopId) -> String {
+    match ["i", "j", "k", "l", "m"].get(over.0) {
+        Some(letter) => (*letter).to_owned(),
+        None => format!("i{}", over.0),
+    }
+}
+
+fn index_text(index: &Index) -> String {
+    let base = match &index.base {
+        Base::Start => return index.offset.to_string(),
+        Base::End(Length::Fixed(n)) => n.to_string(),
+        Base::End(Length::Generic(name)) => name.clone(),
+        Base::End(_) => "n".to_owned(),
+        Base::Loop(id) => index_letter(*id),
+        Base::Pair(id, slot) => format!("{}{}", index_letter(*id), ["′", "″", ""][*slot]),
+    };
+    match index.offset {
+        0 => base,
+        offset if offset > 0 => format!("{base}+{offset}"),
+        offset => format!("{base}{offset}"),
+    }
+}

@@ -1,0 +1,354 @@
+//! Sums, products, powers and functions of values.
+
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::{Elaborator, MOST_EXPONENT, Value};
+use crate::error::{Error, ErrorKind};
+use crate::formula::error::FormulaError;
+use crate::formula::function::{Elementary, Function};
+use crate::formula::graph::{Id, Number, integer};
+use crate::formula::parse::{NOT_SMOOTH, constant};
+use crate::formula::syntax::{Expression, Kind, Name};
+
+impl Elaborator<'_> {
+    pub(super) fn sum(&mut self, terms: &[(bool, Expression)]) -> Result<Value, Error> {
+        let mut values = Vec::with_capacity(terms.len());
+        for (minus, term) in terms {
+            let value = self.value(term)?;
+            let sign = if *minus {
+                -Number::one()
+            } else {
+                Number::one()
+            };
+            values.push((sign, self.whole(value), term));
+        }
+        let (_, first, _) = &values[0];
+        match first.clone() {
+            Value::Scalar(_) => {
+                let mut parts = Vec::with_capacity(values.len());
+                for (sign, value, at) in values {
+                    match value {
+                        Value::Scalar(id) => parts.push((sign, id)),
+                        other => return self.mismatch(at, &other, "a number"),
+                    }
+                }
+                Ok(Value::Scalar(self.graph.sum(parts)))
+            }
+            Value::Vector(components) => {
+                let mut parts = vec![Vec::with_capacity(values.len()); components.len()];
+                for (sign, value, at) in values {
+                    match value {
+                        Value::Vector(ids) if ids.len() == parts.len() => {
+                            for (part, id) in parts.iter_mut().zip(ids) {
+                                part.push((sign.clone(), id));
+                            }
+                        }
+                        other => {
+                            let expected = format!("a vector of {} components", parts.len());
+                            return self.mismatch(at, &other, &expected);
+                        }
+                    }
+                }
+                Ok(Value::Vector(
+                    parts.into_iter().map(|part| self.graph.sum(part)).collect(),
+                ))
+            }
+            other => self.mismatch(values[0].2, &other, "a number or a vector"),
+        }
+    }
+
+    pub(super) fn product(&mut self, factors: &[(bool, Expression)]) -> Result<Value, Error> {
+        let mut scalars = Vec::with_capacity(factors.len());
+        let mut other: Option<Value> = None;
+        for (divide, factor) in factors {
+            let value = self.value(factor)?;
+            match (self.whole(value), other.take()) {
+                (Value::Scalar(id), before) => {
+                    if *divide && self.graph.is_zero(id) {
+                        return self.error(factor, ErrorKind::DivisionByZero);
+                    }
+                    scalars.push((id, integer(if *divide { -1 } else { 1 })));
+                    other = before;
+                }
+                (value @ (Value::Vector(_) | Value::Matrix(_)), None) if !divide => {
+                    other = Some(value)
+                }
+                (Value::Vector(parts), Some(Value::Matrix(rows))) if !divide => {
+                    if rows.iter().any(|row| row.len() != parts.len()) {
+                        let found = Value::Vector(parts);
+                        return self.mismatch(
+                            factor,
+                            &found,
+                            "a vector with as many components as the matrix has columns",
+                        );
+                    }
+                    other = Some(Value::Vector(
+                        rows.iter().map(|row| self.dot(row, &parts)).collect(),
+                    ));
+                }
+                (found @ (Value::Vector(_) | Value::Matrix(_)), _) => {
+                    let expected = match divide {
+                        true => "a number to divide by",
+                        false => "a number, or `dot(a, b)` or `cross(a, b)`",
+                    };
+                    return self.mismatch(factor, &found, expected);
+                }
+                (found, _) => return self.mismatch(factor, &found, "a number or a vector"),
+            }
+        }
+        let mut scaled = |parts: Vec<Id>| -> Vec<Id> {
+            let all = |part| {
+                scalars
+                    .iter()
+                    .cloned()
+                    .chain([(part, Number::one())])
+                    .collect::<Vec<_>>()
+            };
+            parts
+                .into_iter()
+                .map(|part| self.graph.product(Number::one(), all(part)))
+                .collect()
+        };
+        Ok(match other {
+            None => Value::Scalar(self.graph.product(Number::one(), scalars)),
+            Some(Value::Vector(parts)) if scalars.is_empty() => Value::Vector(parts),
+            // One factor for all components.
+            Some(Value::Vector(parts)) => {
+                let factor = self.graph.product(Number::one(), scalars);
+                Value::Vector(
+                    parts
+                        .into_iter()
+                        .map(|part| self.graph.multiply(factor, part))
+                        .collect(),
+                )
+            }
+            Some(Value::Matrix(rows)) => Value::Matrix(rows.into_iter().map(&mut scaled).collect()),
+            Some(other) => other,
+        })
+    }
+
+    pub(super) fn dot(&mut self, a: &[Id], b: &[Id]) -> Id {
+        let products: Vec<_> = a
+            .iter()
+            .zip(b)
+            .map(|(&a, &b)| (Number::one(), self.graph.multiply(a, b)))
+            .collect();
+        self.graph.sum(products)
+    }
+
+    pub(super) fn root(&mut self, x: Id, at: &Expression) -> Result<Id, Error> {
+        if self.graph.value(x).is_some_and(Signed::is_negative) {
+            let kind = ErrorKind::Domain {
+                value: self.text(at),
+                function: "sqrt",
+                needs: "a number that is not negative",
+            };
+            return self.error(at, kind);
+        }
+        Ok(self.graph.power(x, BigRational::new(1.into(), 2.into())))
+    }
+
+    pub(super) fn power(&mut self, base: &Expression, exponent: &Expression) -> Result<Id, Error> {
+        let number = constant(exponent);
+        // Even powers of a length have no root, and higher ones of |x| are smooth.
+        if let (Kind::Bars(inner), Some(number)) = (&base.kind, &number) {
+            let value = self.value(inner)?;
+            let even = (number / integer(2)).is_integer();
+            let square = match self.whole(value) {
+                Value::Vector(parts) => Some(self.dot(&parts, &parts)),
+                Value::Scalar(id) if even || *number > integer(2) => {
+                    Some(self.graph.power(id, integer(2)))
+                }
+                _ => None,
+            };
+            if let Some(square) = square {
+                return self.number_power(square, number / integer(2), base);
+            }
+        }
+        let value = self.value(base)?;
+        let x = match self.whole(value) {
+            Value::Scalar(id) => id,
+            found => {
+                return self.mismatch(base, &found, "a number (the square of a vector is `|v|^2`)");
+            }
+        };
+        match number {
+            Some(number) => {
+                let large = integer(MOST_EXPONENT);
+                if number.abs() > large || *number.denom() > MOST_EXPONENT.into() {
+                    let kind = ErrorKind::Type {
+                        found: format!("the exponent `{}`", self.text(exponent)),
+                        expected: format!("one up to {MOST_EXPONENT}"),
+                    };
+                    return self.error(exponent, kind);
+                }
+                self.number_power(x, number, base)
+            }
+            None => {
+                // exp(e ln x)
+                let exponent = self.scalar(exponent)?;
+                let logarithm = self.graph.elementary(Elementary::Ln, x);
+                let product = self.graph.multiply(exponent, logarithm);
+                Ok(self.graph.elementary(Elementary::Exp, product))
+            }
+        }
+    }
+
+    pub(super) fn number_power(
+        &mut self,
+        x: Id,
+        exponent: Number,
+        at: &Expression,
+    ) -> Result<Id, Error> {
+        if let Some(value) = self.graph.value(x) {
+            if value.is_zero() && exponent.is_negative() {
+                return self.error(at, ErrorKind::DivisionByZero);
+            }
+            if value.is_negative() && !exponent.is_integer() {
+                let kind = ErrorKind::Domain {
+                    value: self.text(at),
+                    function: "a fractional power",
+                    needs: "a number that is not negative",
+                };
+                return self.error(at, kind);
+            }
+        }
+        Ok(self.graph.power(x, exponent))
+    }
+
+    pub(super) fn call(
+        &mut self,
+        function: &Name,
+        arguments: &[Expression],
+        at: &Expression,
+    ) -> Result<Value, Error> {
+        let name = function.text.as_str();
+        if NOT_SMOOTH.contains(&name) {
+            return Err(self.input.error(&function.span, kink(name).into()));
+        }
+        if let Some(Value::Abbreviation(k)) = self.names.get(name).cloned() {
+            return self.expand(k, arguments, at);
+        }
+        let two = matches!(name, "dot" | "cross" | "hypot" | "atan2");
+        if arguments.len() != 1 + usize::from(two) {
+            let kind = ErrorKind::Arguments {
+                function: name.to_owned(),
+                expected: if two { "two arguments" } else { "one argument" }.to_owned(),
+                found: arguments.len().to_string(),
+            };
+            return self.error(at, kind);
+        }
+        if let Some(user) = self
+            .definition
+            .functions
+            .iter()
+            .position(|[known, ..]| known.text == name)
+        {
+            let x = self.scalar(&arguments[0])?;
+            return Ok(Value::Scalar(self.graph.user(user, 0, x)));
+        }
+        if let Some(function) = Function::find(name) {
+            let x = self.scalar(&arguments[0])?;
+            return Ok(Value::Scalar(match function {
+                Function::Sqrt => self.root(x, &arguments[0])?,
+                Function::Elementary(Elementary::Ln)
+                    if self
+                        .graph
+                        .value(x)
+                        .is_some_and(|value| !value.is_positive()) =>
+                {
+                    let kind = ErrorKind::Domain {
+                        value: self.text(at),
+                        function: "ln",
+                        needs: "a positive number",
+                    };
+                    return self.error(at, kind);
+                }
+                Function::Elementary(function) => self.graph.elementary(function, x),
+            }));
+        }
+        let both = |this: &mut Self| -> Result<[Vec<Id>; 2], Error> {
+            let mut sides = [Vec::new(), Vec::new()];
+            for (side, written) in sides.iter_mut().zip(arguments) {
+                let value = this.value(written)?;
+                *side = this.components(value, written)?;
+            }
+            if sides[0].len() != sides[1].len() {
+                let found = Value::Vector(sides[1].clone());
+                let expected = format!("a vector of {} components", sides[0].len());
+                return this.mismatch(&arguments[1], &found, &expected);
+            }
+            Ok(sides)
+        };
+        Ok(match name {
+            "norm" => {
+                let value = self.value(&arguments[0])?;
+                let parts = self.components(value, &arguments[0])?;
+                let square = self.dot(&parts, &parts);
+                Value::Scalar(self.root(square, &arguments[0])?)
+            }
+            "dot" => {
+                let [a, b] = both(self)?;
+                Value::Scalar(self.dot(&a, &b))
+            }
+            "cross" => {
+                let [a, b] = both(self)?;
+                let mut minor = |i: usize, j: usize| {
+                    let (plus, minus) = (
+                        self.graph.multiply(a[i], b[j]),
+                        self.graph.multiply(a[j], b[i]),
+                    );
+                    self.graph
+                        .sum([(Number::one(), plus), (-Number::one(), minus)])
+                };
+                match a.len() {
+                    2 => Value::Scalar(minor(0, 1)),
+                    3 => Value::Vector(vec![minor(1, 2), minor(2, 0), minor(0, 1)]),
+                    _ => {
+                        return self.mismatch(
+                            &arguments[0],
+                            &Value::Vector(a),
+                            "a vector of 2 or 3 components",
+                        );
+                    }
+                }
+            }
+            "hypot" | "atan2" => {
+                let [a, b] = [self.scalar(&arguments[0])?, self.scalar(&arguments[1])?];
+                Value::Scalar(match name {
+                    "atan2" => self.graph.atan2(a, b),
+                    _ => {
+                        let square = self.dot(&[a, b], &[a, b]);
+                        self.root(square, at)?
+                    }
+                })
+            }
+            _ => {
+                let known = "sqrt, exp, ln, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, hypot, atan2, norm, dot, cross";
+                let kind = ErrorKind::Unknown {
+                    what: "function",
+                    name: name.to_owned(),
+                    known: known.to_owned(),
+                };
+                return Err(self.input.error(&function.span, kind));
+            }
+        })
+    }
+}
+
+/// The error of a function that is not smooth.
+pub(super) fn kink(function: &str) -> FormulaError {
+    let (defect, instead) = match function {
+        "floor" | "ceil" | "round" | "mod" | "sign" => ("jumps", "use a smooth function"),
+        _ => (
+            "a kink",
+            "use a square, a power above 2 as in `|x|^3`, or `sqrt(x^2 + a^2)`",
+        ),
+    };
+    FormulaError::NotSmooth {
+        function: format!("`{function}`"),
+        defect,
+        instead,
+    }
+}

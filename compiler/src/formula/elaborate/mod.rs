@@ -1,0 +1,239 @@
+//! From a definition as written to a graph: what names mean, which shapes values have, which indices are inside.
+
+mod arithmetic;
+mod declarations;
+mod indices;
+mod totals;
+mod values;
+
+use std::collections::HashMap;
+
+use self::declarations::{layout, parameters};
+pub use self::totals::STRETCH;
+use super::error::FormulaError;
+use super::graph::{Base, Coordinate, Graph, Half, Id, Index, LoopId, Node};
+use super::syntax::{CoordinatesKind, Definition, Length, Span};
+use super::system::{Bonds, Invariant, Layout, Parameter, Shape, System};
+use crate::error::Error;
+use crate::expression::Input;
+
+/// The longest array that is written out where it is used as a whole.
+const MOST_COMPONENTS: usize = 64;
+/// The largest exponent, and the largest denominator of one.
+const MOST_EXPONENT: i64 = 1000;
+
+/// A value: a number, or several.
+#[derive(Debug, Clone)]
+enum Value {
+    Scalar(Id),
+    Vector(Vec<Id>),
+    Matrix(Vec<Vec<Id>>),
+    /// Positions or momenta as a whole.
+    Half(Half),
+    /// A parameter as a whole.
+    Parameter(usize),
+    /// The index of a loop, or a length.
+    Index(Index),
+    /// An abbreviation with arguments.
+    Abbreviation(usize),
+}
+
+/// Elaborates a definition.
+///
+/// # Errors
+/// Unknown names, wrong shapes, indices outside, functions that are not smooth, each at its place.
+pub fn elaborate(input: Input<'_>, definition: &Definition) -> Result<System, Error> {
+    let layout = layout(input, definition)?;
+    let parameters = parameters(input, definition, &layout)?;
+    let elaborator = Elaborator {
+        input,
+        definition,
+        layout,
+        parameters,
+        graph: Graph::default(),
+        names: HashMap::new(),
+        locals: Vec::new(),
+        expansions: 0,
+        loops: Vec::new(),
+        bonds: Vec::new(),
+        least: 0,
+        places: HashMap::new(),
+    };
+    elaborator.run()
+}
+
+struct Elaborator<'a> {
+    input: Input<'a>,
+    definition: &'a Definition,
+    layout: Layout,
+    parameters: Vec<Parameter>,
+    graph: Graph,
+    /// What names mean.
+    names: HashMap<String, Value>,
+    /// Those of them that have a meaning in a part of the formula only.
+    locals: Vec<String>,
+    /// How many abbreviations with arguments were written out.
+    expansions: usize,
+    /// The loops in which the expression stands that is read.
+    loops: Vec<LoopId>,
+    bonds: Vec<Bonds>,
+    /// How many coordinates there have to be at least.
+    least: usize,
+    /// Where a node was read first.
+    places: HashMap<Id, Span>,
+}
+
+impl Elaborator<'_> {
+    fn run(mut self) -> Result<System, Error> {
+        let definition = self.definition;
+        if let Layout::Named(names) = self.layout.clone() {
+            for (half, names) in [Half::Q, Half::P].into_iter().zip(&names) {
+                for (k, name) in names.iter().enumerate() {
+                    let coordinate = Coordinate {
+                        half,
+                        index: Index::number(k as i64),
+                        component: 0,
+                    };
+                    let id = self.graph.coordinate(coordinate);
+                    self.names.insert(name.clone(), Value::Scalar(id));
+                }
+            }
+        }
+        for (k, parameter) in self.parameters.iter().enumerate() {
+            let value = match parameter.shape {
+                Shape::Number(_) => Value::Scalar(self.graph.parameter(k, Vec::new())),
+                Shape::Array(_) | Shape::Pairs => Value::Parameter(k),
+            };
+            self.names.insert(parameter.name.clone(), value);
+        }
+        for length in &definition.lengths {
+            let index = Index::of(Base::End(Length::Generic(length.text.clone())));
+            self.names.insert(length.text.clone(), Value::Index(index));
+        }
+        for (half, name) in [(Half::Q, "q"), (Half::P, "p")] {
+            self.names.insert(name.to_owned(), Value::Half(half));
+        }
+        for (k, abbreviation) in definition.abbreviations.iter().enumerate() {
+            let name = &abbreviation.name;
+            if self.names.contains_key(&name.text) {
+                return Err(self.taken(name));
+            }
+            let value = match abbreviation.arguments.is_empty() {
+                true => self.value(&abbreviation.value)?,
+                false => Value::Abbreviation(k),
+            };
+            self.names.insert(name.text.clone(), value);
+        }
+        let Some(written) = &definition.energy else {
+            let kind = FormulaError::Missing {
+                part: "Hamiltonian",
+                example: "H = p^2/2 - cos(q)",
+            };
+            return Err(self.input.error(&definition.name.span, kind.into()));
+        };
+        let energy = self.scalar(written)?;
+        let invariants = definition.invariants.iter().map(|(name, written)| {
+            let (parts, scalar) = match self.value(written)? {
+                Value::Scalar(id) => (vec![id], true),
+                value => (self.components(value, written)?, false),
+            };
+            Ok(Invariant {
+                name: name.text.clone(),
+                span: name.span.clone(),
+                parts,
+                scalar,
+            })
+        });
+        let invariants = invariants.collect::<Result<Vec<_>, Error>>()?;
+        self.all_appear(energy)?;
+        Ok(System {
+            name: definition.name.text.clone(),
+            lengths: definition
+                .lengths
+                .iter()
+                .map(|length| length.text.clone())
+                .collect(),
+            parameters: self.parameters,
+            layout: self.layout,
+            ends: definition.ends.as_ref().map(|(ends, _)| *ends),
+            functions: definition
+                .functions
+                .iter()
+                .map(|all| all.clone().map(|name| name.text))
+                .collect(),
+            graph: self.graph,
+            energy,
+            invariants,
+            required: definition.required.clone(),
+            bonds: self.bonds,
+            least: self.least,
+            places: self.places,
+        })
+    }
+
+    /// What a name is, in a message.
+    fn meaning(&self, name: &str) -> String {
+        match self.names.get(name) {
+            Some(Value::Half(Half::Q)) => "the positions".to_owned(),
+            Some(Value::Half(Half::P)) => "the momenta".to_owned(),
+            Some(Value::Parameter(_)) => "a parameter".to_owned(),
+            Some(Value::Index(_)) => "an index or a length".to_owned(),
+            _ if self
+                .parameters
+                .iter()
+                .any(|parameter| parameter.name == name) =>
+            {
+                "a parameter".to_owned()
+            }
+            _ if self.layout.names().any(|known| known == name) => {
+                "a coordinate or momentum".to_owned()
+            }
+            _ => "an abbreviation".to_owned(),
+        }
+    }
+
+    /// Every momentum, and every coordinate or its momentum, is in H.
+    fn all_appear(&self, energy: Id) -> Result<(), Error> {
+        let below = self.graph.below([energy]);
+        let appears = |half: Half, k: Option<i64>| {
+            below.iter().any(|&id| match self.graph.node(id) {
+                Node::Coordinate(found) => {
+                    found.half == half && k.is_none_or(|k| found.index == Index::number(k))
+                }
+                _ => false,
+            })
+        };
+        let unused = |span: &Span, coordinate: String| {
+            Err(self
+                .input
+                .error(span, FormulaError::Unused { coordinate }.into()))
+        };
+        let spans = self.definition.coordinates.iter().flatten();
+        let [q, p] = [0, 1].map(|k| spans.clone().nth(k));
+        let (Some(q), Some(p)) = (q, p) else {
+            return Ok(());
+        };
+        if let (CoordinatesKind::Named(positions), CoordinatesKind::Named(momenta)) =
+            (&q.kind, &p.kind)
+        {
+            for (k, (position, momentum)) in positions.iter().zip(momenta).enumerate() {
+                let k = Some(k as i64);
+                if !appears(Half::P, k) {
+                    let neither = !appears(Half::Q, k);
+                    return match neither {
+                        true => unused(
+                            &position.span,
+                            format!("`{}` and its momentum `{}`", position.text, momentum.text),
+                        ),
+                        false => {
+                            unused(&momentum.span, format!("the momentum `{}`", momentum.text))
+                        }
+                    };
+                }
+            }
+        } else if !appears(Half::P, None) {
+            return unused(&p.span, "the momentum `p`".to_owned());
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,206 @@
+//! Values with their shapes, names, and errors about them.
+
+use super::arithmetic::kink;
+use super::{Elaborator, MOST_COMPONENTS, Value};
+use crate::error::{Error, ErrorKind};
+use crate::formula::error::FormulaError;
+use crate::formula::graph::{Coordinate, Half, Id, Index};
+use crate::formula::syntax::{Expression, Kind, Length, Name};
+use crate::formula::system::{Layout, Shape};
+
+impl Elaborator<'_> {
+    /// The error where a name has a meaning already.
+    pub(super) fn taken(&self, name: &Name) -> Error {
+        let meaning = self.meaning(&name.text);
+        let kind = FormulaError::Taken {
+            name: name.text.clone(),
+            meaning,
+        };
+        self.input.error(&name.span, kind.into())
+    }
+
+    pub(super) fn error<T>(&self, at: &Expression, kind: impl Into<ErrorKind>) -> Result<T, Error> {
+        Err(self.input.error(&at.span, kind.into()))
+    }
+
+    pub(super) fn text(&self, at: &Expression) -> String {
+        self.input.text[at.span.clone()].to_owned()
+    }
+
+    pub(super) fn mismatch<T>(
+        &self,
+        at: &Expression,
+        found: &Value,
+        expected: &str,
+    ) -> Result<T, Error> {
+        let found = format!("`{}` is {}", self.text(at), self.shape(found));
+        let expected = expected.to_owned();
+        self.error(at, ErrorKind::Type { found, expected })
+    }
+
+    pub(super) fn shape(&self, value: &Value) -> String {
+        match value {
+            Value::Scalar(_) => "a number".to_owned(),
+            Value::Vector(parts) => format!("a vector of {} components", parts.len()),
+            Value::Matrix(rows) => format!("a matrix of {} rows", rows.len()),
+            Value::Half(Half::Q) => "the array of all positions".to_owned(),
+            Value::Half(Half::P) => "the array of all momenta".to_owned(),
+            Value::Parameter(k) => format!("the whole parameter `{}`", self.parameters[*k].name),
+            Value::Index(_) => "an index".to_owned(),
+            Value::Abbreviation(_) => "an abbreviation with arguments".to_owned(),
+        }
+    }
+
+    pub(super) fn scalar(&mut self, written: &Expression) -> Result<Id, Error> {
+        match self.value(written)? {
+            Value::Scalar(id) => Ok(id),
+            other => self.mismatch(written, &other, "a number"),
+        }
+    }
+
+    pub(super) fn components(&mut self, value: Value, at: &Expression) -> Result<Vec<Id>, Error> {
+        match self.whole(value) {
+            Value::Vector(parts) => Ok(parts),
+            other => self.mismatch(at, &other, "a vector"),
+        }
+    }
+
+    /// A short array as the vector or the matrix of its entries.
+    pub(super) fn whole(&mut self, value: Value) -> Value {
+        let fixed = |length: &Length| match length {
+            Length::Fixed(n) if *n <= MOST_COMPONENTS => Some(*n),
+            _ => None,
+        };
+        match &value {
+            Value::Half(half) => {
+                let count = match &self.layout {
+                    Layout::Named([names, _]) => Some(names.len()),
+                    Layout::Numbered(length, None) => fixed(length),
+                    Layout::Numbered(..) => None,
+                };
+                let Some(count) = count else {
+                    return value;
+                };
+                let entry = |k| Coordinate {
+                    half: *half,
+                    index: Index::number(k),
+                    component: 0,
+                };
+                Value::Vector(
+                    (0..count as i64)
+                        .map(|k| self.graph.coordinate(entry(k)))
+                        .collect(),
+                )
+            }
+            Value::Parameter(parameter) => {
+                let Shape::Array(lengths) = &self.parameters[*parameter].shape else {
+                    return value;
+                };
+                let lengths: Option<Vec<usize>> = lengths.iter().map(fixed).collect();
+                let mut entry = |indices: &[usize]| {
+                    let indices = indices.iter().map(|&k| Index::number(k as i64)).collect();
+                    self.graph.parameter(*parameter, indices)
+                };
+                match lengths.as_deref() {
+                    Some([n]) => Value::Vector((0..*n).map(|k| entry(&[k])).collect()),
+                    Some([n, m]) => {
+                        let rows = (0..*n).map(|i| (0..*m).map(|j| entry(&[i, j])).collect());
+                        Value::Matrix(rows.collect())
+                    }
+                    _ => value,
+                }
+            }
+            _ => value,
+        }
+    }
+
+    pub(super) fn value(&mut self, written: &Expression) -> Result<Value, Error> {
+        let value = self.value_of(written)?;
+        if let Value::Scalar(id) = value {
+            self.places
+                .entry(id)
+                .or_insert_with(|| written.span.clone());
+        }
+        Ok(value)
+    }
+
+    pub(super) fn value_of(&mut self, written: &Expression) -> Result<Value, Error> {
+        Ok(match &written.kind {
+            Kind::Number(number) => Value::Scalar(self.graph.constant(number.clone())),
+            Kind::Name(name) => self.name(name, written)?,
+            Kind::Sum(terms) => self.sum(terms)?,
+            Kind::Product(factors) => self.product(factors)?,
+            Kind::Power(base, exponent) => Value::Scalar(self.power(base, exponent)?),
+            Kind::Entry(array, indices) => self.entry(array, indices)?,
+            Kind::Call(function, arguments) => self.call(function, arguments, written)?,
+            Kind::Bars(inner) => {
+                let value = self.value(inner)?;
+                match self.whole(value) {
+                    Value::Scalar(_) => return self.error(written, kink("|…| of a number")),
+                    Value::Vector(parts) => {
+                        let square = self.dot(&parts, &parts);
+                        Value::Scalar(self.root(square, inner)?)
+                    }
+                    other => return self.mismatch(inner, &other, "a vector"),
+                }
+            }
+            Kind::List(items) => {
+                let parts: Result<Vec<Id>, Error> =
+                    items.iter().map(|item| self.scalar(item)).collect();
+                Value::Vector(parts?)
+            }
+            Kind::Total(over, body) => self.total(over, body, written)?,
+        })
+    }
+
+    pub(super) fn name(&mut self, name: &str, at: &Expression) -> Result<Value, Error> {
+        if let Some(value) = self.names.get(name) {
+            return Ok(value.clone());
+        }
+        match name {
+            "pi" => return Ok(Value::Scalar(self.graph.pi())),
+            "t" => return Ok(Value::Scalar(self.graph.time())),
+            _ => {}
+        }
+        let mut known: Vec<&str> = self
+            .names
+            .keys()
+            .map(String::as_str)
+            .chain(["pi", "t"])
+            .collect();
+        known.sort_unstable();
+        let nearest = nearest(name, &known);
+        let known = match nearest {
+            Some(nearest) => format!("{}; did you mean `{nearest}`?", known.join(", ")),
+            None => known.join(", "),
+        };
+        self.error(
+            at,
+            ErrorKind::Unknown {
+                what: "name",
+                name: name.to_owned(),
+                known,
+            },
+        )
+    }
+}
+
+/// The known name that differs least, if by little.
+fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    let distance = |other: &str| {
+        let (a, b): (Vec<char>, Vec<char>) = (name.chars().collect(), other.chars().collect());
+        let mut row: Vec<usize> = (0..=b.len()).collect();
+        for (i, x) in a.iter().enumerate() {
+            let mut diagonal = row[0];
+            row[0] = i + 1;
+            for (j, y) in b.iter().enumerate() {
+                let change = diagonal + usize::from(x != y);
+                diagonal = row[j + 1];
+                row[j + 1] = change.min(row[j] + 1).min(diagonal + 1);
+            }
+        }
+        row[b.len()]
+    };
+    let close = known.iter().map(|other| (distance(other), *other)).min()?;
+    (close.0 <= 1 + name.chars().count() / 4).then_some(close.1)
+}

@@ -1,0 +1,90 @@
+//! What can be wrong with a formula, beyond what can be wrong with any expression.
+
+/// The kinds of wrong formulas.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FormulaError {
+    /// A name with two meanings.
+    #[error("`{name}` is {meaning} already; choose another name")]
+    Taken {
+        /// The name.
+        name: String,
+        /// What it is.
+        meaning: String,
+    },
+    /// A part of the definition that has to be there.
+    #[error("the system has no {part}: write `{example}`")]
+    Missing {
+        /// What is missing.
+        part: &'static str,
+        /// How it is written.
+        example: &'static str,
+    },
+    /// A part that is there twice.
+    #[error("{part} is given twice")]
+    Twice {
+        /// What it is.
+        part: String,
+    },
+    /// A coordinate without influence.
+    #[error("H does not depend on {coordinate}")]
+    Unused {
+        /// The coordinate or momentum.
+        coordinate: String,
+    },
+    /// A function with a kink or a jump.
+    #[error("{function} has {defect}: H must be twice continuously differentiable; {instead}")]
+    NotSmooth {
+        /// The function.
+        function: String,
+        /// What is wrong with it.
+        defect: &'static str,
+        /// What to do.
+        instead: &'static str,
+    },
+    /// A quotient with a product after it.
+    #[error("is it `a / (b c)` or `(a / b) c`? Write the parentheses")]
+    AmbiguousQuotient,
+    /// An index beyond an array.
+    #[error("the index {index} of `{name}` is not between 0 and {last}")]
+    IndexRange {
+        /// The index.
+        index: String,
+        /// The array.
+        name: String,
+        /// The largest index.
+        last: String,
+    },
+    /// A sum without an end.
+    #[error(
+        "the range of the sum is not known: write `sum({index} in 0..n: …)` with a number or a length of the system for n"
+    )]
+    Unbounded {
+        /// The index.
+        index: String,
+    },
+    /// A property that is required and does not hold.
+    #[error("the system is not {property}: {reason}")]
+    Property {
+        /// What is required.
+        property: &'static str,
+        /// Why it does not hold.
+        reason: String,
+    },
+    /// A function of the state that changes along solutions.
+    #[error("`{name}` is not conserved: {{{name}, H}} is {bracket} at a random state, not 0")]
+    NotConserved {
+        /// The name of the invariant.
+        name: String,
+        /// The Poisson bracket.
+        bracket: String,
+    },
+    /// Something that is not built for this kind of system.
+    #[error("{what} is not supported here: {instead}")]
+    Unsupported {
+        /// What was written.
+        what: String,
+        /// What to do instead.
+        instead: &'static str,
+    },
+}

@@ -1,0 +1,681 @@
+//! A formula as a graph in which equal parts are one node.
+//!
+//! Nodes are made by the functions of [`Graph`] only, which bring them into one form. What they change is exact: factors that are numbers
+//! are collected, equal terms and equal factors are joined, and terms and factors are put in the order in which they first appeared in the
+//! formula. Nothing is expanded: a sum in parentheses stays a term, a product in parentheses a factor.
+
+use std::collections::HashMap;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+use super::function::Elementary;
+use super::syntax::Length;
+
+/// An exact number.
+pub type Number = BigRational;
+
+/// A node of a [`Graph`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Id(u32);
+
+/// Positions or momenta.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Half {
+    /// Positions.
+    Q,
+    /// Momenta.
+    P,
+}
+
+/// A loop over one index, or over the pairs of a list.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Loop {
+    /// What it goes over.
+    pub range: LoopRange,
+    /// In how many other loops it stands.
+    pub depth: usize,
+}
+
+/// What a loop goes over.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum LoopRange {
+    /// From the first index to before the second.
+    Between(Index, Index),
+    /// The pairs of a parameter.
+    List(usize),
+}
+
+/// A loop, by its number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct LoopId(pub usize);
+
+/// The index of an entry: a base and an offset.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Index {
+    /// What the offset is added to.
+    pub base: Base,
+    /// What is added.
+    pub offset: i64,
+}
+
+/// What an index is counted from.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Base {
+    /// Zero.
+    Start,
+    /// The end of an array.
+    End(Length),
+    /// The index of a loop over a range.
+    Loop(LoopId),
+    /// The first or the second index of a pair in a list.
+    Pair(LoopId, usize),
+}
+
+impl Index {
+    /// A number.
+    pub fn number(offset: i64) -> Self {
+        Index {
+            base: Base::Start,
+            offset,
+        }
+    }
+
+    /// The index of a loop.
+    pub fn of(base: Base) -> Self {
+        Index { base, offset: 0 }
+    }
+
+    /// The loop that the index changes in.
+    pub fn loop_id(&self) -> Option<LoopId> {
+        match self.base {
+            Base::Loop(id) | Base::Pair(id, _) => Some(id),
+            Base::Start | Base::End(_) => None,
+        }
+    }
+}
+
+/// A coordinate or momentum.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Coordinate {
+    /// Which half of the state.
+    pub half: Half,
+    /// Which one.
+    pub index: Index,
+    /// Which component, where each is a vector.
+    pub component: usize,
+}
+
+/// What a node is.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A number.
+    Constant(Number),
+    /// π
+    Pi,
+    /// The time.
+    Time,
+    /// A parameter, or an entry of one.
+    Parameter(usize, Vec<Index>),
+    /// A coordinate or momentum.
+    Coordinate(Coordinate),
+    /// `Σ c x + constant`
+    Sum(Vec<(Number, Id)>, Number),
+    /// `Π xᵉ`
+    Product(Vec<(Id, Number)>),
+    /// An elementary function.
+    Elementary(Elementary, Id),
+    /// The angle of the point (second, first).
+    Atan2(Id, Id),
+    /// A function of the user, or one of its derivatives.
+    User(usize, usize, Id),
+    /// A sum over a loop.
+    Total(LoopId, Id),
+}
+
+/// What a node depends on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Dependence {
+    /// On positions.
+    pub q: bool,
+    /// On momenta.
+    pub p: bool,
+    /// On the time.
+    pub time: bool,
+    /// The loops in which its value changes, as bits.
+    pub loops: u64,
+}
+
+impl Dependence {
+    fn join(&mut self, other: Self) {
+        self.q |= other.q;
+        self.p |= other.p;
+        self.time |= other.time;
+        self.loops |= other.loops;
+    }
+
+    /// Whether it depends on a half of the state.
+    pub fn on(self, half: Half) -> bool {
+        match half {
+            Half::Q => self.q,
+            Half::P => self.p,
+        }
+    }
+
+    /// Whether it is a function of parameters only.
+    pub fn is_fixed(self) -> bool {
+        !(self.q || self.p || self.time)
+    }
+
+    /// Whether it changes in a loop.
+    pub fn changes_in(self, id: LoopId) -> bool {
+        self.loops & (1 << id.0) != 0
+    }
+}
+
+/// Most factors of a product; a longer one is a product of products.
+const MOST_FACTORS: usize = 8;
+/// Most loops of a formula.
+pub const MOST_LOOPS: usize = 64;
+
+/// The nodes of formulas.
+#[derive(Debug, Clone, Default)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    depends: Vec<Dependence>,
+    ids: HashMap<Node, Id>,
+    loops: Vec<Loop>,
+}
+
+impl Graph {
+    /// What a node is.
+    pub fn node(&self, id: Id) -> &Node {
+        &self.nodes[id.0 as usize]
+    }
+
+    /// What a node depends on.
+    pub fn depends(&self, id: Id) -> Dependence {
+        self.depends[id.0 as usize]
+    }
+
+    /// A loop.
+    pub fn get_loop(&self, id: LoopId) -> &Loop {
+        &self.loops[id.0]
+    }
+
+    /// The number of a loop; `None` where there are too many.
+    pub fn add_loop(&mut self, new: Loop) -> Option<LoopId> {
+        let found = self.loops.iter().position(|known| *known == new);
+        if found.is_none() && self.loops.len() == MOST_LOOPS {
+            return None;
+        }
+        Some(LoopId(found.unwrap_or_else(|| {
+            self.loops.push(new);
+            self.loops.len() - 1
+        })))
+    }
+
+    /// The loops in which the range of a loop changes.
+    pub fn range_loops(&self, id: LoopId) -> u64 {
+        let LoopRange::Between(start, end) = &self.loops[id.0].range else {
+            return 0;
+        };
+        bits(start) | bits(end)
+    }
+
+    fn add(&mut self, node: Node) -> Id {
+        if let Some(&id) = self.ids.get(&node) {
+            return id;
+        }
+        let mut depends = Dependence::default();
+        match &node {
+            Node::Time => depends.time = true,
+            Node::Coordinate(coordinate) => {
+                depends.q = coordinate.half == Half::Q;
+                depends.p = coordinate.half == Half::P;
+                depends.loops = bits(&coordinate.index);
+            }
+            Node::Parameter(_, indices) => {
+                depends.loops = indices.iter().map(bits).fold(0, |all, bits| all | bits);
+            }
+            _ => {
+                for child in children(&node) {
+                    depends.join(self.depends(child));
+                }
+            }
+        }
+        if let Node::Total(id, _) = node {
+            depends.loops &= !(1 << id.0);
+            depends.loops |= self.range_loops(id);
+        }
+        let id = Id(self.nodes.len() as u32);
+        self.nodes.push(node.clone());
+        self.depends.push(depends);
+        self.ids.insert(node, id);
+        id
+    }
+
+    /// A number.
+    pub fn constant(&mut self, value: Number) -> Id {
+        self.add(Node::Constant(value))
+    }
+
+    /// A whole number.
+    pub fn integer(&mut self, value: i64) -> Id {
+        self.constant(integer(value))
+    }
+
+    /// π
+    pub fn pi(&mut self) -> Id {
+        self.add(Node::Pi)
+    }
+
+    /// The time.
+    pub fn time(&mut self) -> Id {
+        self.add(Node::Time)
+    }
+
+    /// A parameter.
+    pub fn parameter(&mut self, parameter: usize, indices: Vec<Index>) -> Id {
+        self.add(Node::Parameter(parameter, indices))
+    }
+
+    /// A coordinate.
+    pub fn coordinate(&mut self, coordinate: Coordinate) -> Id {
+        self.add(Node::Coordinate(coordinate))
+    }
+
+    /// The value of a node that is a number.
+    pub fn value(&self, id: Id) -> Option<&Number> {
+        match self.node(id) {
+            Node::Constant(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Whether a node is the number 0.
+    pub fn is_zero(&self, id: Id) -> bool {
+        self.value(id).is_some_and(Zero::is_zero)
+    }
+
+    /// A node as a number times another.
+    pub fn scaled(&self, id: Id) -> (Number, Id) {
+        match self.node(id) {
+            Node::Sum(terms, constant) if terms.len() == 1 && constant.is_zero() => {
+                terms[0].clone()
+            }
+            _ => (Number::one(), id),
+        }
+    }
+
+    /// `factor·x`
+    pub fn scale(&mut self, factor: Number, x: Id) -> Id {
+        self.sum([(factor, x)])
+    }
+
+    /// `Σ c x`
+    pub fn sum(&mut self, terms: impl IntoIterator<Item = (Number, Id)>) -> Id {
+        let mut constant = Number::zero();
+        let mut list: Vec<(Number, Id)> = Vec::new();
+        for (factor, x) in terms {
+            let (inner, x) = self.scaled(x);
+            match self.value(x) {
+                Some(value) => constant += factor * inner * value,
+                None => list.push((factor * inner, x)),
+            }
+        }
+        list.sort_by_key(|&(_, x)| x);
+        let mut joined: Vec<(Number, Id)> = Vec::with_capacity(list.len());
+        for (factor, x) in list {
+            match joined.last_mut() {
+                Some(last) if last.1 == x => last.0 += factor,
+                _ => joined.push((factor, x)),
+            }
+        }
+        joined.retain(|(factor, _)| !factor.is_zero());
+        match joined.as_slice() {
+            [] => return self.constant(constant),
+            [(factor, x)] if factor.is_one() && constant.is_zero() => return *x,
+            _ => {}
+        }
+        // d and −d are one node and its negative.
+        if joined.len() > 1 && constant.is_zero() && joined[0].0.is_negative() {
+            for term in &mut joined {
+                term.0 = -&term.0;
+            }
+            let negative = self.add(Node::Sum(joined, constant));
+            return self.add(Node::Sum(vec![(-Number::one(), negative)], Number::zero()));
+        }
+        self.add(Node::Sum(joined, constant))
+    }
+
+    /// `factor·Π xᵉ`; 0 is not to a negative power.
+    pub fn product(
+        &mut self,
+        factor: Number,
+        factors: impl IntoIterator<Item = (Id, Number)>,
+    ) -> Id {
+        let mut factor = factor;
+        let mut list: Vec<(Id, Number)> = Vec::new();
+        for (x, exponent) in factors {
+            let (scale, x) = self.scaled(x);
+            match exponent.is_integer().then(|| exponent.to_i64()).flatten() {
+                // A number of its own.
+                Some(power) if scale.is_one() || power.abs() <= 64 => {
+                    factor *= whole_power(&scale, power);
+                    match self.value(x) {
+                        Some(value) if power.abs() <= 64 && (power >= 0 || !value.is_zero()) => {
+                            factor *= whole_power(&value.clone(), power);
+                        }
+                        _ => self.factor(&mut list, x, exponent),
+                    }
+                }
+                _ => {
+                    let whole = self.scale(scale, x);
+                    self.factor(&mut list, whole, exponent);
+                }
+            }
+        }
+        if factor.is_zero() {
+            return self.constant(factor);
+        }
+        list.sort_by_key(|&(x, _)| x);
+        let mut joined: Vec<(Id, Number)> = Vec::with_capacity(list.len());
+        for (x, exponent) in list {
+            match joined.last_mut() {
+                Some(last) if last.0 == x => last.1 += exponent,
+                _ => joined.push((x, exponent)),
+            }
+        }
+        joined.retain(|(_, exponent)| !exponent.is_zero());
+        self.absolute_values(&mut joined);
+        let x = match joined.as_slice() {
+            [] => return self.constant(factor),
+            [(x, exponent)] if exponent.is_one() => *x,
+            _ => self.product_of(joined),
+        };
+        self.scale(factor, x)
+    }
+
+    fn product_of(&mut self, factors: Vec<(Id, Number)>) -> Id {
+        if factors.len() <= MOST_FACTORS {
+            return self.add(Node::Product(factors));
+        }
+        let parts = factors
+            .chunks(MOST_FACTORS)
+            .map(<[_]>::to_vec)
+            .collect::<Vec<_>>();
+        let parts = parts.into_iter().map(|part| {
+            let single = part.len() == 1 && part[0].1.is_one();
+            let x = if single {
+                part[0].0
+            } else {
+                self.add(Node::Product(part))
+            };
+            (x, Number::one())
+        });
+        let mut parts: Vec<_> = parts.collect();
+        parts.sort_by_key(|&(x, _)| x);
+        self.product_of(parts)
+    }
+
+    /// Adds a factor; a power of a power is one power, where that is the same.
+    fn factor(&self, list: &mut Vec<(Id, Number)>, x: Id, exponent: Number) {
+        if let Node::Product(inner) = self.node(x)
+            && let [(base, power)] = inner.as_slice()
+        {
+            let even = (power.numer() % BigInt::from(2)).is_zero();
+            if exponent.is_integer() || !even {
+                return list.push((*base, power * exponent));
+            }
+        }
+        list.push((x, exponent));
+    }
+
+    /// `x²·(x²)ᵉ = (x²)ᵉ⁺¹`, which has a value at zero where the left side may have none.
+    fn absolute_values(&self, factors: &mut Vec<(Id, Number)>) {
+        let two = integer(2);
+        for k in 0..factors.len() {
+            let (square, exponent) = &factors[k];
+            let Node::Product(inner) = self.node(*square) else {
+                continue;
+            };
+            let [(base, power)] = inner.as_slice() else {
+                continue;
+            };
+            if exponent.is_integer() || *power != two {
+                continue;
+            }
+            let Some(place) = factors.iter().position(|(x, _)| x == base) else {
+                continue;
+            };
+            let whole = &factors[place].1;
+            if whole.is_integer() && *whole >= two {
+                let squares = (whole / &two).floor();
+                factors[place].1 -= &squares * &two;
+                factors[k].1 += squares;
+            }
+        }
+        factors.retain(|(_, exponent)| !exponent.is_zero());
+    }
+
+    /// `xᵉ`
+    pub fn power(&mut self, x: Id, exponent: Number) -> Id {
+        self.product(Number::one(), [(x, exponent)])
+    }
+
+    /// The product of two.
+    pub fn multiply(&mut self, a: Id, b: Id) -> Id {
+        self.product(Number::one(), [(a, Number::one()), (b, Number::one())])
+    }
+
+    /// An elementary function.
+    pub fn elementary(&mut self, function: Elementary, x: Id) -> Id {
+        use Elementary::{Acos, Asin, Atan, Cos, Cosh, Exp, Ln, Sin, Sinh, Tan, Tanh};
+        if let Some(value) = self.value(x) {
+            match function {
+                Sin | Tan | Asin | Atan | Sinh | Tanh if value.is_zero() => return self.integer(0),
+                Exp | Cos | Cosh if value.is_zero() => return self.integer(1),
+                Ln | Acos if value.is_one() => return self.integer(0),
+                _ => {}
+            }
+        }
+        let (scale, inner) = self.scaled(x);
+        if scale.is_negative() {
+            let positive = self.scale(-scale, inner);
+            match function {
+                Sin | Tan | Asin | Atan | Sinh | Tanh => {
+                    let value = self.add(Node::Elementary(function, positive));
+                    return self.scale(-Number::one(), value);
+                }
+                Cos | Cosh => return self.add(Node::Elementary(function, positive)),
+                Exp | Ln | Acos => {}
+            }
+        }
+        self.add(Node::Elementary(function, x))
+    }
+
+    /// The angle of the point `(x, y)`.
+    pub fn atan2(&mut self, y: Id, x: Id) -> Id {
+        self.add(Node::Atan2(y, x))
+    }
+
+    /// A function of the user, or one of its derivatives.
+    pub fn user(&mut self, function: usize, derivative: usize, x: Id) -> Id {
+        self.add(Node::User(function, derivative, x))
+    }
+
+    /// The sum over a loop.
+    pub fn total(&mut self, id: LoopId, body: Id) -> Id {
+        if self.is_zero(body) {
+            return body;
+        }
+        let (factor, body) = self.scaled(body);
+        let total = self.add(Node::Total(id, body));
+        self.scale(factor, total)
+    }
+
+    /// What a node is made of.
+    pub fn children(&self, id: Id) -> Vec<Id> {
+        children(self.node(id))
+    }
+
+    /// All nodes that some are made of, and these, in the order in which they can be computed.
+    pub fn below(&self, roots: impl IntoIterator<Item = Id>) -> Vec<Id> {
+        let mut found = std::collections::BTreeSet::new();
+        let mut open: Vec<Id> = roots.into_iter().collect();
+        while let Some(id) = open.pop() {
+            if found.insert(id) {
+                open.extend(self.children(id));
+            }
+        }
+        found.into_iter().collect()
+    }
+
+    /// A node with the index of another loop in place of one.
+    pub fn rename(&mut self, root: Id, from: LoopId, to: LoopId) -> Id {
+        let index = |index: &Index| {
+            let base = match &index.base {
+                Base::Loop(id) if *id == from => Base::Loop(to),
+                Base::Pair(id, slot) if *id == from => Base::Pair(to, *slot),
+                base => base.clone(),
+            };
+            Index {
+                base,
+                offset: index.offset,
+            }
+        };
+        let mut known: HashMap<Id, Id> = HashMap::new();
+        for id in self.below([root]) {
+            if !self.depends(id).changes_in(from) {
+                continue;
+            }
+            let of = |x: Id| known.get(&x).copied().unwrap_or(x);
+            let renamed = match self.node(id).clone() {
+                Node::Coordinate(coordinate) => {
+                    let index = index(&coordinate.index);
+                    self.coordinate(Coordinate {
+                        index,
+                        ..coordinate
+                    })
+                }
+                Node::Parameter(parameter, indices) => {
+                    let indices = indices.iter().map(index).collect();
+                    self.parameter(parameter, indices)
+                }
+                Node::Total(over, body) if self.range_loops(over) & (1 << from.0) != 0 => {
+                    let mut new = self.get_loop(over).clone();
+                    if let LoopRange::Between(start, end) = &mut new.range {
+                        (*start, *end) = (index(start), index(end));
+                    }
+                    let body = of(body);
+                    match self.add_loop(new) {
+                        Some(other) => {
+                            let body = self.rename(body, over, other);
+                            self.total(other, body)
+                        }
+                        None => id,
+                    }
+                }
+                _ => self.rebuild(id, of),
+            };
+            known.insert(id, renamed);
+        }
+        known.get(&root).copied().unwrap_or(root)
+    }
+
+    /// A node with another index in place of that of a loop over a range; no sum in it may change in that loop.
+    pub fn with_index(&mut self, root: Id, from: LoopId, to: &Index) -> Id {
+        let index = |index: &Index| match &index.base {
+            Base::Loop(id) if *id == from => Index {
+                base: to.base.clone(),
+                offset: index.offset + to.offset,
+            },
+            _ => index.clone(),
+        };
+        let mut known: HashMap<Id, Id> = HashMap::new();
+        for id in self.below([root]) {
+            if !self.depends(id).changes_in(from) {
+                continue;
+            }
+            let replaced = match self.node(id).clone() {
+                Node::Coordinate(coordinate) => {
+                    let index = index(&coordinate.index);
+                    self.coordinate(Coordinate {
+                        index,
+                        ..coordinate
+                    })
+                }
+                Node::Parameter(parameter, indices) => {
+                    let indices = indices.iter().map(index).collect();
+                    self.parameter(parameter, indices)
+                }
+                _ => self.rebuild(id, |x| known.get(&x).copied().unwrap_or(x)),
+            };
+            known.insert(id, replaced);
+        }
+        known.get(&root).copied().unwrap_or(root)
+    }
+
+    /// Whether there are as many loops as there can be: derivatives may be incomplete then.
+    pub fn is_full(&self) -> bool {
+        self.loops.len() == MOST_LOOPS
+    }
+
+    /// Makes a node anew with other parts.
+    pub fn rebuild(&mut self, id: Id, mut part: impl FnMut(Id) -> Id) -> Id {
+        match self.node(id).clone() {
+            Node::Sum(terms, constant) => {
+                let constant = (constant, self.integer(1));
+                let terms: Vec<_> = terms
+                    .into_iter()
+                    .map(|(factor, x)| (factor, part(x)))
+                    .collect();
+                self.sum(terms.into_iter().chain([constant]))
+            }
+            Node::Product(factors) => {
+                let factors: Vec<_> = factors
+                    .into_iter()
+                    .map(|(x, power)| (part(x), power))
+                    .collect();
+                self.product(Number::one(), factors)
+            }
+            Node::Elementary(function, x) => self.elementary(function, part(x)),
+            Node::Atan2(y, x) => self.atan2(part(y), part(x)),
+            Node::User(function, derivative, x) => self.user(function, derivative, part(x)),
+            Node::Total(id, body) => self.total(id, part(body)),
+            Node::Constant(_)
+            | Node::Pi
+            | Node::Time
+            | Node::Parameter(..)
+            | Node::Coordinate(_) => id,
+        }
+    }
+}
+
+/// A whole number.
+pub fn integer(value: i64) -> Number {
+    Number::from_integer(value.into())
+}
+
+fn bits(index: &Index) -> u64 {
+    index.loop_id().map_or(0, |id| 1 << id.0)
+}
+
+fn whole_power(base: &Number, power: i64) -> Number {
+    let size = num_traits::pow(base.clone(), power.unsigned_abs() as usize);
+    if power < 0 { size.recip() } else { size }
+}
+
+fn children(node: &Node) -> Vec<Id> {
+    match node {
+        Node::Sum(terms, _) => terms.iter().map(|&(_, x)| x).collect(),
+        Node::Product(factors) => factors.iter().map(|&(x, _)| x).collect(),
+        Node::Elementary(_, x) | Node::User(_, _, x) | Node::Total(_, x) => vec![*x],
+        Node::Atan2(y, x) => vec![*y, *x],
+        Node::Constant(_) | Node::Pi | Node::Time | Node::Parameter(..) | Node::Coordinate(_) => {
+            Vec::new()
+        }
+    }
+}

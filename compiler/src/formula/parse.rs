@@ -1,0 +1,862 @@
+//! From text to a [`Definition`].
+//!
+//! ```text
+//! system     = name [ "<" lengths ">" ] [ "{" parameters "}" ] { statement }
+//! parameter  = name [ ":" ( number | "[" shape "]" | "pairs" ) ]
+//! statement  = "q" ":" coordinates "," "p" ":" coordinates ";"    coordinates = "[" names | length [ ";" number ] "]"
+//!            | "bonds" ":" ( "walls" | "free" | "ring" ) ";"
+//!            | "extern" "fn" name "with" name "," name ";"
+//!            | "let" name [ "(" names ")" ] "=" expression ";"
+//!            | "H" "=" expression
+//!            | "invariants" ":" "{" name "=" expression { "," … } "}"
+//!            | "require" ":" "[" names "]"
+//! expression = term { ("+" | "-") term }      term = factor { [ "*" | "/" ] factor }      factor = { "-" } atom [ "^" factor ]
+//! atom       = number | name | name "(" list ")" | atom "[" list "]" | "(" expression ")" | "|" expression "|" | "[" list "]"
+//!            | "sum" "(" over ":" expression ")"
+//! over       = name [ "in" expression ".." expression ] | name "<" name | "bonds" name | [ name "=" ] "(" name "," name ")" "in" name
+//! ```
+//!
+//! Factors that follow one another are multiplied: `2 pa pb cos(d)`.
+
+use num_rational::BigRational;
+use num_traits::{One, ToPrimitive, Zero};
+
+use super::error::FormulaError;
+use super::function::Function;
+use super::syntax::{
+    Abbreviation, Coordinates, CoordinatesKind, Definition, Ends, Expression, Kind, Length, Name,
+    Over, Parameter, ParameterKind, Span,
+};
+use crate::error::{Error, ErrorKind};
+use crate::expression::{Input, number, number_end};
+
+/// The longest text that is read.
+const MAX_LENGTH: usize = 1_000_000;
+/// The deepest nesting of parentheses.
+const MAX_DEPTH: usize = 64;
+/// Words that are not names.
+pub const KEYWORDS: [&str; 12] = [
+    "H",
+    "q",
+    "p",
+    "t",
+    "pi",
+    "let",
+    "sum",
+    "bonds",
+    "extern",
+    "fn",
+    "invariants",
+    "require",
+];
+
+#[derive(Debug, Clone, PartialEq)]
+enum Token {
+    Number(BigRational),
+    Name(String),
+    Symbol(char),
+    End,
+}
+
+/// Reads a definition.
+///
+/// # Errors
+/// Anything that does not follow the grammar, at its place.
+pub fn parse(input: Input<'_>) -> Result<Definition, Error> {
+    let tokens = tokenize(input)?;
+    let mut parser = Parser {
+        input,
+        tokens,
+        next: 0,
+        depth: 0,
+        calls: Vec::new(),
+        in_bars: Vec::new(),
+    };
+    parser.definition()
+}
+
+fn tokenize(input: Input<'_>) -> Result<Vec<(Token, Span)>, Error> {
+    let text = input.text;
+    if text.len() > MAX_LENGTH {
+        let kind = ErrorKind::ExpressionSize {
+            what: "its length",
+            size: text.len(),
+            limit: MAX_LENGTH,
+        };
+        return Err(input.error(&(0..1), kind));
+    }
+    let mut tokens = Vec::new();
+    let mut position = 0;
+    while let Some(first) = text[position..].chars().next() {
+        let start = position;
+        let rest = &text[start..];
+        let digit_follows = rest[first.len_utf8()..].starts_with(|c: char| c.is_ascii_digit());
+        let token = if first.is_whitespace() {
+            position += first.len_utf8();
+            continue;
+        } else if rest.starts_with("//") {
+            position = rest.find('\n').map_or(text.len(), |end| start + end);
+            continue;
+        } else if first.is_ascii_digit() || (first == '.' && digit_follows) {
+            // `0..n` is a range.
+            let digits = rest.find(|c: char| !c.is_ascii_digit());
+            let whole = start + digits.unwrap_or(rest.len());
+            position = match text[whole..].starts_with("..") {
+                true => whole,
+                false => number_end(text, start),
+            };
+            Token::Number(number(input, start..position)?)
+        } else if first.is_alphabetic() || first == '_' {
+            // A word of Rust as a name, `r#type`, is that name.
+            let begin = start + if rest.starts_with("r#") { 2 } else { 0 };
+            let end = text[begin..].find(|c: char| !(c.is_alphanumeric() || c == '_'));
+            position = begin + end.unwrap_or(text.len() - begin);
+            Token::Name(text[begin..position].to_owned())
+        } else if "+-*/^()[]{},;:|<>=.×·".contains(first) {
+            position += first.len_utf8();
+            Token::Symbol(first)
+        } else {
+            let kind = ErrorKind::Syntax {
+                found: format!("found `{first}`"),
+                expected: "a number, a name or one of + - * / ^ ( ) [ ] | , ; :".to_owned(),
+            };
+            return Err(input.error(&(start..start + first.len_utf8()), kind));
+        };
+        tokens.push((token, start..position));
+    }
+    tokens.push((Token::End, text.len()..text.len()));
+    Ok(tokens)
+}
+
+struct Parser<'a> {
+    input: Input<'a>,
+    tokens: Vec<(Token, Span)>,
+    next: usize,
+    depth: usize,
+    /// The functions of the user, and abbreviations with arguments.
+    calls: Vec<String>,
+    /// For every open bracket whether it is a bar.
+    in_bars: Vec<bool>,
+}
+
+impl Parser<'_> {
+    fn peek(&self) -> &Token {
+        self.ahead(0)
+    }
+
+    fn ahead(&self, by: usize) -> &Token {
+        &self.tokens[(self.next + by).min(self.tokens.len() - 1)].0
+    }
+
+    fn span(&self) -> Span {
+        self.tokens[self.next.min(self.tokens.len() - 1)].1.clone()
+    }
+
+    /// The end of the token before.
+    fn end(&self) -> usize {
+        self.next
+            .checked_sub(1)
+            .map_or(0, |last| self.tokens[last].1.end)
+    }
+
+    fn is(&self, symbol: char) -> bool {
+        *self.peek() == Token::Symbol(symbol)
+    }
+
+    fn accept(&mut self, symbol: char) -> bool {
+        let found = self.is(symbol);
+        self.next += usize::from(found);
+        found
+    }
+
+    fn expect(&mut self, symbol: char, expected: &str) -> Result<(), Error> {
+        match self.accept(symbol) {
+            true => Ok(()),
+            false => Err(self.unexpected(expected)),
+        }
+    }
+
+    /// The end of what a bracket began.
+    fn close(&mut self, open: &Span, [bracket, partner]: [char; 2]) -> Result<(), Error> {
+        if self.accept(partner) {
+            return Ok(());
+        }
+        if *self.peek() == Token::End {
+            return Err(self
+                .input
+                .error(open, ErrorKind::Unbalanced { bracket, partner }));
+        }
+        Err(self.unexpected(&format!("an operator or `{partner}`")))
+    }
+
+    fn unexpected(&self, expected: &str) -> Error {
+        let span = self.span();
+        let found = match self.peek() {
+            Token::End => "the definition ends".to_owned(),
+            _ => format!("found `{}`", &self.input.text[span.clone()]),
+        };
+        let expected = expected.to_owned();
+        self.input
+            .error(&span, ErrorKind::Syntax { found, expected })
+    }
+
+    fn word(&self, word: &str) -> bool {
+        matches!(self.peek(), Token::Name(name) if name == word)
+    }
+
+    fn accept_word(&mut self, word: &str) -> bool {
+        let found = self.word(word);
+        self.next += usize::from(found);
+        found
+    }
+
+    fn name(&mut self, expected: &str) -> Result<Name, Error> {
+        let Token::Name(text) = self.peek().clone() else {
+            return Err(self.unexpected(expected));
+        };
+        let span = self.span();
+        self.next += 1;
+        Ok(Name { text, span })
+    }
+
+    /// A name of the user's choice.
+    fn new_name(&mut self, expected: &str) -> Result<Name, Error> {
+        let name = self.name(expected)?;
+        let meaning = match name.text.as_str() {
+            "t" => "the time",
+            "pi" => "the number π",
+            "q" => "the positions",
+            "p" => "the momenta",
+            "H" => "the Hamiltonian",
+            word if KEYWORDS.contains(&word) => "a word of the language",
+            word if is_function(word) => "a function",
+            _ => return Ok(name),
+        };
+        let kind = FormulaError::Taken {
+            name: name.text,
+            meaning: meaning.to_owned(),
+        };
+        Err(self.input.error(&name.span, kind.into()))
+    }
+
+    fn definition(&mut self) -> Result<Definition, Error> {
+        let mut definition = Definition {
+            name: self.name("the name of the system")?,
+            lengths: Vec::new(),
+            parameters: Vec::new(),
+            coordinates: [None, None],
+            ends: None,
+            functions: Vec::new(),
+            abbreviations: Vec::new(),
+            energy: None,
+            invariants: Vec::new(),
+            required: Vec::new(),
+        };
+        if self.accept('<') {
+            while !self.is('>') {
+                definition
+                    .lengths
+                    .push(self.new_name("a length such as `N`, or `>`")?);
+                if !self.accept(',') {
+                    break;
+                }
+            }
+            self.expect('>', "`,` or `>`")?;
+        }
+        let open = self.span();
+        if self.accept('{') {
+            while !self.is('}') {
+                let parameter = self.parameter(&definition)?;
+                definition.parameters.push(parameter);
+                if !self.accept(',') {
+                    break;
+                }
+            }
+            self.close(&open, ['{', '}'])?;
+        }
+        while *self.peek() != Token::End {
+            self.statement(&mut definition)?;
+        }
+        Ok(definition)
+    }
+
+    fn parameter(&mut self, definition: &Definition) -> Result<Parameter, Error> {
+        let name = self.new_name("a parameter such as `g: 9.81`, or `}`")?;
+        let kind = if !self.accept(':') {
+            ParameterKind::Number(None)
+        } else if self.accept_word("pairs") {
+            ParameterKind::Pairs
+        } else if self.is('[') {
+            let open = self.span();
+            self.next += 1;
+            let mut lengths = vec![self.length(definition)?];
+            if self.accept(';') || self.accept(',') {
+                lengths.push(self.length(definition)?);
+            }
+            self.close(&open, ['[', ']'])?;
+            ParameterKind::Array(lengths)
+        } else {
+            let value = self.expression()?;
+            let Some(number) = constant(&value) else {
+                let kind = ErrorKind::Type {
+                    found: format!("`{}`", &self.input.text[value.span.clone()]),
+                    expected: "a number, a shape such as `[N]` or `[3, 3]`, or `pairs`".to_owned(),
+                };
+                return Err(self.input.error(&value.span, kind));
+            };
+            ParameterKind::Number(Some(number))
+        };
+        Ok(Parameter { name, kind })
+    }
+
+    /// A length in a shape.
+    fn length(&mut self, definition: &Definition) -> Result<Length, Error> {
+        const EXPECTED: &str =
+            "a length: a number, a name between the `<…>` of the system, or `..`";
+        if self.accept('.') {
+            self.expect('.', EXPECTED)?;
+            return Ok(Length::Runtime);
+        }
+        let span = self.span();
+        match self.peek().clone() {
+            Token::Number(number) => {
+                self.next += 1;
+                let length = number.to_usize().filter(|&n| number.is_integer() && n > 0);
+                let Some(length) = length.filter(|&n| n <= 1_000_000) else {
+                    let kind = ErrorKind::Type {
+                        found: format!("the length {number}"),
+                        expected: "a whole number from 1 to 1000000".to_owned(),
+                    };
+                    return Err(self.input.error(&span, kind));
+                };
+                Ok(Length::Fixed(length))
+            }
+            Token::Name(text) => {
+                self.next += 1;
+                let pairs = |parameter: &&Parameter| {
+                    parameter.name.text == text && matches!(parameter.kind, ParameterKind::Pairs)
+                };
+                if definition.lengths.iter().any(|length| length.text == text) {
+                    Ok(Length::Generic(text))
+                } else if definition.parameters.iter().find(pairs).is_some() {
+                    Ok(Length::PairsOf(text))
+                } else {
+                    let known = definition.lengths.iter().map(|length| length.text.clone());
+                    let known: Vec<String> = known.collect();
+                    let known = match known.is_empty() {
+                        true => format!("none; write `{}<{text}>`", definition.name.text),
+                        false => known.join(", "),
+                    };
+                    Err(self.input.error(
+                        &span,
+                        ErrorKind::Unknown {
+                            what: "length",
+                            name: text,
+                            known,
+                        },
+                    ))
+                }
+            }
+            _ => Err(self.unexpected(EXPECTED)),
+        }
+    }
+
+    fn statement(&mut self, definition: &mut Definition) -> Result<(), Error> {
+        let span = self.span();
+        let twice = |parser: &Self, part: &str| {
+            let part = part.to_owned();
+            Err(parser
+                .input
+                .error(&span, FormulaError::Twice { part }.into()))
+        };
+        let Token::Name(word) = self.peek().clone() else {
+            return Err(self.unexpected(STATEMENT));
+        };
+        self.next += 1;
+        match word.as_str() {
+            "q" | "p" => {
+                let half = usize::from(word == "p");
+                self.expect(':', "`:` and the coordinates: `q: [a, b], p: [pa, pb];`")?;
+                if definition.coordinates[half].is_some() {
+                    return twice(self, &format!("`{word}`"));
+                }
+                definition.coordinates[half] = Some(self.coordinates(definition)?);
+                // `q: […], p: […];`
+                if !self.accept(',') && !self.accept(';') {
+                    return Err(self.unexpected("`,` or `;`"));
+                }
+            }
+            "bonds" => {
+                const ENDS: &str = "`walls`, `free` or `ring`";
+                self.expect(':', "`:` and how the chain ends: `bonds: walls;`")?;
+                let name = self.name(ENDS)?;
+                let ends = match name.text.as_str() {
+                    "walls" => Ends::Walls,
+                    "free" => Ends::Free,
+                    "ring" => Ends::Ring,
+                    _ => {
+                        self.next -= 1;
+                        return Err(self.unexpected(ENDS));
+                    }
+                };
+                if definition.ends.is_some() {
+                    return twice(self, "`bonds`");
+                }
+                definition.ends = Some((ends, name.span));
+                self.accept(';');
+            }
+            "extern" => {
+                const FORM: &str =
+                    "a function with its two derivatives: `extern fn V with dV, d2V;`";
+                if !self.accept_word("fn") {
+                    return Err(self.unexpected(FORM));
+                }
+                let function = self.new_name(FORM)?;
+                if !self.accept_word("with") {
+                    return Err(self.unexpected(FORM));
+                }
+                let first = self.name(FORM)?;
+                self.expect(',', FORM)?;
+                let second = self.name(FORM)?;
+                self.calls.push(function.text.clone());
+                definition.functions.push([function, first, second]);
+                self.expect(';', "`;`")?;
+            }
+            "let" => {
+                let name = self.new_name("a name")?;
+                let mut arguments = Vec::new();
+                if self.accept('(') {
+                    while !self.is(')') {
+                        arguments.push(self.new_name("an argument, or `)`")?);
+                        if !self.accept(',') {
+                            break;
+                        }
+                    }
+                    self.expect(')', "`,` or `)`")?;
+                }
+                self.expect('=', "`=`")?;
+                let value = self.expression()?;
+                self.expect(';', "an operator or `;`")?;
+                if !arguments.is_empty() {
+                    self.calls.push(name.text.clone());
+                }
+                definition.abbreviations.push(Abbreviation {
+                    name,
+                    arguments,
+                    value,
+                });
+            }
+            "H" => {
+                self.expect('=', "`=` and the Hamiltonian")?;
+                if definition.energy.is_some() {
+                    return twice(self, "H");
+                }
+                definition.energy = Some(self.expression()?);
+                let ends = matches!(self.peek(), Token::End | Token::Name(_));
+                if !self.accept(';') && !ends {
+                    return Err(self.unexpected("an operator or `;`"));
+                }
+            }
+            "invariants" => {
+                const FORM: &str = "`invariants: { momentum = sum(i: p[i]) }`";
+                self.expect(':', FORM)?;
+                let open = self.span();
+                self.expect('{', FORM)?;
+                while !self.is('}') {
+                    let name = self.new_name("the name of an invariant, or `}`")?;
+                    self.expect('=', "`=`")?;
+                    definition.invariants.push((name, self.expression()?));
+                    if !self.accept(',') {
+                        break;
+                    }
+                }
+                self.close(&open, ['{', '}'])?;
+                self.accept(';');
+            }
+            "require" => {
+                const FORM: &str = "`require: [separable, quadratic_kinetic]`";
+                self.expect(':', FORM)?;
+                let open = self.span();
+                self.expect('[', FORM)?;
+                while !self.is(']') {
+                    definition.required.push(self.name("a property, or `]`")?);
+                    if !self.accept(',') {
+                        break;
+                    }
+                }
+                self.close(&open, ['[', ']'])?;
+                self.accept(';');
+            }
+            _ => {
+                self.next -= 1;
+                return Err(self.unexpected(STATEMENT));
+            }
+        }
+        Ok(())
+    }
+
+    fn coordinates(&mut self, definition: &Definition) -> Result<Coordinates, Error> {
+        let open = self.span();
+        self.expect('[', "`[`: `[a, b]`, `[N]`, `[N; 3]` or `[..]`")?;
+        let is_length = |name: &str| definition.lengths.iter().any(|length| length.text == name);
+        let kind = match self.peek() {
+            Token::Name(name) if !is_length(name) => {
+                let mut names = vec![self.new_name("a coordinate")?];
+                while self.accept(',') && !self.is(']') {
+                    names.push(self.new_name("a coordinate")?);
+                }
+                CoordinatesKind::Named(names)
+            }
+            _ => {
+                let length = self.length(definition)?;
+                let mut components = None;
+                if self.accept(';') {
+                    let span = self.span();
+                    match self.length(definition)? {
+                        Length::Fixed(n) if n <= 16 => components = Some(n),
+                        _ => {
+                            let kind = ErrorKind::Type {
+                                found: "these components of a vector".to_owned(),
+                                expected: "a number from 1 to 16".to_owned(),
+                            };
+                            return Err(self.input.error(&span, kind));
+                        }
+                    }
+                }
+                CoordinatesKind::Numbered(length, components)
+            }
+        };
+        self.close(&open, ['[', ']'])?;
+        Ok(Coordinates {
+            kind,
+            span: open.start..self.end(),
+        })
+    }
+
+    fn list(&mut self, end: char) -> Result<Vec<Expression>, Error> {
+        let mut items = Vec::new();
+        while !self.is(end) {
+            items.push(self.expression()?);
+            if !self.accept(',') {
+                break;
+            }
+        }
+        Ok(items)
+    }
+
+    fn expression(&mut self) -> Result<Expression, Error> {
+        self.depth += 1;
+        if self.depth > MAX_DEPTH {
+            let kind = ErrorKind::ExpressionSize {
+                what: "its depth",
+                size: self.depth,
+                limit: MAX_DEPTH,
+            };
+            return Err(self.input.error(&self.span(), kind));
+        }
+        let start = self.span().start;
+        let first = (self.accept('-'), self.term()?);
+        let mut terms = vec![first];
+        loop {
+            let minus = self.is('-');
+            if !minus && !self.is('+') {
+                break;
+            }
+            self.next += 1;
+            terms.push((minus, self.term()?));
+        }
+        self.depth -= 1;
+        let span = start..self.end();
+        Ok(match terms.len() == 1 && !terms[0].0 {
+            true => terms.remove(0).1,
+            false => Expression {
+                kind: Kind::Sum(terms),
+                span,
+            },
+        })
+    }
+
+    /// Whether something begins here that can be multiplied by what is before it.
+    fn factor_follows(&self) -> bool {
+        match self.peek() {
+            Token::Number(_) | Token::Symbol('(') => true,
+            Token::Symbol('|') => self.in_bars.last() != Some(&true),
+            Token::Name(name) => {
+                let other = match self.ahead(1) {
+                    Token::Symbol(':' | '=') => KEYWORDS.contains(&name.as_str()),
+                    _ => false,
+                };
+                !other
+                    && !matches!(
+                        name.as_str(),
+                        "in" | "let" | "extern" | "fn" | "invariants" | "require" | "H"
+                    )
+            }
+            _ => false,
+        }
+    }
+
+    fn term(&mut self) -> Result<Expression, Error> {
+        let start = self.span().start;
+        let mut factors = vec![(false, self.factor()?)];
+        let mut divided = false;
+        loop {
+            let divide = self.is('/');
+            if divide || self.is('*') || self.is('×') || self.is('·') {
+                if self.is('×') || self.is('·') {
+                    let name = if self.is('×') { "cross" } else { "dot" };
+                    let name = Name {
+                        text: name.to_owned(),
+                        span: self.span(),
+                    };
+                    self.next += 1;
+                    let (_, left) = factors.pop().unwrap_or_else(|| unreachable!());
+                    let right = self.factor()?;
+                    let span = left.span.start..right.span.end;
+                    let call = Kind::Call(name, vec![left, right]);
+                    factors.push((false, Expression { kind: call, span }));
+                    continue;
+                }
+                self.next += 1;
+                divided = divide;
+            } else if self.factor_follows() {
+                if divided {
+                    let last = factors.last().map_or(start, |(_, last)| last.span.start);
+                    let span = last..self.span().end;
+                    return Err(self
+                        .input
+                        .error(&span, FormulaError::AmbiguousQuotient.into()));
+                }
+                if let Token::Number(_) = self.peek() {
+                    return Err(
+                        self.unexpected("an operator: a number is not written after a factor")
+                    );
+                }
+            } else {
+                break;
+            }
+            factors.push((divide, self.factor()?));
+        }
+        let span = start..self.end();
+        Ok(match factors.len() {
+            1 => factors.remove(0).1,
+            _ => Expression {
+                kind: Kind::Product(factors),
+                span,
+            },
+        })
+    }
+
+    fn factor(&mut self) -> Result<Expression, Error> {
+        let start = self.span().start;
+        if self.accept('-') {
+            self.depth += 1;
+            if self.depth > MAX_DEPTH {
+                let kind = ErrorKind::ExpressionSize {
+                    what: "its depth",
+                    size: self.depth,
+                    limit: MAX_DEPTH,
+                };
+                return Err(self.input.error(&self.span(), kind));
+            }
+            let inner = self.factor()?;
+            self.depth -= 1;
+            let span = start..inner.span.end;
+            return Ok(Expression {
+                kind: Kind::Sum(vec![(true, inner)]),
+                span,
+            });
+        }
+        let base = self.entry()?;
+        if !self.accept('^') {
+            return Ok(base);
+        }
+        self.depth += 1;
+        if self.depth > MAX_DEPTH {
+            let kind = ErrorKind::ExpressionSize {
+                what: "its depth",
+                size: self.depth,
+                limit: MAX_DEPTH,
+            };
+            return Err(self.input.error(&self.span(), kind));
+        }
+        let exponent = self.factor()?;
+        self.depth -= 1;
+        let span = start..self.end();
+        Ok(Expression {
+            kind: Kind::Power(Box::new(base), Box::new(exponent)),
+            span,
+        })
+    }
+
+    fn entry(&mut self) -> Result<Expression, Error> {
+        let start = self.span().start;
+        let mut value = self.atom()?;
+        while self.is('[') {
+            let indices = self.within(['[', ']'], |parser| parser.list(']'))?;
+            value = Expression {
+                kind: Kind::Entry(Box::new(value), indices),
+                span: start..self.end(),
+            };
+        }
+        Ok(value)
+    }
+
+    /// What stands in a bracket, with its end; `|` opens a length there.
+    fn within<T>(
+        &mut self,
+        brackets: [char; 2],
+        read: impl FnOnce(&mut Self) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let open = self.span();
+        self.next += 1;
+        self.in_bars.push(brackets[0] == '|');
+        let value = read(self)?;
+        self.in_bars.pop();
+        self.close(&open, brackets)?;
+        Ok(value)
+    }
+
+    fn atom(&mut self) -> Result<Expression, Error> {
+        let span = self.span();
+        let start = span.start;
+        let kind = match self.peek().clone() {
+            Token::Number(value) => {
+                self.next += 1;
+                Kind::Number(value)
+            }
+            Token::Name(name) if name == "sum" => {
+                self.next += 1;
+                if !self.is('(') {
+                    return Err(self.unexpected("`(`: `sum(i: p[i]^2)`"));
+                }
+                self.within(['(', ')'], Self::total)?
+            }
+            Token::Name(text) if self.calls.contains(&text) || is_function(&text) => {
+                self.next += 1;
+                if !self.is('(') {
+                    return Err(self.unexpected(&format!("`(` and the argument of `{text}`")));
+                }
+                let arguments = self.within(['(', ')'], |parser| parser.list(')'))?;
+                Kind::Call(Name { text, span }, arguments)
+            }
+            Token::Name(text) => {
+                self.next += 1;
+                Kind::Name(text)
+            }
+            Token::Symbol('(') => {
+                let inner = self.within(['(', ')'], Self::expression)?;
+                // A sum or product of its own.
+                return Ok(Expression {
+                    span: start..self.end(),
+                    ..inner
+                });
+            }
+            Token::Symbol('[') => Kind::List(self.within(['[', ']'], |parser| parser.list(']'))?),
+            Token::Symbol('|') => Kind::Bars(Box::new(self.within(['|', '|'], Self::expression)?)),
+            _ => return Err(self.unexpected("a number, a name, `(` or `|`")),
+        };
+        Ok(Expression {
+            kind,
+            span: start..self.end(),
+        })
+    }
+
+    fn total(&mut self) -> Result<Kind, Error> {
+        const OVER: &str =
+            "what the sum goes over: `i`, `i in 0..N`, `i < j`, `bonds d` or `(i, j) in pairs`";
+        let over = if self.accept_word("bonds") {
+            Over::Bonds(self.new_name("a name for the stretch of a bond")?)
+        } else if self.is('(') {
+            self.pair_list(None)?
+        } else {
+            let index = self.new_name(OVER)?;
+            if self.accept('=') {
+                self.pair_list(Some(index))?
+            } else if self.accept('<') {
+                Over::Pairs(index, self.new_name("the other index: `i < j`")?)
+            } else if self.accept_word("in") {
+                let from = self.expression()?;
+                self.expect('.', "`..`: a range is written `0..N`")?;
+                self.expect('.', "`..`: a range is written `0..N`")?;
+                Over::Range(index, Some([from, self.expression()?]))
+            } else {
+                Over::Range(index, None)
+            }
+        };
+        self.expect(':', "`:` and the terms of the sum")?;
+        Ok(Kind::Total(Box::new(over), Box::new(self.expression()?)))
+    }
+
+    fn pair_list(&mut self, number: Option<Name>) -> Result<Over, Error> {
+        const FORM: &str = "`(i, j) in pairs`";
+        self.expect('(', FORM)?;
+        let first = self.new_name(FORM)?;
+        self.expect(',', FORM)?;
+        let second = self.new_name(FORM)?;
+        self.expect(')', FORM)?;
+        if !self.accept_word("in") {
+            return Err(self.unexpected(FORM));
+        }
+        let list = self.name("a parameter of pairs")?;
+        Ok(Over::List {
+            number,
+            indices: [first, second],
+            list,
+        })
+    }
+}
+
+fn is_function(name: &str) -> bool {
+    Function::find(name).is_some() || VECTOR_FUNCTIONS.contains(&name) || NOT_SMOOTH.contains(&name)
+}
+
+/// The functions of vectors, and of several numbers.
+pub const VECTOR_FUNCTIONS: [&str; 5] = ["norm", "dot", "cross", "hypot", "atan2"];
+
+/// Functions that are read, to be refused with the reason.
+pub const NOT_SMOOTH: [&str; 8] = ["abs", "min", "max", "sign", "floor", "ceil", "round", "mod"];
+
+/// The value of an expression of numbers.
+pub fn constant(expression: &Expression) -> Option<BigRational> {
+    Some(match &expression.kind {
+        Kind::Number(value) => value.clone(),
+        Kind::Sum(terms) => {
+            let mut sum = BigRational::zero();
+            for (minus, term) in terms {
+                let value = constant(term)?;
+                sum = if *minus { sum - value } else { sum + value };
+            }
+            sum
+        }
+        Kind::Product(factors) => {
+            let mut product = BigRational::one();
+            for (divide, factor) in factors {
+                let value = constant(factor)?;
+                if *divide && value.is_zero() {
+                    return None;
+                }
+                product = if *divide {
+                    product / value
+                } else {
+                    product * value
+                };
+            }
+            product
+        }
+        Kind::Power(base, exponent) => {
+            let (base, exponent) = (constant(base)?, constant(exponent)?);
+            let exponent = exponent.is_integer().then(|| exponent.to_i32()).flatten()?;
+            if exponent.abs() > 400 || (base.is_zero() && exponent < 0) || base.numer().bits() > 64
+            {
+                return None;
+            }
+            let power = num_traits::pow(base, exponent.unsigned_abs() as usize);
+            if exponent < 0 { power.recip() } else { power }
+        }
+        _ => return None,
+    })
+}
+
+/// What a statement may begin with.
+const STATEMENT: &str = "`q: […], p: […];`, `let …;`, `H = …`, `bonds: …;`, `extern fn …;`, `invariants: {…}` or `require: […]`";

@@ -1,0 +1,124 @@
+//! A Hamiltonian system as a graph.
+
+use std::collections::HashMap;
+
+use super::graph::{Graph, Half, Id, Number};
+use super::syntax::{Ends, Length, Name, Span};
+
+/// A Hamiltonian system that was read from a formula.
+#[derive(Debug, Clone)]
+pub struct System {
+    /// Its name.
+    pub name: String,
+    /// The lengths that its type is generic in.
+    pub lengths: Vec<String>,
+    /// Its parameters.
+    pub parameters: Vec<Parameter>,
+    /// Its coordinates.
+    pub layout: Layout,
+    /// How it ends, if it is a chain.
+    pub ends: Option<Ends>,
+    /// The functions of the user, each with its two derivatives.
+    pub functions: Vec<[String; 3]>,
+    /// All formulas.
+    pub graph: Graph,
+    /// H
+    pub energy: Id,
+    /// What is said to be conserved.
+    pub invariants: Vec<Invariant>,
+    /// What it has to be.
+    pub required: Vec<Name>,
+    /// The sums over bonds.
+    pub bonds: Vec<Bonds>,
+    /// How many coordinates there have to be at least.
+    pub least: usize,
+    /// Where nodes were read first.
+    pub places: HashMap<Id, Span>,
+}
+
+/// A parameter.
+#[derive(Debug, Clone)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// What it holds.
+    pub shape: Shape,
+}
+
+/// What a parameter holds.
+#[derive(Debug, Clone)]
+pub enum Shape {
+    /// A number, with the value that it has unless another is set.
+    Number(Option<Number>),
+    /// Numbers in one or two dimensions.
+    Array(Vec<Length>),
+    /// Pairs of indices.
+    Pairs,
+}
+
+/// How positions and momenta are laid out.
+#[derive(Debug, Clone)]
+pub enum Layout {
+    /// Each has a name.
+    Named([Vec<String>; 2]),
+    /// They are numbered; with the number of components, if each is a vector.
+    Numbered(Length, Option<usize>),
+}
+
+impl Layout {
+    /// The names of all coordinates and momenta.
+    pub fn names(&self) -> impl Iterator<Item = &String> {
+        let names: &[Vec<String>] = match self {
+            Layout::Named(names) => names,
+            Layout::Numbered(..) => &[],
+        };
+        names.iter().flatten()
+    }
+
+    /// How many there are.
+    pub fn length(&self) -> Length {
+        match self {
+            Layout::Named([names, _]) => Length::Fixed(names.len()),
+            Layout::Numbered(length, _) => length.clone(),
+        }
+    }
+
+    /// The number of components of each.
+    pub fn components(&self) -> usize {
+        match self {
+            Layout::Numbered(_, Some(components)) => *components,
+            _ => 1,
+        }
+    }
+
+    /// What a coordinate is called.
+    pub fn name(&self, half: Half, index: usize) -> String {
+        let k = usize::from(half == Half::P);
+        match self {
+            Layout::Named(names) => names[k][index].clone(),
+            Layout::Numbered(..) => format!("{}[{index}]", ["q", "p"][k]),
+        }
+    }
+}
+
+/// A function of the state that is said to be conserved.
+#[derive(Debug, Clone)]
+pub struct Invariant {
+    /// Its name.
+    pub name: String,
+    /// Where the name stands.
+    pub span: Span,
+    /// Its components.
+    pub parts: Vec<Id>,
+    /// Whether it is a number, and no vector.
+    pub scalar: bool,
+}
+
+/// A sum over the bonds of a chain.
+#[derive(Debug, Clone)]
+pub struct Bonds {
+    /// The sum, written with the positions.
+    pub whole: Id,
+    /// The potential of a bond, a function of the position [`STRETCH`](super::elaborate::STRETCH).
+    pub potential: Id,
+}

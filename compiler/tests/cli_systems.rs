@@ -1,0 +1,93 @@
+//! `symplectic derive-system`.
+
+mod command;
+
+use std::fs;
+use std::process::Command;
+
+use command::stdout;
+use expect_test::{expect, expect_file};
+
+const PENDULUM: &str = "Pendulum { g: 9.81 } q: [a], p: [pa]; H = pa^2/2 - g cos(a)\n";
+
+fn file(name: &str, text: &str) -> String {
+    let path = std::env::temp_dir().join(format!("symplectic-{}-{name}", std::process::id()));
+    fs::write(&path, text).expect("a file");
+    path.display().to_string()
+}
+
+#[test]
+fn a_system_is_derived() {
+    let path = file("pendulum.txt", PENDULUM);
+    expect![[r#"
+        Pendulum
+
+        parameters
+          g = 9.81
+
+        Hamiltonian
+          H = (1/2) pa² − g cos(a)
+
+        equations of motion
+          a' = pa
+          pa' = −g sin(a)
+
+        second derivatives
+          ∂²H/∂pa∂pa += 1
+          ∂²H/∂a∂a += g cos(a)
+
+        found in the formula
+          separable, with the kinetic energy |p|²/2
+          independent of time, so H is conserved
+    "#]]
+    .assert_eq(&stdout(&["derive-system", &path]));
+}
+
+#[test]
+fn a_system_is_derived_as_latex_and_json() {
+    let planets = "Planets<N> { m: [N], G: 1 } q: [N; 2], p: [N; 2];
+        H = sum(i: |p[i]|^2/(2 m[i])) - sum(i < j: G m[i] m[j]/|q[i] - q[j]|)";
+    let path = file("planets.txt", planets);
+    for format in ["latex", "json"] {
+        expect_file![format!("data/planets.{format}")].assert_eq(&stdout(&[
+            "derive-system",
+            &path,
+            "--format",
+            format,
+        ]));
+    }
+}
+
+#[test]
+fn a_file_of_toml_holds_the_same() {
+    let (plain, toml) = (
+        file("p.txt", PENDULUM),
+        file("p.toml", &format!("hamiltonian = '''\n{PENDULUM}'''\n")),
+    );
+    assert_eq!(
+        stdout(&["derive-system", &plain]),
+        stdout(&["derive-system", &toml])
+    );
+}
+
+#[test]
+fn errors_stand_at_their_place() {
+    let path = file(
+        "wrong.txt",
+        "Pendulum q: [a], p: [pa];\nH = pa^2/2 - cos(b)\n",
+    );
+    let output = Command::new(env!("CARGO_BIN_EXE_symplectic"))
+        .args(["derive-system", &path])
+        .output()
+        .expect("a run");
+    assert_eq!(output.status.code(), Some(2));
+    let error = String::from_utf8_lossy(&output.stderr).replace(&path, "wrong.txt");
+    expect![[r#"
+        error: unknown name `b`; known here: a, p, pa, pi, q, t; did you mean `a`?
+         --> wrong.txt:2:18
+          |
+        2 | H = pa^2/2 - cos(b)
+          |                  ^
+    "#]]
+    .assert_eq(&error);
+}

@@ -1,0 +1,151 @@
+/**
+
+```text
+H = (1/2) (pa² + 2 pb² − 2 pa pb cos(a − b))/(sin(a − b)² + 1) − g (2 cos(a) + cos(b))
+
+a' = pa/(sin(a − b)² + 1) − pb cos(a − b)/(sin(a − b)² + 1)
+b' = 2 pb/(sin(a − b)² + 1) − pa cos(a − b)/(sin(a − b)² + 1)
+pa' = (cos(a − b) (sin(a − b) ((pa² + 2 pb² − 2 pa pb cos(a − b))/(sin(a − b)² + 1)²)) − sin(a − b) (pa pb/(sin(a − b)² + 1))) − 2 g sin(a)
+pb' = −g sin(b) − (cos(a − b) (sin(a − b) ((pa² + 2 pb² − 2 pa pb cos(a − b))/(sin(a − b)² + 1)²)) − sin(a − b) (pa pb/(sin(a − b)² + 1)))
+```
+
+Found in the formula: not separable; independent of time, so H is conserved.
+*/
+#[allow(non_snake_case)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DoublePendulum {
+    /// The parameter `g`, 9.81 unless it is set.
+    pub g: f64,
+}
+impl DoublePendulum {
+    /// The system with these parameters, and the values of the definition for the others.
+    #[allow(non_snake_case, clippy::too_many_arguments)]
+    pub const fn new() -> Self {
+        Self { g: 9.81 }
+    }
+}
+impl ::core::default::Default for DoublePendulum {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+const _: () = {
+    #[allow(unused_imports, clippy::all)]
+    use ::symplectic::emitted::{One as _, Scalar, Zero as _};
+    #[allow(unused_variables, non_snake_case, clippy::all)]
+    impl ::symplectic::Hamiltonian for DoublePendulum {
+        type Class = ::symplectic::General;
+        type Vector<T: Scalar> = ::symplectic::nalgebra::SVector<T, 2>;
+        #[inline(always)]
+        fn velocity<T: Scalar>(
+            &self,
+            time: T,
+            q: &::symplectic::nalgebra::SVector<T, 2>,
+            p: &::symplectic::nalgebra::SVector<T, 2>,
+            velocity: &mut ::symplectic::nalgebra::SVector<T, 2>,
+        ) {
+            let q = &q.data.0[0];
+            let p = &p.data.0[0];
+            let velocity = &mut velocity.data.0[0];
+            let x1 = q[0] - q[1];
+            let (x2, x3) = x1.sin_cos();
+            let x4 = (x2 * x2 + T::one()).recip();
+            velocity[0] = p[0] * x4 - p[1] * x3 * x4;
+            velocity[1] = T::from_f64(2.0) * p[1] * x4 - p[0] * x3 * x4;
+        }
+        #[inline(always)]
+        fn force<T: Scalar>(
+            &self,
+            time: T,
+            q: &::symplectic::nalgebra::SVector<T, 2>,
+            p: &::symplectic::nalgebra::SVector<T, 2>,
+            force: &mut ::symplectic::nalgebra::SVector<T, 2>,
+        ) {
+            let q = &q.data.0[0];
+            let p = &p.data.0[0];
+            let force = &mut force.data.0[0];
+            let x1 = q[0] - q[1];
+            let [(x2, x3), (x4, _), (x5, _)] = T::sin_cos_all([x1, q[0], q[1]]);
+            let x6 = (x2 * x2 + T::one()).recip();
+            let x7 = x3
+                * (x2
+                    * ((p[0] * p[0] + T::from_f64(2.0) * (p[1] * p[1])
+                        - T::from_f64(2.0) * p[0] * p[1] * x3) * (x6 * x6)))
+                - x2 * (p[0] * p[1] * x6);
+            force[0] = x7 - T::from_f64(2.0 * self.g) * x4;
+            force[1] = -(T::from_f64(self.g) * x5 + x7);
+        }
+        #[inline(always)]
+        fn slopes<T: Scalar>(
+            &self,
+            time: T,
+            q: &::symplectic::nalgebra::SVector<T, 2>,
+            p: &::symplectic::nalgebra::SVector<T, 2>,
+            (
+                velocity,
+                force,
+            ): (
+                &mut ::symplectic::nalgebra::SVector<T, 2>,
+                &mut ::symplectic::nalgebra::SVector<T, 2>,
+            ),
+        ) {
+            let q = &q.data.0[0];
+            let p = &p.data.0[0];
+            let velocity = &mut velocity.data.0[0];
+            let force = &mut force.data.0[0];
+            let x1 = q[0] - q[1];
+            let [(x2, x3), (x4, _), (x5, _)] = T::sin_cos_all([x1, q[0], q[1]]);
+            let x6 = (x2 * x2 + T::one()).recip();
+            velocity[0] = p[0] * x6 - p[1] * x3 * x6;
+            velocity[1] = T::from_f64(2.0) * p[1] * x6 - p[0] * x3 * x6;
+            let x7 = x3
+                * (x2
+                    * ((p[0] * p[0] + T::from_f64(2.0) * (p[1] * p[1])
+                        - T::from_f64(2.0) * p[0] * p[1] * x3) * (x6 * x6)))
+                - x2 * (p[0] * p[1] * x6);
+            force[0] = x7 - T::from_f64(2.0 * self.g) * x4;
+            force[1] = -(T::from_f64(self.g) * x5 + x7);
+        }
+        fn energy<T: Scalar>(
+            &self,
+            time: T,
+            q: &::symplectic::nalgebra::SVector<T, 2>,
+            p: &::symplectic::nalgebra::SVector<T, 2>,
+        ) -> ::core::option::Option<T> {
+            let q = &q.data.0[0];
+            let p = &p.data.0[0];
+            let x1 = q[0] - q[1];
+            let [(x2, x3), (_, x4), (_, x5)] = T::sin_cos_all([x1, q[0], q[1]]);
+            let result_1 = T::from_f64(0.5)
+                * (p[0] * p[0] + T::from_f64(2.0) * (p[1] * p[1])
+                    - T::from_f64(2.0) * p[0] * p[1] * x3) / (x2 * x2 + T::one())
+                - T::from_f64(self.g) * (T::from_f64(2.0) * x4 + x5);
+            ::core::option::Option::Some(result_1)
+        }
+    }
+    ::symplectic::emitted::if_alloc! {
+        #[allow(unused_variables, non_snake_case, clippy::all)] impl < T : Scalar, >
+        ::symplectic::solver::Linearized < ::symplectic::nalgebra::SVector < T, 2 > > for
+        DoublePendulum { fn derivatives(& self, time : T, q : &
+        ::symplectic::nalgebra::SVector < T, 2 >, p : & ::symplectic::nalgebra::SVector <
+        T, 2 >, jacobian : & mut ::symplectic::solver::Jacobian < T >) { let q = & q.data
+        .0[0]; let p = & p.data.0[0]; let x1 = q[0] - q[1]; let [(x2, x3), (_, x4), (_,
+        x5)] = T::sin_cos_all([x1, q[0], q[1]]); let x6 = (x2 * x2 + T::one()).recip();
+        jacobian.velocity_by_momentum.add(0, 0, x6); let x7 = - x3 * x6; jacobian
+        .velocity_by_momentum.add(0, 1, x7); jacobian.velocity_by_momentum.add(1, 0, x7);
+        jacobian.velocity_by_momentum.add(1, 1, T::from_f64(2.0) * x6); let x8 = x2 *
+        (p[1] * x6); let x9 = T::from_f64(2.0) * x3; let x10 = x6 * x6; let x11 = x9 *
+        (x2 * (p[0] * x10 - p[1] * x3 * x10)); jacobian.velocity_by_position.add(0, 0, x8
+        - x11); jacobian.velocity_by_position.add(0, 1, x11 - x8); let x12 = x2 * (p[0] *
+        x6); let x13 = x9 * (x2 * (T::from_f64(2.0) * p[1] * x10 - p[0] * x3 * x10));
+        jacobian.velocity_by_position.add(1, 0, x12 - x13); jacobian.velocity_by_position
+        .add(1, 1, x13 - x12); let x14 = p[0] * p[1]; let x15 = T::from_f64(2.0) * p[0] *
+        p[1]; let x16 = p[0] * p[0] + T::from_f64(2.0) * (p[1] * p[1]) - x15 * x3; let
+        x17 = x16 * x10; let x18 = x3 * x2; let x19 = x3 * (x14 * x6 - x3 * x17 -
+        T::from_f64(2.0) * x2 * (x14 * x2 * x10 - T::from_f64(2.0) * x16 * (x6 * x10) *
+        x18)) + x2 * (x2 * x17 - x15 * (x10 * x18)); jacobian.force_by_position.add(0, 0,
+        - (T::from_f64(2.0 * self.g) * x4 + x19)); jacobian.force_by_position.add(0, 1,
+        x19); jacobian.force_by_position.add(1, 0, x19); jacobian.force_by_position
+        .add(1, 1, - (x19 + T::from_f64(self.g) * x5)); } }
+    }
+};

@@ -1,0 +1,58 @@
+/**
+
+```text
+H = (1/2) Σ(0 ≤ i < n) p[i]² + (Σ(0 ≤ j < n-1) ((1/2) (q[j] − q[j+1])² + (1/4) beta (q[j] − q[j+1])⁴) + ((1/2) q[0]² + (1/4) beta q[0]⁴) + ((1/2) q[n-1]² + (1/4) beta q[n-1]⁴))
+
+q'[i] = p[i]    (0 ≤ i < n)
+p'[j] = −(q[j] − q[j+1]) − beta (q[j] − q[j+1])³    (0 ≤ j < n-1)
+p'[j+1] = (q[j] − q[j+1]) + beta (q[j] − q[j+1])³    (0 ≤ j < n-1)
+p'[0] += −q[0] − beta q[0]³
+p'[n-1] += −q[n-1] − beta q[n-1]³
+```
+
+Found in the formula: separable, with the kinetic energy |p|²/2; independent of time, so H is conserved; a chain of neighbours.
+*/
+#[allow(non_snake_case)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fput {
+    /// The parameter `beta`, 1 unless it is set.
+    pub beta: f64,
+}
+impl Fput {
+    /// The system with these parameters, and the values of the definition for the others.
+    #[allow(non_snake_case, clippy::too_many_arguments)]
+    pub const fn new() -> Self {
+        Self { beta: 1.0 }
+    }
+}
+impl ::core::default::Default for Fput {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+const _: () = {
+    #[allow(unused_imports, clippy::all)]
+    use ::symplectic::emitted::{One as _, Scalar, Zero as _};
+    #[allow(unused_variables, non_snake_case, clippy::all)]
+    impl ::symplectic::system::Bonds for Fput {
+        #[inline(always)]
+        fn tension<T: Scalar>(&self, time: T, stretch: T) -> T {
+            let value = stretch
+                + T::from_f64(self.beta) * (stretch * (stretch * stretch));
+            value
+        }
+        fn bond_energy<T: Scalar>(
+            &self,
+            time: T,
+            stretch: T,
+        ) -> ::core::option::Option<T> {
+            ::core::option::Option::Some({
+                let x1 = stretch * stretch;
+                let value = T::from_f64(0.5) * x1
+                    + T::from_f64(0.25 * self.beta) * (x1 * x1);
+                value
+            })
+        }
+    }
+    ::symplectic::emitted::chain_system!(() (Fput), between_walls);
+};

@@ -1,0 +1,455 @@
+//! Formulas: what is emitted for them, what is refused, and their derivatives.
+
+use expect_test::expect_file;
+use f256::f256;
+use proc_macro2::TokenStream;
+use proptest::prelude::*;
+use quote::{format_ident, quote};
+use symplectic_compiler::emit::{Header, system};
+use symplectic_compiler::formula::derivative::gradient;
+use symplectic_compiler::formula::evaluate::{Evaluator, Point, Real};
+use symplectic_compiler::formula::function::Elementary;
+use symplectic_compiler::formula::graph::{Half, Number, integer};
+use symplectic_compiler::formula::{Kinetic, Structure, System};
+
+fn read(text: &str) -> (System, Structure) {
+    let mut read = System::read("formula", text).unwrap_or_else(|error| panic!("{error}"));
+    let structure = Structure::of(&mut read);
+    read.check(&structure, text)
+        .unwrap_or_else(|error| panic!("{error}"));
+    (read, structure)
+}
+
+fn code(text: &str) -> String {
+    let (read, structure) = read(text);
+    let header = Header {
+        attributes: TokenStream::new(),
+        visibility: quote!(pub),
+        name: format_ident!("{}", read.name),
+    };
+    let tokens = system(&read, &structure, &header);
+    let file = syn::parse2(tokens.clone()).unwrap_or_else(|error| panic!("{error}\n{tokens}"));
+    prettyplease::unparse(&file)
+}
+
+const DOUBLE_PENDULUM: &str = "DoublePendulum { g: 9.81 }
+    q: [a, b], p: [pa, pb];
+    let d = a - b;
+    H = (pa^2 + 2 pb^2 - 2 pa pb cos(d)) / (2 (1 + sin(d)^2)) - g (2 cos(a) + cos(b))";
+
+const PLANETS: &str = "Planets<N> { m: [N], G: 2.95912208286e-4 }
+    q: [N; 3], p: [N; 3];
+    H = sum(i in 0..N: |p[i]|^2 / (2 m[i])) - sum(i < j: G m[i] m[j] / |q[i] - q[j]|)
+    invariants: { momentum = sum(i: p[i]), angular_momentum = sum(i: q[i] × p[i]) }
+    require: [separable, quadratic_kinetic]";
+
+const FPUT: &str = "Fput { beta: 1 }
+    q: [..], p: [..]; bonds: walls;
+    H = sum(i: p[i]^2 / 2) + sum(bonds d: d^2/2 + beta d^4/4)";
+
+#[test]
+fn the_code_of_the_three_examples() {
+    for (text, name) in [
+        (DOUBLE_PENDULUM, "double_pendulum"),
+        (PLANETS, "planets"),
+        (FPUT, "fput"),
+    ] {
+        expect_file![format!("emission/formula_{name}.rs")].assert_eq(&code(text));
+    }
+}
+
+#[test]
+fn the_code_does_not_grow_with_the_number_of_bodies() {
+    let bodies = |n: usize| {
+        code(&format!(
+            "Planets {{ m: [{n}], G: 1 }} q: [{n}; 3], p: [{n}; 3];
+             H = sum(i: |p[i]|^2/(2 m[i])) - sum(i < j: G m[i] m[j]/|q[i] - q[j]|)"
+        ))
+    };
+    let [fifty, thousand] = [50, 1000].map(|n| bodies(n).split_whitespace().collect::<String>());
+    assert!(fifty.replace("50", "1000") == thousand);
+}
+
+#[test]
+fn what_is_found_in_a_formula() {
+    let kinetic = |h: &str| {
+        read(&format!(
+            "S {{ m: 2, A: [2, 2] }} q: [x, y], p: [px, py]; H = {h}"
+        ))
+        .1
+    };
+    assert_eq!(kinetic("(px^2 + py^2 + x^2)/2").kinetic, Kinetic::Unit);
+    assert_eq!(kinetic("|p|^2/2 + x y").kinetic, Kinetic::Unit);
+    assert_eq!(
+        kinetic("px^2/(2 m) + py^2 + t px - cos(x)").kinetic,
+        Kinetic::Diagonal
+    );
+    assert_eq!(
+        kinetic("dot(p, A p)/2 - cos(x)").kinetic,
+        Kinetic::Quadratic
+    );
+    assert_eq!(
+        kinetic("sqrt(1 + px^2 + py^2) + x^2").kinetic,
+        Kinetic::General
+    );
+    assert_eq!(kinetic("t px^2 + py^2").kinetic, Kinetic::General);
+    assert!(kinetic("px^2 + py^2 + (px + x)^2").split.is_err());
+    let polar = kinetic("(px^2 + py^2/x^2)/2 - 1/x");
+    assert_eq!(polar.cyclic, [1]);
+    assert!(polar.split.is_err() && !polar.time_dependent);
+    let kepler = read("K q: [3], p: [3]; H = |p|^2/2 - 1/|q| + 0.1 q[2]").1;
+    assert_eq!(kepler.rotations, [[0, 1]]);
+    let planets = read(PLANETS).1;
+    assert_eq!(planets.translations, [0, 1, 2]);
+    assert_eq!(planets.rotations, [[0, 1], [0, 2], [1, 2]]);
+    assert!(read(FPUT).1.chain.is_some());
+    let unequal = FPUT.replace("p[i]^2 / 2", "p[i]^2");
+    assert!(read(&unequal).1.chain.is_none());
+}
+
+/// The error of a definition, with the place under it.
+fn refused(text: &str) -> String {
+    let found = System::read("formula", text).and_then(|mut read| {
+        let structure = Structure::of(&mut read);
+        read.check(&structure, text)
+    });
+    let error = match found {
+        Err(error) => error,
+        Ok(()) => return format!("{text}\naccepted"),
+    };
+    let span = error
+        .place
+        .as_ref()
+        .map_or(0..0, |place| place.span.clone());
+    let blank = |text: &str| " ".repeat(text.chars().count());
+    let carets = "^".repeat(text[span.clone()].chars().count().max(1));
+    format!(
+        "{text}\n{}{carets} {}",
+        blank(&text[..span.start]),
+        error.kind
+    )
+}
+
+#[test]
+fn wrong_formulas_are_refused_at_their_place() {
+    let pendulum = |h: &str| refused(&format!("P {{ g: 9.81, m: [3] }} q: [a], p: [pa]; H = {h}"));
+    let bodies = |h: &str| {
+        refused(&format!(
+            "B<N> {{ m: [N], c: [3] }} q: [N; 3], p: [N; 3]; H = {h}"
+        ))
+    };
+    let all = [
+        pendulum("pa^2/2 - g cos(b)"),
+        pendulum("pa^2/2 - g cso(a)"),
+        pendulum("pa^2/2 - m[3] a"),
+        pendulum("pa^2/2 - m a"),
+        pendulum("pa^2/2 - g/0 a"),
+        pendulum("pa^2/2 - a/(1 - 1)"),
+        pendulum("pa^2/2 - abs(a)"),
+        pendulum("pa^2/2 + |a|"),
+        pendulum("pa^2/2 + max(a, 0)"),
+        pendulum("pa^2/2 + a/g a"),
+        pendulum("cos(a)"),
+        pendulum("pa^2/2 + sum(i: m[i])"),
+        pendulum("pa^2/2 + sqrt(-1)"),
+        pendulum("pa^2/2 + (a"),
+        pendulum("pa^2/2 + atan2(a)"),
+        pendulum("pa^2/2 + a 2"),
+        bodies("sum(i: |p[i]|^2) + sum(i: |q[i] - m[i]|)"),
+        bodies("sum(i: |p[i]|^2) + sum(i: |q[i] - m|)"),
+        bodies("sum(i: |p[i]|^2) + sum(i: |q[i+1] - q[i]|)"),
+        bodies("sum(i: |p[i]|^2) + sum(i: c[i])"),
+        bodies("sum(i: |p[i]|^2) + q[0][3]"),
+        bodies("sum(i: p[i]^2)"),
+        bodies("sum(i: |p[i]|^2 + q[i])"),
+        bodies("sum(i: |p[i]|^2) + sum(i: sum(i: m[i]))"),
+        refused("P { a: 1 } q: [a], p: [pa]; H = pa^2"),
+        refused("P q: [a, b], p: [pa]; H = pa^2"),
+        refused("P q: [a, b], p: [pa, pb]; H = pa^2"),
+        refused("P q: [a], p: [pa];"),
+        refused("P q: [t], p: [pt]; H = pt^2"),
+        refused("P H = 1"),
+        refused("P q: [N; 3], p: [N; 3]; H = 1"),
+        refused("P q: [x], p: [px]; H = px^2 + x px require: [separable]"),
+        refused("P q: [x], p: [px]; H = sqrt(1 + px^2) + x require: [quadratic_kinetic]"),
+        refused("P q: [x], p: [px]; H = px^2 + x cos(t) require: [time_independent]"),
+        refused("P q: [x], p: [px]; H = px^2 + x require: [fast]"),
+        refused("P q: [x], p: [px]; H = px^2 + x^2 invariants: { momentum = px }"),
+    ];
+    expect_file!["data/formulas_refused.txt"].assert_eq(&(all.join("\n\n") + "\n"));
+}
+
+#[test]
+fn long_formulas_are_read() {
+    let terms: Vec<String> = (0..3000).map(|k| format!("cos({k} x)/{}", k + 1)).collect();
+    let code = code(&format!(
+        "Long q: [x], p: [px]; H = px^2/2 + {}",
+        terms.join(" + ")
+    ));
+    assert!(code.len() > 100_000);
+    let lets: Vec<String> = (1..2000)
+        .map(|k| format!("let a{k} = a{} + sin(a{});", k - 1, k - 1))
+        .collect();
+    let deep = format!(
+        "Deep q: [x], p: [px]; let a0 = x; {} H = px^2/2 + a1999",
+        lets.join(" ")
+    );
+    assert!(read(&deep).1.split.is_ok());
+    let powers = (0..200)
+        .map(|k| format!("(x + {k})"))
+        .collect::<Vec<_>>()
+        .join(" ");
+    assert!(
+        read(&format!("Product q: [x], p: [px]; H = px^2/2 + {powers}"))
+            .1
+            .split
+            .is_ok()
+    );
+}
+
+/// A number of 71 digits.
+#[derive(Clone, Debug)]
+struct Wide(f256);
+
+impl Real for Wide {
+    fn number(value: &Number) -> Self {
+        let parse = |n: &num_bigint::BigInt| n.to_string().parse::<f256>().expect("a number");
+        Wide(parse(value.numer()) / parse(value.denom()))
+    }
+
+    fn pi() -> Self {
+        Wide(f256::ONE.atan() * f256::from(4.0))
+    }
+
+    fn add(&self, other: &Self) -> Self {
+        Wide(self.0 + other.0)
+    }
+
+    fn multiply(&self, other: &Self) -> Self {
+        Wide(self.0 * other.0)
+    }
+
+    fn power(&self, exponent: &Number) -> Self {
+        if exponent.is_integer() {
+            let n: i64 = exponent.numer().try_into().expect("a small exponent");
+            let mut power = f256::ONE;
+            for _ in 0..n.unsigned_abs() {
+                power *= self.0;
+            }
+            return Wide(if n < 0 { f256::ONE / power } else { power });
+        }
+        Wide((self.0.ln() * Self::number(exponent).0).exp())
+    }
+
+    fn elementary(&self, function: Elementary) -> Self {
+        let x = self.0;
+        let half = f256::from(0.5);
+        Wide(match function {
+            Elementary::Exp => x.exp(),
+            Elementary::Ln => x.ln(),
+            Elementary::Sin => x.sin(),
+            Elementary::Cos => x.cos(),
+            Elementary::Tan => x.tan(),
+            Elementary::Asin => x.asin(),
+            Elementary::Acos => x.acos(),
+            Elementary::Atan => x.atan(),
+            Elementary::Sinh => (x.exp() - (-x).exp()) * half,
+            Elementary::Cosh => (x.exp() + (-x).exp()) * half,
+            Elementary::Tanh => (x.exp() - (-x).exp()) / (x.exp() + (-x).exp()),
+        })
+    }
+
+    fn atan2(&self, x: &Self) -> Self {
+        Wide(self.0.atan2(&x.0))
+    }
+}
+
+/// Random formulas of two coordinates, `depth` operations deep.
+fn formulas(depth: u32) -> impl Strategy<Value = String> {
+    let leaf = prop_oneof![
+        Just("a".to_owned()),
+        Just("b".to_owned()),
+        Just("pa".to_owned()),
+        Just("pb".to_owned()),
+        Just("g".to_owned()),
+        (1..20_u32).prop_map(|n| format!("{n}")),
+        (1..200_u32).prop_map(|n| format!("0.{n}")),
+    ];
+    leaf.prop_recursive(depth, 40, 3, |inner| {
+        let pair = (inner.clone(), inner.clone());
+        prop_oneof![
+            pair.clone().prop_map(|(a, b)| format!("({a} + {b})")),
+            pair.clone().prop_map(|(a, b)| format!("({a} - {b})")),
+            pair.clone().prop_map(|(a, b)| format!("({a}) ({b})")),
+            pair.clone()
+                .prop_map(|(a, b)| format!("(({a})/(2 + sin({b})))")),
+            pair.prop_map(|(a, b)| format!("hypot(1 + {a}, {b})")),
+            (inner.clone(), 2..5_u32).prop_map(|(a, n)| format!("({a})^{n}")),
+            inner.clone().prop_map(|a| format!("(1 + ({a})^2)^(-3/2)")),
+            inner.clone().prop_map(|a| format!("sqrt(2 + cos({a}))")),
+            inner.clone().prop_map(|a| format!("ln(1 + ({a})^2)")),
+            inner.clone().prop_map(|a| format!("exp(sin({a}))")),
+            inner.clone().prop_map(|a| format!("tanh({a})")),
+            inner.clone().prop_map(|a| format!("atan({a})")),
+            inner.clone().prop_map(|a| format!("sinh(cos({a}))")),
+            inner.clone().prop_map(|a| format!("cosh(sin({a}))")),
+            inner.clone().prop_map(|a| format!("tan(sin({a}))")),
+            inner.clone().prop_map(|a| format!("asin(sin({a})/2)")),
+            inner
+                .clone()
+                .prop_map(|a| format!("atan2({a}, 3 + cos(a))")),
+            inner.prop_map(|a| format!("-{a}")),
+        ]
+    })
+}
+
+fn point(values: [f64; 4]) -> Point<Wide> {
+    let wide = |x: f64| Wide(f256::from(x));
+    Point {
+        time: wide(0.3),
+        halves: [[values[0], values[1]], [values[2], values[3]]]
+            .map(|half| half.iter().map(|&x| vec![wide(x)]).collect()),
+        parameters: vec![vec![vec![wide(1.25)]]],
+        pairs: vec![Vec::new()],
+    }
+}
+
+/// The gradient and the second derivatives are those of the formula, by differences of 71 digits.
+fn derivatives_are_right(formula: &str, values: [f64; 4]) -> Result<(), TestCaseError> {
+    let text = format!("F {{ g: 1.25 }} q: [a, b], p: [pa, pb]; H = {formula} + pa^2 + pb^2");
+    let mut read = match System::read("formula", &text) {
+        Ok(read) => read,
+        // A zero in a denominator, say.
+        Err(_) => return Ok(()),
+    };
+    let energy = read.energy;
+    let here = point(values);
+    let small = f256::from(1e-20);
+    let mut first = Vec::new();
+    for half in [Half::Q, Half::P] {
+        first.push((
+            half,
+            energy,
+            gradient(&mut read.graph, energy, &[], integer(1), half),
+        ));
+    }
+    let mut all = first.clone();
+    for (_, _, parts) in &first {
+        for part in parts {
+            for half in [Half::Q, Half::P] {
+                all.push((
+                    half,
+                    part.value,
+                    gradient(&mut read.graph, part.value, &[], integer(1), half),
+                ));
+            }
+        }
+    }
+    for (half, of, parts) in all {
+        let found = Evaluator::new(&read.graph, &here)
+            .sum(&parts)
+            .expect("values");
+        for i in 0..2 {
+            let at = |by: f256| {
+                let mut there = here.clone();
+                let x = &mut there.halves[usize::from(half == Half::P)][i][0];
+                *x = Wide(x.0 + by);
+                Evaluator::new(&read.graph, &there)
+                    .value(of)
+                    .expect("a value")
+                    .0
+            };
+            let size = at(f256::ZERO).abs() + f256::ONE;
+            let slope = (at(small) - at(-small)) / (small + small);
+            let error = (slope - found[i][0].0).abs();
+            // The truncation error is 10⁻⁴⁰ times a third derivative, which may be large; rounding makes 10⁻⁵⁰.
+            let bound = f256::from(1e-25) * (size + slope.abs());
+            prop_assert!(
+                error <= bound || !slope.is_finite(),
+                "{formula}: the derivative by {i} of {half:?} is {:?} and not {slope:?}",
+                found[i][0].0
+            );
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 500, ..ProptestConfig::default() })]
+
+    #[test]
+    fn derivatives_of_random_formulas(formula in formulas(5), values in prop::array::uniform4(-1.5..1.5_f64)) {
+        derivatives_are_right(&formula, values)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
+
+    /// Whatever is written: an answer, and no panic.
+    #[test]
+    fn any_text_has_an_answer(words in prop::collection::vec(prop::sample::select(WORDS.to_vec()), 0..40)) {
+        for start in ["", "S q: [x], p: [px]; H = ", "S<N> { m: [N], A: [2, 2], e: pairs } q: [N; 2], p: [N; 2]; H = sum(i: |p[i]|^2) + "] {
+            let text = format!("{start}{}", words.join(" "));
+            if let Ok(mut read) = System::read("any", &text) {
+                let structure = Structure::of(&mut read);
+                let _ = read.check(&structure, &text);
+            }
+        }
+    }
+}
+
+const WORDS: [&str; 52] = [
+    "x",
+    "px",
+    "q",
+    "p",
+    "t",
+    "pi",
+    "i",
+    "j",
+    "N",
+    "m",
+    "A",
+    "e",
+    "S",
+    "H",
+    "let",
+    "sum",
+    "bonds",
+    "require",
+    "invariants",
+    "in",
+    "+",
+    "-",
+    "*",
+    "/",
+    "^",
+    "(",
+    ")",
+    "[",
+    "]",
+    "{",
+    "}",
+    "|",
+    ",",
+    ";",
+    ":",
+    "=",
+    "<",
+    ">",
+    "..",
+    ".",
+    "×",
+    "0",
+    "1",
+    "2.5",
+    "1e-3",
+    "sin",
+    "sqrt",
+    "dot",
+    "norm",
+    "abs",
+    "(i, j)",
+    "q[i]",
+];

@@ -1,0 +1,110 @@
+//! The macro `hamiltonian!`.
+
+/// A Hamiltonian system from its formula: everything else is derived while the crate compiles.
+///
+/// ```
+/// use symplectic::nalgebra::SVector;
+/// use symplectic::{Error, Integrator, State};
+///
+/// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
+///
+/// symplectic::hamiltonian! {
+///     /// The double pendulum.
+///     pub DoublePendulum { g: 9.81 }
+///     q: [a, b], p: [pa, pb];
+///     let d = a - b;
+///     H = (pa^2 + 2 pb^2 - 2 pa pb cos(d)) / (2 (1 + sin(d)^2)) - g (2 cos(a) + cos(b))
+/// }
+///
+/// # fn main() -> Result<(), Error> {
+/// let start = State::new(0.0, SVector::from([1.0, 2.0]), SVector::from([0.0, 0.0]));
+/// let mut run = Integrator::new(Gauss4, DoublePendulum { g: 1.62 }, start, 0.01)?;
+/// let before = run.energy().expect("H is known");
+/// run.integrate_to(100.0)?;
+/// assert!((run.energy().expect("H is known") - before).abs() < 1e-12);
+/// # Ok(())
+/// # }
+/// ```
+///
+/// The macro makes the type with a field for each parameter, and implements [`SeparableHamiltonian`](crate::SeparableHamiltonian) or
+/// [`Hamiltonian`](crate::Hamiltonian) for it, whichever it finds; of a chain, the single pass of
+/// [`Chain`](crate::system::Chain). The first derivatives are exact; so are the second ones, which
+/// [`Analytic`](crate::solver::Analytic) gives to Newton's iteration. The page of the type shows H, the equations of motion and what was
+/// found.
+///
+/// # Coordinates
+///
+/// | written | coordinates | vectors |
+/// |---|---|---|
+/// | `q: [a, b], p: [pa, pb];` | with names | `SVector<T, 2>` |
+/// | `q: [4], p: [4];` | `q[0]` … `q[3]` | `SVector<T, 4>` |
+/// | `Name<N>` and `q: [N; 3], p: [N; 3];` | `N` bodies in space, `q[i]` is a vector | `SMatrix<T, 3, N>`, a column each |
+/// | `q: [..], p: [..];`, `q: [..; 3], p: [..; 3];` | as many as there are at run time | `DVector<T>` |
+///
+/// # Parameters
+///
+/// `{ g: 9.81, omega, m: [N], A: [3, 3], charges: [..], springs: pairs, stiffness: [springs] }`: a number with its value unless it is
+/// set, a number, arrays and a matrix, and pairs of indices from data. They are public fields; `Name::new(…)` takes those without a value,
+/// in order. Where all have one there is a `Default`.
+///
+/// # Formulas
+///
+/// Factors that follow one another are multiplied; what follows a quotient needs parentheses. There are `+ - * / ^`, whole and rational
+/// powers, `sqrt exp ln sin cos tan asin acos atan sinh cosh tanh atan2 hypot`, `pi`, the time `t`, vectors `[x, y, z]` with `|v|`,
+/// `dot(v, w)` and `cross(v, w)`, and a matrix times a vector.
+///
+/// | written | sum over |
+/// |---|---|
+/// | `sum(i: p[i]^2)`, `sum(i in 0..N: …)` | an index |
+/// | `sum(i < j: …)` | all pairs |
+/// | `sum((i, j) in springs: …)`, `sum(s = (i, j) in springs: stiffness[s] …)` | the pairs of a parameter; `s` is the number of the pair |
+/// | `bonds: walls;` and `sum(bonds d: d^2/2)` | the bonds of a chain between `walls`, with `free` ends, or in a `ring`; `d` is the stretch |
+///
+/// `let d = a - b;` is an abbreviation, `let s(i, j) = sigma^2/|q[i] - q[j]|^2;` one with arguments. `extern fn V with dV, d2V;` names
+/// functions in scope, `fn V<T: Scalar>(x: T) -> T` and its two derivatives. H has to be twice continuously differentiable: `abs`, `min`
+/// and `max` are refused; `|x|^3` is not.
+///
+/// # Conserved quantities
+///
+/// A momentum is conserved where H has a symmetry that shows in its form: where all positions can be moved together there is a method
+/// `total_momentum`, where they can be turned `angular_momentum`. `invariants: { name = …, }` adds methods of your own; one whose Poisson
+/// bracket with H is not zero does not compile.
+///
+/// ```
+/// use symplectic::nalgebra::SMatrix;
+///
+/// symplectic::hamiltonian! {
+///     /// `N` bodies.
+///     pub Planets<N> { m: [N], G: 2.95912208286e-4 }
+///     q: [N; 3], p: [N; 3];
+///     H = sum(i: |p[i]|^2 / (2 m[i])) - sum(i < j: G m[i] m[j] / |q[i] - q[j]|)
+///     require: [separable, quadratic_kinetic]
+/// }
+///
+/// let planets = Planets::new([1.0, 9.5e-4]);
+/// let q = SMatrix::<f64, 3, 2>::from([[0.0, 0.0, 0.0], [5.2, 0.0, 0.0]]);
+/// let p = SMatrix::from([[0.0, -7e-6, 0.0], [0.0, 7e-6, 0.0]]);
+/// assert_eq!(planets.total_momentum(&q, &p), [0.0; 3]);
+/// assert_eq!(planets.angular_momentum(&q, &p), [0.0, 0.0, 5.2 * 7e-6]);
+/// ```
+///
+/// # Requirements
+///
+/// `require: […]` proves what is found: `separable`, `quadratic_kinetic` (with constant masses), `unit_masses`, `time_independent`,
+/// `chain`. What does not hold is an error at the term that violates it.
+///
+/// ```compile_fail
+/// symplectic::hamiltonian! {
+///     // error: the system is not separable: this term depends on positions and momenta
+///     Coupled q: [x], p: [px]; H = px^2/2 + x px require: [separable]
+/// }
+/// ```
+///
+/// # Order of evaluation
+///
+/// The same text gives the same bits, in doubles and in lanes. Numbers that are factors are collected exactly; equal terms and factors are
+/// joined; terms and factors are taken in the order in which they first appear, a sum or product in parentheses as one. What depends on
+/// parameters only is computed in double precision first; divisors are multiplied with each other, and divide last. Parts that appear more
+/// than once are computed once, for velocity and force together where H is not separable. Sums are loops, so the code is as long for a
+/// thousand bodies as for three.
+pub use symplectic_macros::hamiltonian;

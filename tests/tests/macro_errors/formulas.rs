@@ -1,0 +1,24 @@
+//! Formulas with errors, each at its place.
+
+symplectic::hamiltonian! {
+    Unknown { g: 9.81 } q: [a], p: [pa];
+    H = pa^2/2 - g cso(a)
+}
+
+symplectic::hamiltonian! {
+    Shapes<N> { m: [N] } q: [N; 3], p: [N; 3];
+    H = sum(i: |p[i]|^2/(2 m[i])) + sum(i: |q[i] - m[i]|)
+}
+
+symplectic::hamiltonian! {
+    Mixed q: [x], p: [px];
+    H = px^2/2 + x px
+    require: [separable]
+}
+
+symplectic::hamiltonian! {
+    Kink q: [x], p: [px];
+    H = px^2/2 + |x|
+}
+
+fn main() {}
