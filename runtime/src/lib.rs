@@ -82,6 +82,8 @@ pub use error::{Error, Quantity};
 #[cfg(feature = "alloc")]
 pub use integrator::{Checkpoint, CheckpointError};
 pub use integrator::{Integrator, Retry, Statistics};
+#[cfg(feature = "alloc")]
+pub use method::{AtRunTime, RunTimeCoefficients, RunTimeTableau, TableauError};
 pub use method::{LowerOrder, Method, Orders, ProvedFor, composition, splitting, tableau};
 pub use nalgebra;
 pub use num_traits;
