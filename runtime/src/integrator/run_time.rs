@@ -47,6 +47,20 @@ impl<S: System<V>, V: Vector> Integrator<AtRunTime, S, V> {
     /// # Ok(())
     /// # }
     /// ```
+    ///
+    /// Newton's iteration needs an emitted method:
+    ///
+    /// ```compile_fail
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Integrator, RunTimeTableau, State, acceleration};
+    /// fn step(tableau: &RunTimeTableau) -> Result<(), symplectic::Error> {
+    ///     let stiff = acceleration(|_time, q: &Vector1<f64>, acceleration| *acceleration = -q * 1e12);
+    ///     let start = State::from_arrays(0.0, [1.0], [0.0]);
+    ///     Integrator::at_run_time(tableau, stiff, start, 0.1)?.by_newton().step()?;
+    ///     Ok(())
+    /// }
+    /// # let _used: fn(&RunTimeTableau) -> Result<(), symplectic::Error> = step;
+    /// ```
     pub fn at_run_time(
         tableau: &RunTimeTableau,
         system: S,

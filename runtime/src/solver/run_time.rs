@@ -12,8 +12,9 @@ use crate::method::{
     StepStatistics, Stopping, WarmStart,
 };
 use crate::number::linear_combination::sum_of_products;
+use crate::number::rows::{Eight, Row as _};
 use crate::number::summation::{Overrelaxed, add, moved};
-use crate::number::{Coefficient, Scalar, Summation, Vector, copy, scale};
+use crate::number::{Coefficient, F64x8, Lanes, Scalar, Summation, Vector, copy, scale};
 use crate::solver::convergence::{Sweeps, settle};
 use crate::system::{Class, System};
 
@@ -201,26 +202,81 @@ fn relax<R: Summation, V: Vector>(
 ) {
     let (base, low) = (base.as_slice(), low.as_slice());
     let out = out.as_mut_slice();
-    let n = row.iter().fold(out.len(), |n, &(index, _)| {
-        n.min(increments[index].as_slice().len())
-    });
+    let lengths = row
+        .iter()
+        .map(|&(index, _)| increments[index].as_slice().len());
+    let n = lengths.fold(out.len().min(base.len()).min(low.len()), usize::min);
+    let (out, base, low) = (&mut out[..n], &base[..n], &low[..n]);
     let mut local = *change;
-    for i in 0..n.min(base.len()).min(low.len()) {
-        let new = if row.is_empty() {
-            base[i]
-        } else {
-            let start = R::COMPENSATED.then_some(low[i]);
-            base[i]
-                + sum_of_products(start, row.len(), |j| {
-                    let (index, factor) = row[j];
-                    (V::Scalar::from_f64(factor), increments[index].as_slice()[i])
-                })
-        };
+    let rest = relax_rows::<R, V>(out, (base, low), row, increments, &mut local);
+    for i in rest..n {
+        let new = value::<R, V::Scalar>(base[i], low[i], row, |index| {
+            increments[index].as_slice()[i]
+        });
         let new = moved(R::BEYOND, out[i], new);
         local.record(base[i], out[i], new);
         out[i] = new;
     }
     *change = local;
+}
+
+/// [`relax`], with eight components side by side where they are doubles; returns from which one on they are left.
+#[inline]
+fn relax_rows<R: Summation, V: Vector>(
+    out: &mut [V::Scalar],
+    (base, low): (&[V::Scalar], &[V::Scalar]),
+    row: &Row,
+    increments: &[V],
+    change: &mut HalfChange,
+) -> usize {
+    let (Some(out), Some(base), Some(low)) = (
+        V::Scalar::doubles_mut(out),
+        V::Scalar::doubles(base),
+        V::Scalar::doubles(low),
+    ) else {
+        return 0;
+    };
+    let n = out.len() / Eight::WIDTH;
+    if n == 0 {
+        return 0;
+    }
+    let (out, _) = Eight::rows_mut(out);
+    let rows = |slice| Eight::rows(slice).0;
+    let (base, low) = (rows(base), rows(low));
+    let zero = F64x8::zero();
+    let (mut difference, mut scale) = (zero, zero);
+    for i in 0..n {
+        let start = Eight::load(&base[i]);
+        let new = value::<R, F64x8>(start, Eight::load(&low[i]), row, |index| {
+            let increment = V::Scalar::doubles(increments[index].as_slice());
+            Eight::load(&rows(increment.unwrap_or(&[]))[i])
+        });
+        let old = Eight::load(&out[i]);
+        let new = moved(R::BEYOND, old, new);
+        out[i] = Eight::store(new);
+        difference = difference.larger_or_nan((new - old).abs());
+        scale = scale.larger(start.abs()).larger(new.abs());
+    }
+    let difference = match difference.any_nan() {
+        true => f64::NAN,
+        false => difference.largest(),
+    };
+    change.join(difference, scale.largest());
+    n * Eight::WIDTH
+}
+
+/// One component of a stage, or eight.
+#[inline(always)]
+fn value<R: Summation, T: Scalar>(base: T, low: T, row: &Row, term: impl Fn(usize) -> T) -> T {
+    if row.is_empty() {
+        return base;
+    }
+    let start = R::COMPENSATED.then_some(low);
+    let product = |j: usize| {
+        let (index, factor) = row[j];
+        (T::from_f64(factor), term(index))
+    };
+    base + sum_of_products(start, row.len(), product)
 }
 
 /// `out = base + low + Σ increments`, of those that count, with what that leaves out in `out_low`.
