@@ -177,6 +177,19 @@ pub enum Error {
         linear: f64,
     },
 
+    /// A tableau at run time whose order, or whose symplecticity, holds for separable Hamiltonians only, and a system that is not
+    /// separable.
+    #[error(
+        "the tableau has order {order} for separable Hamiltonians and {lower_order} for others, or is symplectic for separable ones only; \
+         write the system as a separable one, take another tableau, or call `accept_lower_order`"
+    )]
+    SeparableTableau {
+        /// Its order for separable Hamiltonians.
+        order: u32,
+        /// Its order for others.
+        lower_order: u32,
+    },
+
     /// A system says that the velocity is the momentum, and it is not.
     #[error(
         "component {component} of the velocity is {velocity} in size where the momentum is {momentum}: leave out \

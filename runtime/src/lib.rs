@@ -16,7 +16,7 @@
 //! |---|---|
 //! | The system: a formula, closures or a trait | [`hamiltonian!`]; [`separable`], [`hamiltonian`], [`acceleration`]; [`SeparableHamiltonian`], [`Hamiltonian`]; [`system`] |
 //! | Numbers and vectors | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors), [`simd`] |
-//! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`] |
+//! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`RunTimeTableau`] |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
 //! | What is seen of a run | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
 //! | How coupled stages are found | [`solver`] |
@@ -52,7 +52,7 @@
 //! # Features
 //!
 //! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library; implies `alloc`.
-//! * `alloc`: dynamic vectors, [`nalgebra::DVector`], Newton's iteration and generating functions.
+//! * `alloc`: dynamic vectors, [`nalgebra::DVector`], Newton's iteration, generating functions and tableaux at run time.
 //! * `serde`: a [`Checkpoint`] can be written and read in any format; implies `alloc`.
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and Newton's iteration takes derivatives by dual numbers; implies `std`.
 //! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, the functions named under `std` from `libm`.
@@ -82,6 +82,8 @@ pub use error::{Error, Quantity};
 #[cfg(feature = "alloc")]
 pub use integrator::{Checkpoint, CheckpointError};
 pub use integrator::{Integrator, Retry, Statistics};
+#[cfg(feature = "alloc")]
+pub use method::{AtRunTime, RunTimeCoefficients, RunTimeTableau, TableauError};
 pub use method::{LowerOrder, Method, Orders, ProvedFor, composition, splitting, tableau};
 pub use nalgebra;
 pub use num_traits;
@@ -142,6 +144,8 @@ mod book {
     struct Choosing;
     #[doc = include_str!("../../docs/src/guide/methods.md")]
     struct Methods;
+    #[doc = include_str!("../../docs/src/guide/at-run-time.md")]
+    struct AtRunTime;
     #[doc = include_str!("../../docs/src/guide/long-runs.md")]
     struct LongRuns;
     #[doc = include_str!("../../docs/src/guide/events.md")]

@@ -2,6 +2,7 @@
 //! integrate them with, how results are measured ([`measure`], [`counting`], [`order`]), and what they are measured
 //! against ([`references`]).
 
+pub mod at_run_time;
 pub mod counting;
 pub mod drift;
 pub mod formulas;

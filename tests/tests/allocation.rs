@@ -13,7 +13,10 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use symplectic::solver::{
     Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Newton, Solver,
 };
-use symplectic::{Error, Integrator, Method, ProvedFor, State, hamiltonian, separable};
+use symplectic::{
+    Compensated, Error, Integrator, Method, ProvedFor, State, hamiltonian, separable,
+};
+use symplectic_tests::at_run_time::tableau;
 use symplectic_tests::methods::{Gauss4, Lobatto3, StoermerVerlet};
 
 symplectic::composition! {
@@ -37,7 +40,25 @@ fn allocations<
     let q = DVector::from_fn(40, |i, _| (i as f64).sin());
     let start = State::new(0.0, q.clone(), -q);
     let integrator = Integrator::new(method, system, start, 0.01)?;
-    let mut integrator = integrator.with_solver(solver);
+    counted(integrator.with_solver(solver))
+}
+
+/// [`allocations`] of a method that is derived here.
+fn at_run_time<S: symplectic::System<DVector<f64>>>(
+    [basis, nodes]: [&str; 2],
+    system: S,
+) -> Result<usize, Box<dyn std::error::Error>> {
+    let q = DVector::from_fn(40, |i, _| (i as f64).sin());
+    let start = State::new(0.0, q.clone(), -q);
+    let tableau = tableau(nodes, &symplectic_compiler::derive(basis, nodes)?)?;
+    Ok(counted(Integrator::at_run_time(
+        &tableau, system, start, 0.01,
+    )?)?)
+}
+
+fn counted<M: Method, S: symplectic::System<DVector<f64>>, N: Solver<DVector<f64>, S>>(
+    mut integrator: Integrator<M, S, DVector<f64>, Compensated, N>,
+) -> Result<usize, Error> {
     let region = Region::new(ALLOCATOR);
     for _ in 0..100 {
         integrator.step()?;
@@ -47,7 +68,7 @@ fn allocations<
     Ok(change.allocations + change.reallocations)
 }
 
-fn main() -> Result<(), Error> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let chain = || {
         separable::<DVector<f64>, _, _>(
             |_, p, velocity| velocity.copy_from(p),
@@ -82,6 +103,10 @@ fn main() -> Result<(), Error> {
     assert_eq!(allocations(TripleJump, chain(), dense)?, 0);
     let both = FixedPointThenNewton::<Dense<Differences>>::new();
     assert_eq!(allocations(Gauss4, chain(), both)?, 0);
+    let gauss = ["polynomial(4)", "gauss(4)"];
+    assert_eq!(at_run_time(["polynomial(2)", "lobatto(2)"], chain())?, 0);
+    assert_eq!(at_run_time(gauss, chain())?, 0);
+    assert_eq!(at_run_time(gauss, coupled())?, 0);
 
     // The count sees what a system allocates itself.
     let wasteful = separable::<DVector<f64>, _, _>(

@@ -30,6 +30,8 @@ impl Measurements {
     /// Writes `index.html`, `measurements.json`, `measurements.csv`, `verdicts.csv`, `limits.csv`, `table.md` and the plots,
     /// `plots/*.svg`, into `folder`, which is made where there is none; returns the path of the page.
     ///
+    /// A table without rows is not written, and one of an earlier report is removed: no file is empty.
+    ///
     /// # Errors
     ///
     /// [`WriteError`], with what was written before it left as it is.
@@ -44,9 +46,14 @@ impl Measurements {
             write(plots.join(format!("{name}.svg")), &plot.svg(Scheme::Reader))?;
         }
         write(folder.join("measurements.json"), &self.json()?)?;
-        write(folder.join("measurements.csv"), &self.csv()?)?;
-        write(folder.join("verdicts.csv"), &self.verdicts_csv()?)?;
-        write(folder.join("limits.csv"), &self.limits_csv()?)?;
+        let tables = [
+            ("measurements.csv", self.csv()?),
+            ("verdicts.csv", self.verdicts_csv()?),
+            ("limits.csv", self.limits_csv()?),
+        ];
+        for (name, text) in tables {
+            write_or_remove(folder.join(name), &text)?;
+        }
         write(folder.join("table.md"), &self.table())?;
         let page = folder.join("index.html");
         write(page.clone(), &self.page())?;
@@ -56,4 +63,66 @@ impl Measurements {
 
 fn write(path: PathBuf, text: &str) -> Result<(), WriteError> {
     fs::write(&path, text).map_err(|source| WriteError::File { path, source })
+}
+
+/// Writes a text; without one, removes what an earlier report wrote.
+fn write_or_remove(path: PathBuf, text: &str) -> Result<(), WriteError> {
+    if !text.is_empty() {
+        return write(path, text);
+    }
+    match fs::remove_file(&path) {
+        Err(source) if source.kind() != io::ErrorKind::NotFound => {
+            Err(WriteError::File { path, source })
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let files = fs::read_dir(folder).expect("the folder was written");
+        let files = files.map(|file| file.expect("it can be read"));
+        let files = files.filter(|file| file.metadata().expect("it is there").is_file());
+        let mut names: Vec<String> = files
+            .inspect(|file| assert!(file.metadata().expect("it is there").len() > 0))
+            .map(|file| file.file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn no_file_is_empty() {
+        let name = format!("symplectic-report-{}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        let mut found = crate::tests::measurements();
+        found.write(&folder).expect("the folder can be written");
+        assert_eq!(
+            names(&folder),
+            [
+                "index.html",
+                "limits.csv",
+                "measurements.csv",
+                "measurements.json",
+                "table.md",
+                "verdicts.csv"
+            ]
+        );
+        found.verdicts.clear();
+        found.limits.clear();
+        found.write(&folder).expect("it can be written again");
+        assert_eq!(
+            names(&folder),
+            [
+                "index.html",
+                "measurements.csv",
+                "measurements.json",
+                "table.md"
+            ]
+        );
+        fs::remove_dir_all(&folder).expect("it can be removed");
+    }
 }

@@ -61,6 +61,7 @@ mod observer;
 mod page;
 mod plot;
 mod problem;
+mod roles;
 mod study;
 mod table;
 mod text;
@@ -77,6 +78,7 @@ pub use measurements::{
 };
 pub use plot::{Plot, Scheme};
 pub use problem::{Problem, Reference};
+pub use roles::Role;
 pub use study::{Advance, Settings, Study};
 pub use timing::Repetitions;
 pub use verdict::{Cause, Cell, Column, Row, StabilityLimit, Verdict, Verdicts};

@@ -215,7 +215,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Ok(Checkpoint {
             version: env!("CARGO_PKG_VERSION").to_string(),
             method: M::NAME.to_string(),
-            definition: M::DEFINITION.to_string(),
+            definition: match self.course.memory.tableau() {
+                Some(tableau) => tableau.definition(),
+                None => M::DEFINITION.to_string(),
+            },
             scalar: V::Scalar::SAVED_AS
                 .ok_or(CheckpointError::Scalar)?
                 .to_string(),

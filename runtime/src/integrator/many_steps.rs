@@ -185,7 +185,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// Whether what steps change is little and all in one place: copies of it do not show beside a few steps.
     fn is_light(&self) -> bool {
         let bytes = size_of::<StepMemory<V, MemoryOf<M, S, V, N>>>();
-        is_in_place(&self.course.state.q) && bytes <= LIGHT
+        let at_run_time = <MemoryOf<M, S, V, N> as StageStorage<V>>::AT_RUN_TIME;
+        !at_run_time && is_in_place(&self.course.state.q) && bytes <= LIGHT
     }
 
     /// Takes steps until one fails; returns how many were taken, none where the first does not change the time. The last of

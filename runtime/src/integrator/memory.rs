@@ -67,7 +67,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
     /// The same with a memory of another kind.
     pub(super) fn with_memory<U: StageStorage<V>>(self, linear_velocity: bool) -> StepMemory<V, U> {
         StepMemory {
-            memory: U::like(&self.state.q),
+            memory: U::of_method(&self.memory, &self.state.q),
             kept: WarmStart::default(),
             state: self.state,
             low: self.low,
@@ -159,7 +159,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
 
     /// Forgets what steps have left behind.
     pub(super) fn forget(&mut self) {
-        self.memory = T::like(&self.state.q);
+        self.memory = T::of_method(&self.memory, &self.state.q);
         self.kept = WarmStart::default();
     }
 

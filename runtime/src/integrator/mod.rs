@@ -35,6 +35,8 @@ mod many_steps;
 mod memory;
 mod one_step;
 mod retry_in_parts;
+#[cfg(feature = "alloc")]
+mod run_time;
 mod solvers;
 pub(crate) mod validation;
 
@@ -215,6 +217,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     where
         M: ProvedFor<S::Class>,
     {
+        Self::made(system, state, step_size)
+    }
+
+    /// An integrator of the method that the type says.
+    fn made(system: S, state: State<V>, step_size: f64) -> Result<Self, Error> {
         check_step_size(step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
         check_masses(&system, &state)?;

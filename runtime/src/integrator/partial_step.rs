@@ -16,10 +16,11 @@ pub(crate) struct PartialSteps<M: Method, S: System<V>, V: Vector, N: Solver<V, 
 }
 
 impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, N> {
-    /// Memory for vectors like this one.
-    pub(crate) fn like(prototype: &V) -> Self {
+    /// Memory for steps of this integrator.
+    pub(crate) fn of<R: Summation>(integrator: &Integrator<M, S, V, R, N>) -> Self {
+        let prototype = &integrator.state().q;
         Self {
-            memory: StageStorage::like(prototype),
+            memory: StageStorage::of_method(&integrator.course.memory, prototype),
             low: (prototype.zeros_like(), prototype.zeros_like()),
         }
     }

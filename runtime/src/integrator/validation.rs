@@ -1,8 +1,10 @@
 //! What is looked at before an integrator is made or changed.
 
 use crate::error::{Error, Quantity};
+#[cfg(feature = "alloc")]
+use crate::method::RunTimeTableau;
 use crate::method::storage::is_finite;
-use crate::method::{Method, Solver};
+use crate::method::{Method, Orders, Solver};
 use crate::number::{Scalar, Vector};
 use crate::state::State;
 use crate::system::linearity::non_linear_velocity;
@@ -41,19 +43,43 @@ pub(super) fn check_quadratic_kinetic<M: Method, V: Vector, S: System<V>>(
     system: &S,
     state: &State<V>,
 ) -> Result<(), Error> {
-    if !M::NEEDS_QUADRATIC_KINETIC || S::UNIT_MASSES {
+    if !M::NEEDS_QUADRATIC_KINETIC {
+        return Ok(());
+    }
+    check_quadratic_kinetic_of::<M, V, S>(M::ORDERS, system, state)
+}
+
+/// [`check_quadratic_kinetic`] for a method of these orders that needs it.
+pub(super) fn check_quadratic_kinetic_of<M: Method, V: Vector, S: System<V>>(
+    orders: Orders,
+    system: &S,
+    state: &State<V>,
+) -> Result<(), Error> {
+    if S::UNIT_MASSES {
         return Ok(());
     }
     let State { time, q, p } = state;
     non_linear_velocity(system, *time, q, p).map_or(Ok(()), |found| {
         Err(Error::NotQuadraticKinetic {
             method: M::NAME,
-            order: M::ORDERS.nystrom,
-            lower_order: M::ORDERS.separable,
+            order: orders.nystrom,
+            lower_order: orders.separable,
             component: found.component,
             velocity: found.velocity,
             linear: found.linear,
         })
+    })
+}
+
+/// Checks that a tableau at run time is for systems of this class.
+#[cfg(feature = "alloc")]
+pub(super) fn check_orders<V: Vector, S: System<V>>(tableau: &RunTimeTableau) -> Result<(), Error> {
+    if S::Class::SEPARABLE || tableau.keeps_its_order_in_general() {
+        return Ok(());
+    }
+    Err(Error::SeparableTableau {
+        order: tableau.orders().separable,
+        lower_order: tableau.orders().general,
     })
 }
 

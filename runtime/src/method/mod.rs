@@ -8,6 +8,8 @@ pub(crate) mod explicit;
 pub(crate) mod interpolation;
 pub(crate) mod kick_drift;
 pub(crate) mod proved;
+#[cfg(feature = "alloc")]
+pub(crate) mod run_time;
 pub(crate) mod separable_only;
 pub(crate) mod solver;
 pub(crate) mod splitting;
@@ -26,6 +28,10 @@ pub use explicit::Explicit;
 pub use interpolation::{Inside, Interpolation};
 pub use kick_drift::{Drift, Force, KickDrift};
 pub use proved::{LowerOrder, Orders, ProvedFor};
+#[cfg(feature = "alloc")]
+pub use run_time::{
+    AtRunTime, RunTimeCoefficients, RunTimePlan, RunTimeStages, RunTimeTableau, TableauError,
+};
 pub use separable_only::{SeparableOnly, rows, staircase};
 pub use solver::Solver;
 pub use splitting::{Splitting, SplittingPlan};

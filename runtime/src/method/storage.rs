@@ -3,6 +3,8 @@
 use core::array;
 
 use crate::error::Quantity;
+#[cfg(feature = "alloc")]
+use crate::method::RunTimeTableau;
 use crate::number::{Scalar, Vector, Visit, vector_words};
 
 /// Memory of one [`Plan`](crate::emitted::Plan), made once and used for every step.
@@ -10,8 +12,32 @@ pub trait StageStorage<V: Vector>: Sized + Clone {
     /// Whether single doubles are read from groups of lanes that processors read faster from memory than from a register.
     const BROADCASTS: bool = false;
 
+    /// Whether it holds a [tableau](Self::tableau) that is known only when the program runs.
+    const AT_RUN_TIME: bool = false;
+
     /// Storage for vectors of the dimension of `prototype`; every component is zero.
     fn like(prototype: &V) -> Self;
+
+    /// The tableau, where it is known only when the program runs.
+    #[cfg(feature = "alloc")]
+    fn tableau(&self) -> Option<&RunTimeTableau> {
+        None
+    }
+
+    /// Takes a tableau that is known only when the program runs, and makes room for its stages.
+    #[cfg(feature = "alloc")]
+    fn set_tableau(&mut self, _tableau: &RunTimeTableau, _prototype: &V) {}
+
+    /// Storage [like](Self::like) this for the method of another one.
+    fn of_method<T: StageStorage<V>>(_other: &T, prototype: &V) -> Self {
+        #[cfg_attr(not(feature = "alloc"), allow(unused_mut))]
+        let mut storage = Self::like(prototype);
+        #[cfg(feature = "alloc")]
+        if let Some(tableau) = _other.tableau() {
+            storage.set_tableau(tableau, prototype);
+        }
+        storage
+    }
 
     /// Shows `visit` all numbers that a step leaves for the next one: a checkpoint holds them.
     fn words(&mut self, visit: &mut Visit<'_>);

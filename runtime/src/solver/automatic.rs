@@ -3,6 +3,8 @@
 use core::fmt;
 
 use crate::error::Quantity;
+#[cfg(feature = "alloc")]
+use crate::method::RunTimeStages;
 use crate::method::{
     Failure, Inside, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics, Stopping,
     WarmStart,
@@ -12,6 +14,8 @@ use crate::number::{Scalar, Summation, Vector, Visit};
 use crate::solver::FixedPoint;
 use crate::solver::fixed_point::by_stages;
 use crate::solver::nystrom::{self, NystromStages, nystrom};
+#[cfg(feature = "alloc")]
+use crate::solver::run_time::by_rows;
 use crate::solver::simd::gauss_seidel::gauss_seidel;
 use crate::solver::simd::jacobi::jacobi;
 use crate::system::{Class, OverEveryScalar, System};
@@ -144,6 +148,23 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
             let stages = &mut stages.lanes;
             gauss_seidel::<P, R, _, _>(step, system, stages, kept, stopping, outcome)
         }
+    }
+
+    #[cfg(feature = "alloc")]
+    fn take_at_run_time<C, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut RunTimeStages<V, C>,
+        kept: WarmStart,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>
+    where
+        C: Class,
+        R: Summation,
+        S: System<V, Class = C>,
+    {
+        by_rows::<C, R, V, S>(step, system, memory, kept, stopping, outcome)
     }
 
     fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {

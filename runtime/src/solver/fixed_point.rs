@@ -4,6 +4,8 @@ use core::marker::PhantomData;
 use core::mem;
 
 use crate::error::Quantity;
+#[cfg(feature = "alloc")]
+use crate::method::RunTimeStages;
 use crate::method::{
     EvaluationCounts, Failure, Inside, Outcome, Solver, StageChange, StagePlan, StageStorage,
     StageTableau, Step, StepStatistics, Stopping, WarmStart,
@@ -12,6 +14,8 @@ use crate::number::summation::Overrelaxed;
 use crate::number::vector::{LIGHT, is_in_place};
 use crate::number::{Scalar, Summation, Vector};
 use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
+#[cfg(feature = "alloc")]
+use crate::solver::run_time::by_rows;
 use crate::system::{Class, System};
 
 /// Fixed-point iteration: sweep after sweep from the latest evaluations to new stages. It converges where the step size
@@ -66,6 +70,23 @@ impl<V: Vector, S: System<V>> Solver<V, S> for FixedPoint {
         S: System<V, Class = P::Class>,
     {
         by_stages::<P, R, V, S>(step, system, stages, kept, stopping, outcome)
+    }
+
+    #[cfg(feature = "alloc")]
+    fn take_at_run_time<C, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut RunTimeStages<V, C>,
+        kept: WarmStart,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>
+    where
+        C: Class,
+        R: Summation,
+        S: System<V, Class = C>,
+    {
+        by_rows::<C, R, V, S>(step, system, memory, kept, stopping, outcome)
     }
 
     fn extend<P: StageTableau>(stages: &P::Stages<V>, at: Inside<'_, V>, q: &mut V, p: &mut V) {

@@ -8,6 +8,8 @@ pub(crate) mod newton;
 pub(crate) mod nystrom;
 pub(crate) mod predictor;
 pub(crate) mod relax;
+#[cfg(feature = "alloc")]
+pub(crate) mod run_time;
 pub(crate) mod simd;
 
 pub use crate::method::{

@@ -150,6 +150,12 @@ fn generating<M: Method, S: System<V>, V: Vector>(
     number: u64,
     stopping: Stopping,
 ) -> Result<GeneratingFunction<V>, Error> {
+    const {
+        assert!(
+            M::STAGES > 0,
+            "a tableau at run time has no generating function: let a macro emit the method"
+        );
+    }
     let mut stages = Unknowns::<M, V>::like(step.q);
     let zeros = || step.q.zeros_like();
     let (mut q1, mut p0) = (zeros(), zeros());

@@ -1,5 +1,6 @@
 //! The page: everything in one file, without anything from elsewhere.
 
+mod overview;
 mod verdicts;
 
 use super::plot::element::Element;
@@ -7,14 +8,17 @@ use super::plot::{file_name, style};
 use super::table::{cost, error};
 use super::text;
 use super::{
-    Cost, Curve, Fact, Kind, Measured, Measurements, MethodRecord, Outcome, Parameter, Plot,
+    Cost, Curve, Fact, Kind, Measured, Measurements, MethodRecord, Outcome, Parameter,
     ProblemRecord, Scheme,
 };
 
 impl Measurements {
-    /// The page, in HTML: for each problem its plots, the times for the [targets](Self::targets), what failed and every run;
-    /// the tables of [verdicts](Self::verdicts); the [limits](Self::limits) of stability; then what is known of the methods.
-    /// It needs no other file and no network, and is light or dark as the reader prefers.
+    /// The page, in HTML: the fastest method for each problem; for each problem the times for the [targets](Self::targets), its
+    /// plots, what failed and every run; the tables of [verdicts](Self::verdicts); the [limits](Self::limits) of stability; then
+    /// what is known of the methods.
+    ///
+    /// It needs no other file and no network, and is light or dark as the reader prefers. All of it is readable without its
+    /// script, by which a click brings a pale curve forward.
     pub fn page(&self) -> String {
         let head = Element::new("head")
             .child(Element::new("meta").with("charset", "utf-8"))
@@ -29,12 +33,13 @@ impl Measurements {
                 include_str!("page.css"),
                 style(Scheme::Reader)
             )));
-        let names = self.problems.iter().map(|problem| &problem.name);
-        let names = names.chain(self.verdicts.iter().map(|table| &table.title));
+        // The first table has links to the problems.
+        let names = self.verdicts.iter().map(|table| &table.title);
         let links = names.map(|name| link(name, &file_name(name)));
         let limits = (!self.limits.is_empty()).then_some(&self.limits);
         let body = Element::new("body")
             .child(tag("h1", &self.title))
+            .children(self.overview())
             .children(self.circumstances.iter().map(fact_line))
             .child(
                 Element::new("nav")
@@ -42,11 +47,11 @@ impl Measurements {
                     .children(limits.map(|_| link(verdicts::LIMITS, verdicts::LIMITS_ID)))
                     .children(self.has_methods().then(|| link("The methods", METHODS_ID))),
             )
-            .children(self.overview())
             .children(self.problems.iter().map(|problem| self.section(problem)))
             .children(self.verdicts.iter().map(verdicts::section))
             .children(limits.map(|limits| verdicts::limits_section(limits)))
-            .children(self.has_methods().then(|| self.methods_section()));
+            .children(self.has_methods().then(|| self.methods_section()))
+            .child(Element::new("script").markup(include_str!("page.js")));
         let html = Element::new("html")
             .with("lang", "en")
             .child(head)
@@ -58,38 +63,21 @@ impl Measurements {
         !self.methods.is_empty()
     }
 
-    /// The fastest method for each problem and target, with what the numbers are; nothing where there are no problems.
-    fn overview(&self) -> Vec<Element> {
-        if self.problems.is_empty() {
-            return Vec::new();
-        }
-        let header = ["the fastest for an error of".into()].into_iter();
-        let header = header.chain(self.targets.iter().map(|target| error(*target)));
-        let rows = self.problems.iter().map(|problem| {
-            let cells = self
-                .targets
-                .iter()
-                .map(|target| match problem.fastest(*target).first() {
-                    Some((curve, found)) => format!("{}, {}", curve.method, cost(found)),
-                    None => "–".into(),
-                });
-            Element::new("tr")
-                .child(tag("td", &problem.name))
-                .children(cells.map(|cell| tag("td", cell)))
-        });
-        vec![
-            table(header, rows),
-            tag("p", EXPLANATION).with("class", "quiet"),
-        ]
-    }
-
     fn section(&self, problem: &ProblemRecord) -> Element {
-        let plots = [
-            self.time_plot(problem),
-            self.evaluations_plot(problem),
-            self.energy_plot(problem),
+        let time = self.time_plot(problem).map(|plot| {
+            Element::new("figure")
+                .child(plot.inline())
+                .child(self.caption(problem))
+        });
+        let more = [
+            ("Evaluations against error", self.evaluations_plot(problem)),
+            ("Error of the energy over time", self.energy_plot(problem)),
         ];
-        let plots = plots.iter().flatten().map(Plot::inline);
+        let more = more.into_iter().filter_map(|(title, plot)| {
+            let figure = Element::new("figure").child(plot?.inline());
+            let summary = tag("summary", title);
+            Some(Element::new("details").child(summary).child(figure))
+        });
         let quiet = |words: String| tag("p", words).with("class", "quiet");
         let mut section = Element::new("section")
             .with("id", file_name(&problem.name))
@@ -103,8 +91,9 @@ impl Measurements {
                 "{} positions, from time {} to {}. Reference: {}.",
                 problem.dimension, problem.start, problem.end, problem.reference
             )))
-            .child(Element::new("div").with("class", "plots").children(plots))
-            .child(self.times(problem));
+            .child(self.times(problem))
+            .children(time)
+            .children(more);
         if let Some(failures) = failures(problem) {
             section = section.child(failures);
         }
@@ -115,25 +104,7 @@ impl Measurements {
     fn times(&self, problem: &ProblemRecord) -> Element {
         let header = ["fastest method for an error of".into()].into_iter();
         let header = header.chain(self.targets.iter().map(|target| error(*target)));
-        let mut curves: Vec<&Curve> = problem.curves.iter().collect();
-        // Those first that are the fastest at the finest target that they reach.
-        let key = |curve: &Curve| {
-            let costs = self
-                .targets
-                .iter()
-                .rev()
-                .map(|target| curve.cost(*target).seconds());
-            let (missed, seconds) = costs.enumerate().find(|(_, seconds)| seconds.is_some())?;
-            Some((missed, seconds?))
-        };
-        curves.sort_by(|a, b| {
-            let (a, b) = (
-                key(a).unwrap_or((usize::MAX, 0.0)),
-                key(b).unwrap_or((usize::MAX, 0.0)),
-            );
-            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
-        });
-        let rows = curves.into_iter().map(|curve| {
+        let rows = self.ranked(problem).into_iter().map(|curve| {
             let cells = self.targets.iter().map(|target| {
                 let found = curve.cost(*target);
                 let cell = tag("td", cost(&found)).with("title", explain(curve, &found));
@@ -148,10 +119,32 @@ impl Measurements {
                 }
             });
             Element::new("tr")
+                .with("data-method", &curve.method)
                 .child(tag("td", &curve.method))
                 .children(cells)
         });
-        table(header, rows)
+        table("times", header, rows)
+    }
+
+    /// The methods in colour.
+    fn caption(&self, problem: &ProblemRecord) -> Element {
+        let roles = self.roles(problem);
+        let is_coloured = |curve: &&Curve| roles.iter().any(|(_, held)| *held == *curve);
+        let pale = problem.curves.iter().filter(|curve| !is_coloured(curve));
+        let pale = match pale.count() {
+            0 => None,
+            count => Some(format!(
+                "{count} more in grey: a name appears under the mouse; a click on a curve or on a row of the table brings it forward."
+            )),
+        };
+        let named = roles.iter().map(|(role, curve)| {
+            Element::new("span")
+                .text(format!("{}: ", role.name()))
+                .child(tag("b", &curve.method))
+        });
+        Element::new("figcaption")
+            .children(named)
+            .children(pale.map(|words| tag("span", words)))
     }
 
     fn methods_section(&self) -> Element {
@@ -170,17 +163,11 @@ impl Measurements {
         Element::new("section")
             .with("id", METHODS_ID)
             .child(tag("h2", "The methods"))
-            .child(table(header, rows))
+            .child(table("scroll", header, rows))
     }
 }
 
 const METHODS_ID: &str = "the-methods";
-
-const EXPLANATION: &str = "Errors are global ones at the end of the run: the larger one of |q − q*|/|q*| and |p − p*|/|p*|. \
-    Times are CPU times of the whole integration, the median of several that all methods took in turn. Times for an error are \
-    interpolated between two runs on a logarithmic scale; ≤ is the time of the first run that is good enough, and nothing is \
-    extrapolated. Evaluations are those of velocities and of forces together, of all methods alike, which is about twice the number \
-    of forces; those that Newton's iteration makes its derivatives of are not counted. In the plots, the mouse on a run shows its numbers.";
 
 fn method_row(method: &MethodRecord, names: &[&str]) -> Element {
     let kind = match method.kind {
@@ -244,7 +231,7 @@ fn failures(problem: &ProblemRecord) -> Option<Element> {
     (!rows.is_empty()).then(|| {
         Element::new("details")
             .child(tag("summary", summary))
-            .child(table(header, rows.into_iter()))
+            .child(table("scroll", header, rows.into_iter()))
     })
 }
 
@@ -280,7 +267,7 @@ fn runs(problem: &ProblemRecord) -> Element {
             "summary",
             format!("All {count} runs that came to the end"),
         ))
-        .child(table(header, rows.into_iter()))
+        .child(table("scroll", header, rows.into_iter()))
 }
 
 fn run_row(curve: &Curve, value: f64, run: &Measured) -> Element {
@@ -311,12 +298,16 @@ fn parameter(kind: Parameter, value: f64) -> String {
     }
 }
 
-fn table(header: impl Iterator<Item = String>, rows: impl Iterator<Item = Element>) -> Element {
+fn table(
+    class: &str,
+    header: impl Iterator<Item = String>,
+    rows: impl Iterator<Item = Element>,
+) -> Element {
     let header = Element::new("tr").children(header.map(|name| tag("th", name)));
     let table = Element::new("table")
         .child(Element::new("thead").child(header))
         .child(Element::new("tbody").children(rows));
-    Element::new("div").with("class", "scroll").child(table)
+    Element::new("div").with("class", class).child(table)
 }
 
 fn fact_line(fact: &Fact) -> Element {
@@ -349,7 +340,7 @@ mod tests {
                 .count()
         };
         assert_eq!(count("svg"), 3);
-        assert_eq!((count("script"), count("link"), count("img")), (0, 0, 0));
+        assert_eq!((count("script"), count("link"), count("img")), (1, 0, 0));
         let without_namespace = page.replace("http://www.w3.org/2000/svg", "");
         assert!(
             !without_namespace.contains("http")
@@ -357,6 +348,37 @@ mod tests {
                 && !page.contains("url(")
         );
         assert!(page.contains("prefers-color-scheme: dark"));
+    }
+
+    #[test]
+    fn tables_come_before_plots() {
+        let page = measurements().page();
+        let at = |words: &str| page.find(words).expect(words);
+        let order = [
+            "<table class=\"overview\"",
+            "<nav",
+            "<div class=\"times\"",
+            "<svg",
+        ];
+        assert!(order.map(at).is_sorted());
+        assert!(page.contains("<th><a href=\"#kepler-co\">Kepler &amp; co</a></th>"));
+    }
+
+    #[test]
+    fn methods_without_a_role_are_pale_and_can_be_brought_forward() {
+        let mut found = measurements();
+        assert!(!found.page().contains("curve pale") && !found.page().contains("more in grey"));
+        let slower = crate::tests::curve("Gauss 2", &[(1e-2, 1e-2), (1e-4, 1e-1)]);
+        found.problems[0].curves.push(slower);
+        let mut record = found.methods[1].clone();
+        record.name = "Gauss 2".into();
+        found.methods.push(record);
+        let page = found.page();
+        // In the plots of time, evaluations and energy.
+        let pale = "<g class=\"curve pale\" data-method=\"Gauss 2\">";
+        assert_eq!(page.matches(pale).count(), 3);
+        assert!(page.contains("<tr data-method=\"Gauss 2\">") && page.contains("1 more in grey"));
+        assert!(page.contains("best implicit: <b>Gauss 4</b>"), "{page}");
     }
 
     #[test]

@@ -60,7 +60,7 @@ pub(super) fn section(verdicts: &Verdicts) -> Element {
         .child(tag("h2", &verdicts.title))
         .child(tag("p", &verdicts.description))
         .child(key())
-        .child(table(header, rows))
+        .child(table("scroll", header, rows))
 }
 
 /// A row for each fact that is known of one of the methods.
@@ -173,7 +173,7 @@ pub(super) fn limits_section(limits: &[StabilityLimit]) -> Element {
         .child(
             Element::new("details")
                 .child(tag("summary", summary))
-                .child(table(header.into_iter(), rows)),
+                .child(table("scroll", header.into_iter(), rows)),
         )
 }
 

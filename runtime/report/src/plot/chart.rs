@@ -5,7 +5,7 @@ use core::fmt::Write;
 use super::axis::Axis;
 use super::element::{Element, Pixels};
 use super::labels::{self, Area};
-use super::look::Look;
+use super::look::{self, Look};
 use crate::Kind;
 
 /// The size of a chart, with its texts.
@@ -71,11 +71,23 @@ impl Chart {
         elements.extend(self.key());
         elements.extend(self.unknown_area());
         elements.extend(self.grid());
-        let lines: Vec<Vec<(f64, f64)>> =
-            self.curves.iter().map(|curve| self.line(curve)).collect();
-        let ends: Vec<Option<(f64, f64)>> = lines.iter().map(|line| line.last().copied()).collect();
-        let labelled: Vec<(&str, (f64, f64))> = self
+        // Pale curves first: those in colour are drawn over them, and their names are placed first.
+        let (pale, coloured): (Vec<&Drawn>, Vec<&Drawn>) = self
             .curves
+            .iter()
+            .partition(|curve| curve.look.role.is_none());
+        let (coloured, taken) = self.groups(&coloured, &[], COLUMN);
+        let (pale, _) = self.groups(&pale, &taken, f64::INFINITY);
+        elements.extend(pale);
+        elements.extend(coloured);
+        elements
+    }
+
+    /// Curves with their names, and where the names are.
+    fn groups(&self, curves: &[&Drawn], taken: &[Area], column: f64) -> (Vec<Element>, Vec<Area>) {
+        let lines: Vec<Vec<(f64, f64)>> = curves.iter().map(|curve| self.line(curve)).collect();
+        let ends: Vec<Option<(f64, f64)>> = lines.iter().map(|line| line.last().copied()).collect();
+        let labelled: Vec<(&str, (f64, f64))> = curves
             .iter()
             .zip(&ends)
             .filter_map(|(curve, end)| Some((curve.name.as_str(), (*end)?)))
@@ -85,17 +97,24 @@ impl Chart {
             right: WIDTH - 2.0,
             ..INNER
         };
-        let mut areas = labels::place(&labelled, &lines, &frame, COLUMN).into_iter();
-        for (curve, end) in self.curves.iter().zip(ends) {
-            let mut group = Element::new("g")
-                .with("class", "curve")
-                .children(self.draw(curve));
-            if let (Some(end), Some(area)) = (end, end.and_then(|_| areas.next())) {
-                group = group.children(label(&curve.name, curve.look, end, &area));
+        let areas = labels::place(&labelled, &lines, taken, &frame, column);
+        let mut places = areas.iter();
+        let mut groups = Vec::new();
+        for (curve, end) in curves.iter().zip(ends) {
+            let group = Element::new("g");
+            let group = match curve.look.role {
+                Some(_) => group.with("class", "curve"),
+                None => group
+                    .with("class", "curve pale")
+                    .with("data-method", &curve.name),
+            };
+            let mut group = group.children(self.draw(curve));
+            if let (Some(end), Some(area)) = (end, end.and_then(|_| places.next())) {
+                group = group.children(label(&curve.name, curve.look, end, area));
             }
-            elements.push(group);
+            groups.push(group);
         }
-        elements
+        (groups, areas)
     }
 
     fn place(&self, (x, y): (f64, f64)) -> (f64, f64) {
@@ -124,7 +143,7 @@ impl Chart {
                 x -= labels::width(name);
                 elements.push(text(x, 46.0, "muted", name).with("font-size", 12));
                 x -= 10.0;
-                elements.push(Look::grey(kind).mark(x, 42.0));
+                elements.push(look::key(kind, x, 42.0));
                 x -= 16.0;
             }
         }
@@ -245,10 +264,20 @@ impl Chart {
                 None => line,
             }
         };
+        let width = |coloured| if look.role.is_some() { coloured } else { "1.1" };
+        // What the mouse finds is wider than what the eye sees.
+        let hit = |path: &str| {
+            let title = Element::new("title").text(curve.name.as_str());
+            Element::new("path")
+                .with("class", "hit")
+                .with("d", path)
+                .child(title)
+        };
         match &curve.shape {
             Shape::Marks(points) => {
                 let line = self.line(curve);
-                let mut elements = vec![stroke(path(&line), "1.8")];
+                let whole = path(&line);
+                let mut elements = vec![hit(&whole), stroke(whole, width("2"))];
                 for ((x, y), (_, _, words)) in line.into_iter().zip(points) {
                     let title = Element::new("title").text(words.as_str());
                     elements.push(look.mark(x, y).child(title));
@@ -267,7 +296,7 @@ impl Chart {
                     )
                 });
                 let paths: String = paths.collect();
-                vec![stroke(paths, "1.5").child(Element::new("title").text(curve.name.as_str()))]
+                vec![hit(&paths), stroke(paths, width("1.6"))]
             }
             Shape::Band(points) => {
                 let low = points.iter().map(|(x, low, _)| self.place((*x, *low)));
@@ -275,6 +304,7 @@ impl Chart {
                 let area: Vec<(f64, f64)> = low.chain(high.rev()).collect();
                 let area = path(&area) + "Z";
                 vec![
+                    hit(&area),
                     Element::new("path")
                         .with("class", look.area())
                         .with("fill-opacity", "0.3")

@@ -42,10 +42,11 @@ const REACH: f64 = 104.0;
 
 /// Places for texts that are about these points, inside `frame`: those of points near its left end in a column that begins at
 /// `column`, in the order of the points, all others as near as can be, on no other text, and on as little of `curves` as
-/// possible.
+/// possible. None is on a text that is `taken`.
 pub fn place(
     labels: &[(&str, (f64, f64))],
     curves: &[Vec<(f64, f64)>],
+    taken: &[Area],
     frame: &Area,
     column: f64,
 ) -> Vec<Area> {
@@ -75,6 +76,7 @@ pub fn place(
             let texts = placed
                 .iter()
                 .flatten()
+                .chain(taken)
                 .filter(|other| candidate.overlaps(other))
                 .count();
             let outside = u32::from(!candidate.is_within(frame));
@@ -180,7 +182,7 @@ mod tests {
 
     #[test]
     fn one_alone_is_to_the_right_of_its_point() {
-        let found = place(&[("Verlet", (100.0, 100.0))], &[], &FRAME, 1e3);
+        let found = place(&[("Verlet", (100.0, 100.0))], &[], &[], &FRAME, 1e3);
         assert_eq!(found[0].left, 108.0);
         assert_eq!(found[0].top, 100.0 - HEIGHT / 2.0);
     }
@@ -193,7 +195,7 @@ mod tests {
             .enumerate()
             .map(|(k, name)| (name.as_str(), (250.0, 150.0 + k as f64)))
             .collect();
-        let found = place(&labels, &[], &FRAME, 1e3);
+        let found = place(&labels, &[], &[], &FRAME, 1e3);
         assert_eq!(found.len(), 14);
         for (k, area) in found.iter().enumerate() {
             assert!(area.is_within(&FRAME), "{area:?}");
@@ -209,7 +211,7 @@ mod tests {
         let labels: Vec<(&str, (f64, f64))> = [150.0, 149.0, 148.0, 40.0, 299.0, 298.0]
             .map(|y| ("name", (280.0, y)))
             .into();
-        let found = place(&labels, &[], &FRAME, 300.0);
+        let found = place(&labels, &[], &[], &FRAME, 300.0);
         assert!(
             found
                 .iter()
@@ -230,14 +232,22 @@ mod tests {
     fn curves_are_left_free() {
         // A line to the right of the point.
         let curve = vec![(100.0, 100.0), (400.0, 100.0)];
-        let found = place(&[("Verlet", (100.0, 100.0))], &[curve], &FRAME, 1e3);
+        let found = place(&[("Verlet", (100.0, 100.0))], &[curve], &[], &FRAME, 1e3);
         assert!(!found[0].holds((120.0, 100.0)), "{found:?}");
         assert!((found[0].top - 100.0).abs() < 30.0);
     }
 
     #[test]
     fn at_the_right_border_it_goes_to_the_left() {
-        let found = place(&[("Verlet", (395.0, 100.0))], &[], &FRAME, 1e3);
+        let found = place(&[("Verlet", (395.0, 100.0))], &[], &[], &FRAME, 1e3);
         assert!(found[0].is_within(&FRAME));
+    }
+
+    #[test]
+    fn a_taken_place_is_left_free() {
+        let label = [("Verlet", (100.0, 100.0))];
+        let first = place(&label, &[], &[], &FRAME, 1e3);
+        let second = place(&label, &[], &first, &FRAME, 1e3);
+        assert!(!first[0].overlaps(&second[0]), "{second:?}");
     }
 }

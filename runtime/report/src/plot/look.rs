@@ -3,7 +3,7 @@
 use core::fmt::Write;
 
 use super::element::{Element, Pixels};
-use crate::{Kind, Measurements};
+use crate::{Kind, Role};
 
 /// For what background a plot is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,44 +16,40 @@ pub enum Scheme {
     Reader,
 }
 
-/// Colours that are told apart by all: those of M. Okabe & K. Ito (2008) without yellow, brighter on a dark background
-/// where they would be hard to see. For lines and marks, and for texts, which need more contrast.
+/// Colours that are told apart by all: five of those of M. Okabe & K. Ito (2008), brighter on a dark background where they
+/// would be hard to see. For lines and marks, and for texts, which need more contrast.
 struct Palette {
     background: &'static str,
     ink: &'static str,
     muted: &'static str,
     grid: &'static str,
-    lines: [&'static str; COLOURS],
-    texts: [&'static str; COLOURS],
+    /// Curves in the background.
+    pale: &'static str,
+    lines: [&'static str; ROLES],
+    texts: [&'static str; ROLES],
 }
 
-/// Number of colours.
-const COLOURS: usize = 7;
+/// Number of colours, one for each [`Role`].
+const ROLES: usize = Role::ALL.len();
 
 const LIGHT: Palette = Palette {
     background: "#ffffff",
     ink: "#1b1f24",
     muted: "#5b6570",
-    grid: "#e4e8ec",
-    lines: [
-        "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#444444",
-    ],
-    texts: [
-        "#00609a", "#b04c00", "#007354", "#a34a7c", "#8a5f00", "#1d719f", "#333333",
-    ],
+    grid: "#e9ecf0",
+    pale: "#c6ccd3",
+    lines: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00"],
+    texts: ["#00609a", "#b04c00", "#007354", "#a34a7c", "#8a5f00"],
 };
 
 const DARK: Palette = Palette {
     background: "#14181d",
     ink: "#e6e9ec",
     muted: "#98a2ad",
-    grid: "#29303a",
-    lines: [
-        "#3b9ade", "#ee7733", "#1dbb8c", "#dd94bb", "#e9a820", "#8fd0f5", "#c9ced3",
-    ],
-    texts: [
-        "#6fb6ea", "#f59a66", "#45cfa5", "#e6acca", "#efbb50", "#a5daf8", "#d5d9dd",
-    ],
+    grid: "#242a33",
+    pale: "#464f5a",
+    lines: ["#3b9ade", "#ee7733", "#1dbb8c", "#dd94bb", "#e9a820"],
+    texts: ["#6fb6ea", "#f59a66", "#45cfa5", "#e6acca", "#efbb50"],
 };
 
 /// The style sheet of plots.
@@ -75,6 +71,7 @@ fn rules(palette: &Palette) -> String {
         ink,
         muted,
         grid,
+        pale,
         ..
     } = palette;
     let mut text = format!(
@@ -86,7 +83,15 @@ fn rules(palette: &Palette) -> String {
          .leader {{ stroke-width: 0.8; fill: none; opacity: 0.75 }}\n\
          .unknown {{ fill: {muted}; fill-opacity: 0.13 }}\n\
          .label {{ stroke: {background}; stroke-width: 3px; stroke-linejoin: round; paint-order: stroke }}\n\
-         .hollow {{ fill: {background}; stroke-width: 1.6 }}\n"
+         .key {{ fill: {muted} }}\n\
+         .hit {{ fill: none; stroke: transparent; stroke-width: 11; pointer-events: stroke }}\n\
+         .pale .line {{ stroke: {pale} }}\n\
+         .pale .fill {{ fill: {pale} }}\n\
+         .pale .label, .pale .leader {{ visibility: hidden }}\n\
+         .pale:hover .line, .forward .line {{ stroke: {ink} }}\n\
+         .pale:hover .fill, .forward .fill {{ fill: {ink} }}\n\
+         .pale:hover .label, .forward .label {{ visibility: visible; fill: {ink} }}\n\
+         .pale:hover .leader, .forward .leader {{ visibility: visible }}\n"
     );
     for (index, (line, letters)) in palette.lines.iter().zip(&palette.texts).enumerate() {
         let written = writeln!(
@@ -98,106 +103,73 @@ fn rules(palette: &Palette) -> String {
     text
 }
 
-/// What the curves of a method look like in all plots of a study.
+/// What a curve looks like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Look {
     pub kind: Kind,
-    /// Its place among all methods.
-    index: usize,
+    /// Its role, which has a colour; pale grey without one.
+    pub role: Option<Role>,
 }
 
 impl Look {
-    const fn new(kind: Kind, index: usize) -> Self {
-        Self { kind, index }
-    }
-
-    /// The look of a method; that of an unknown one is the first.
-    pub fn of(method: &str, measurements: &Measurements) -> Self {
-        let mut methods = measurements.methods.iter().enumerate();
-        let found = methods.find(|(_, record)| record.name == method);
-        found.map_or(Self::new(Kind::Peer, 0), |(index, record)| {
-            Self::new(record.kind, index)
-        })
-    }
-
-    /// The look of a mark that stands for its kind only: grey.
-    pub const fn grey(kind: Kind) -> Self {
-        Self::new(kind, COLOURS - 1)
-    }
-
-    const fn colour(self) -> usize {
-        self.index % COLOURS
-    }
-
-    /// How often all colours are used up before it: marks and lines tell those of one colour apart.
-    const fn round(self) -> usize {
-        self.index / COLOURS
-    }
-
-    /// Whether marks are hollow.
-    const fn is_hollow(self) -> bool {
-        self.round() % 2 == 1
-    }
-
-    /// The classes of a line.
-    pub fn line(self) -> String {
-        format!("line{}", self.colour())
-    }
-
-    /// The classes of an area.
-    pub fn area(self) -> String {
-        format!("fill{}", self.colour())
-    }
-
-    /// The classes of a text.
-    pub fn letters(self) -> String {
-        format!("text{}", self.colour())
-    }
-
-    /// The dashes of a line: short ones for methods that are not of the library, long ones where a colour comes again.
-    pub const fn dashes(self) -> Option<&'static str> {
-        match (self.kind, self.round() % 4) {
-            (Kind::Peer, 0) => Some("5 3"),
-            (Kind::Peer, 1) => Some("5 3 1.5 3"),
-            (Kind::Peer, 2) => Some("5 3 1.5 3 1.5 3"),
-            (Kind::Peer, _) => Some("2 3"),
-            (_, 0) => None,
-            (_, 1) => Some("14 3"),
-            (_, 2) => Some("14 3 2.5 3"),
-            (_, _) => Some("14 3 2.5 3 2.5 3"),
+    fn class(self, what: &str) -> String {
+        match self.role {
+            Some(role) => format!("{what}{}", role as usize),
+            None => what.into(),
         }
+    }
+
+    /// The class of a line.
+    pub fn line(self) -> String {
+        self.class("line")
+    }
+
+    /// The class of an area or a mark.
+    pub fn area(self) -> String {
+        self.class("fill")
+    }
+
+    /// The class of a text.
+    pub fn letters(self) -> String {
+        self.class("text")
+    }
+
+    /// The dashes of a line: for methods that are not of the library.
+    pub fn dashes(self) -> Option<&'static str> {
+        (self.kind == Kind::Peer).then_some("5 3")
     }
 
     /// A mark at a place: a disc for explicit methods, a square for implicit ones, a triangle for others.
     pub fn mark(self, x: f64, y: f64) -> Element {
-        let class = if self.is_hollow() {
-            format!("hollow {}", self.line())
-        } else {
-            self.area()
-        };
-        match self.kind {
-            Kind::Explicit => Element::new("circle")
-                .at("cx", x)
-                .at("cy", y)
-                .with("r", "3.2"),
-            Kind::Implicit => Element::new("rect")
-                .at("x", x - 2.9)
-                .at("y", y - 2.9)
-                .with("width", "5.8")
-                .with("height", "5.8"),
-            Kind::Peer => Element::new("path").with(
-                "d",
-                format!("M{} {}l3.8 6.6h-7.6z", Pixels(x), Pixels(y - 4.2)),
-            ),
-        }
-        .with("class", class)
+        mark(self.kind, x, y).with("class", self.area())
+    }
+}
+
+/// The mark of a kind, for the key.
+pub fn key(kind: Kind, x: f64, y: f64) -> Element {
+    mark(kind, x, y).with("class", "key")
+}
+
+fn mark(kind: Kind, x: f64, y: f64) -> Element {
+    match kind {
+        Kind::Explicit => Element::new("circle")
+            .at("cx", x)
+            .at("cy", y)
+            .with("r", "3.2"),
+        Kind::Implicit => Element::new("rect")
+            .at("x", x - 2.9)
+            .at("y", y - 2.9)
+            .with("width", "5.8")
+            .with("height", "5.8"),
+        Kind::Peer => Element::new("path").with(
+            "d",
+            format!("M{} {}l3.8 6.6h-7.6z", Pixels(x), Pixels(y - 4.2)),
+        ),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeSet;
-
     use super::*;
 
     /// The relative luminance of a colour (WCAG 2).
@@ -212,25 +184,6 @@ mod tests {
             }
         };
         0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5)
-    }
-
-    #[test]
-    fn methods_of_one_colour_are_told_apart_without_it() {
-        for kind in [Kind::Explicit, Kind::Implicit, Kind::Peer] {
-            for colour in 0..COLOURS {
-                let looks = (0..4).map(|round| Look::new(kind, colour + round * COLOURS));
-                let seen: BTreeSet<_> = looks
-                    .map(|look| {
-                        assert_eq!(look.line(), Look::new(kind, colour).line());
-                        look.dashes()
-                    })
-                    .collect();
-                assert_eq!(seen.len(), 4);
-            }
-        }
-        // A peer is none of the library's either.
-        let of = |kind| (0..4).map(move |round| Look::new(kind, round * COLOURS).dashes());
-        assert!(of(Kind::Peer).all(|dashes| of(Kind::Implicit).all(|other| other != dashes)));
     }
 
     #[test]
@@ -249,7 +202,11 @@ mod tests {
             for line in palette.lines {
                 assert!(contrast(line) >= 2.0, "{line}: {}", contrast(line));
             }
-            assert!(contrast(palette.grid) < 2.0);
+            assert!(contrast(palette.grid) < contrast(palette.pale));
+            // Curves in the background are seen, and stay behind those in colour.
+            let nearest = palette.lines.iter().map(|line| contrast(line));
+            let nearest = nearest.fold(f64::INFINITY, f64::min);
+            assert!(contrast(palette.pale) >= 1.5 && contrast(palette.pale) <= 0.8 * nearest);
         }
     }
 }

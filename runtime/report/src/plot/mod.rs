@@ -14,12 +14,12 @@ pub(super) use look::style;
 
 pub use look::Scheme;
 
-use super::{Curve, Measured, Measurements, Parameter, ProblemRecord, Trace, text};
+use super::{Curve, Kind, Measured, Measurements, Parameter, ProblemRecord, Trace, text};
 
 /// A plot, to be drawn for a light or a dark background.
 ///
-/// Colours are from a palette that the colour-blind tell apart, names stand at the ends of the curves, and the runs say their
-/// numbers where the mouse is.
+/// The methods with a [`Role`](super::Role) are drawn in colours that the colour-blind tell apart, with their names at the ends
+/// of the curves. All others are pale grey; their names appear under the mouse, and so do the numbers of every run.
 #[derive(Clone, Debug)]
 pub struct Plot {
     chart: Chart,
@@ -79,6 +79,19 @@ impl Measurements {
         plots.collect()
     }
 
+    /// What the curves of a problem look like, by method.
+    fn looks(&self, problem: &ProblemRecord) -> impl Fn(&str) -> Look {
+        let roles = self.roles(problem);
+        move |method| {
+            let held = roles.iter().filter(|(_, curve)| curve.method == method);
+            Look {
+                kind: self.method(method).map_or(Kind::Peer, |known| known.kind),
+                // Verlet keeps its colour where it is the best explicit method too.
+                role: held.map(|(role, _)| *role).next_back(),
+            }
+        }
+    }
+
     /// CPU time against error.
     pub(super) fn time_plot(&self, problem: &ProblemRecord) -> Option<Plot> {
         self.work_plot(problem, "CPU time against error", "CPU time in s", |run| {
@@ -101,6 +114,7 @@ impl Measurements {
         label: &str,
         work: impl Fn(&Measured) -> f64,
     ) -> Option<Plot> {
+        let look = self.looks(problem);
         let curves: Vec<Drawn> = problem
             .curves
             .iter()
@@ -118,7 +132,7 @@ impl Measurements {
                 });
                 Drawn {
                     name: curve.method.clone(),
-                    look: Look::of(&curve.method, self),
+                    look: look(&curve.method),
                     shape: Shape::Marks(points.collect()),
                 }
             })
@@ -153,9 +167,10 @@ impl Measurements {
             let curves = problem.curves.iter();
             curves.filter_map(|curve| Some((curve, curve.trace.as_ref()?)))
         };
+        let look = self.looks(problem);
         let drawn = |curve: &Curve, shape| Drawn {
             name: curve.method.clone(),
-            look: Look::of(&curve.method, self),
+            look: look(&curve.method),
             shape,
         };
         let span = problem.end - problem.start;

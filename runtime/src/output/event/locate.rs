@@ -214,7 +214,7 @@ where
         if by_steps {
             let partial = self
                 .partial
-                .get_or_insert_with(|| PartialSteps::like(&integrator.state().q));
+                .get_or_insert_with(|| PartialSteps::of(integrator));
             return partial.take(integrator, time, &mut self.state);
         }
         if !self.evaluated {

@@ -1,0 +1,106 @@
+//! Integrators of methods that are known only when the program runs.
+
+use super::memory::StepMemory;
+use super::validation::{check_orders, check_quadratic_kinetic_of};
+use crate::error::Error;
+use crate::integrator::Integrator;
+use crate::method::{AtRunTime, RunTimeTableau, StageStorage};
+use crate::number::{Plain, Summation, Vector};
+use crate::state::State;
+use crate::system::System;
+
+impl<S: System<V>, V: Vector> Integrator<AtRunTime, S, V> {
+    /// [`new`](Integrator::new) with a method that is known only when the program runs, and with
+    /// [`Compensated`](crate::Compensated) sums.
+    ///
+    /// On separable systems an explicit tableau goes by drifts and kicks. Coupled stages are found by the iteration of
+    /// [`FixedPoint`](crate::solver::FixedPoint), one by one and never in lanes; with another solver code does not compile. The inside of a step is
+    /// the cubic polynomial of its ends.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`new`](Integrator::new), and [`Error::SeparableTableau`] where the system is not separable and the tableau has a lower
+    /// order there or is not symplectic: see [`RunTimeTableau::accept_lower_order`].
+    ///
+    /// ```
+    /// use symplectic::nalgebra::Vector1;
+    /// use symplectic::{Integrator, Orders, RunTimeCoefficients, RunTimeTableau, State, acceleration};
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let verlet = RunTimeCoefficients {
+    ///     a: vec![vec![0.0, 0.0], vec![0.5, 0.5]],
+    ///     a_tilde: vec![vec![0.5, 0.0], vec![0.5, 0.0]],
+    ///     b: vec![0.5, 0.5],
+    ///     b_tilde: vec![0.5, 0.5],
+    ///     c: vec![0.0, 1.0],
+    ///     c_tilde: vec![0.5, 0.5],
+    /// };
+    /// let orders = Orders { general: 2, separable: 2, nystrom: 2 };
+    /// let verlet = RunTimeTableau::new("Störmer–Verlet", &verlet, orders)?;
+    /// assert!(verlet.is_explicit());
+    ///
+    /// let oscillator = acceleration(|_time, q: &Vector1<f64>, acceleration| *acceleration = -q);
+    /// let start = State::from_arrays(0.0, [1.0], [0.0]);
+    /// let mut integrator = Integrator::at_run_time(&verlet, oscillator, start, 0.01)?;
+    /// let end = integrator.integrate_to(1.0)?;
+    /// assert!((end.q[0] - 1.0_f64.cos()).abs() < 1e-5);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// Newton's iteration needs an emitted method:
+    ///
+    /// ```compile_fail
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Integrator, RunTimeTableau, State, acceleration};
+    /// fn step(tableau: &RunTimeTableau) -> Result<(), symplectic::Error> {
+    ///     let stiff = acceleration(|_time, q: &Vector1<f64>, acceleration| *acceleration = -q * 1e12);
+    ///     let start = State::from_arrays(0.0, [1.0], [0.0]);
+    ///     Integrator::at_run_time(tableau, stiff, start, 0.1)?.by_newton().step()?;
+    ///     Ok(())
+    /// }
+    /// # let _used: fn(&RunTimeTableau) -> Result<(), symplectic::Error> = step;
+    /// ```
+    pub fn at_run_time(
+        tableau: &RunTimeTableau,
+        system: S,
+        state: State<V>,
+        step_size: f64,
+    ) -> Result<Self, Error> {
+        Self::of_tableau(tableau, system, state, step_size)
+    }
+}
+
+impl<S: System<V>, V: Vector> Integrator<AtRunTime, S, V, Plain> {
+    /// [`at_run_time`](Integrator::at_run_time) with [`Plain`] sums.
+    ///
+    /// # Errors
+    ///
+    /// As for [`at_run_time`](Integrator::at_run_time).
+    pub fn plain_at_run_time(
+        tableau: &RunTimeTableau,
+        system: S,
+        state: State<V>,
+        step_size: f64,
+    ) -> Result<Self, Error> {
+        Self::of_tableau(tableau, system, state, step_size)
+    }
+}
+
+impl<S: System<V>, V: Vector, R: Summation> Integrator<AtRunTime, S, V, R> {
+    fn of_tableau(
+        tableau: &RunTimeTableau,
+        system: S,
+        state: State<V>,
+        step_size: f64,
+    ) -> Result<Self, Error> {
+        check_orders::<V, S>(tableau)?;
+        let mut made = Self::made(system, state, step_size)?;
+        if let Some(orders) = tableau.needs_quadratic_kinetic() {
+            check_quadratic_kinetic_of::<AtRunTime, V, S>(orders, &made.system, made.state())?;
+        }
+        let StepMemory { memory, state, .. } = &mut made.course;
+        memory.set_tableau(tableau, &state.q);
+        Ok(made)
+    }
+}

@@ -1,0 +1,195 @@
+//! What is wrong with coefficients.
+
+use super::RunTimeCoefficients;
+
+/// Why coefficients are not those of a symplectic method. Rows, columns and stages are counted from 1.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TableauError {
+    /// There is no stage.
+    #[error("the tableau has no stages; give at least one weight")]
+    NoStages,
+
+    /// A list or a row is not as long as there are stages.
+    #[error("{what}{} has {found} entries and the tableau {expected} stages", OfRow(*.row))]
+    Shape {
+        /// The list or matrix: `a`, `ã`, `b`, `b̃`, `c` or `c̃`.
+        what: &'static str,
+        /// The row, where rows are as many as they should be.
+        row: Option<usize>,
+        /// Number of stages, that of the entries of `b`.
+        expected: usize,
+        /// Number of entries.
+        found: usize,
+    },
+
+    /// A coefficient is infinite or not a number.
+    #[error("entry {column} of {what}{} is {value}; coefficients must be finite", OfRow(*.row))]
+    NotFinite {
+        /// The list or matrix.
+        what: &'static str,
+        /// The row of a matrix.
+        row: Option<usize>,
+        /// The entry.
+        column: usize,
+        /// Its value.
+        value: f64,
+    },
+
+    /// The weights do not sum to 1.
+    #[error("the weights {what} sum to {sum} and not to 1")]
+    Weights {
+        /// `b` or `b̃`.
+        what: &'static str,
+        /// Their sum.
+        sum: f64,
+    },
+
+    /// A node is not the sum of its row.
+    #[error("row {row} of {what} sums to {sum}, and its node is {node}")]
+    Node {
+        /// `a` or `ã`.
+        what: &'static str,
+        /// The row.
+        row: usize,
+        /// The sum of the row.
+        sum: f64,
+        /// `c_i` or `c̃_i`.
+        node: f64,
+    },
+
+    /// The method is not symplectic.
+    #[error(
+        "row {row} of ã and column {row} of a are not symplectic: b_i ã_ij + b̃_j a_ji − b_i b̃_j is {defect:e} for \
+         i = {row}, j = {column}; it must be zero up to rounding"
+    )]
+    NotSymplectic {
+        /// i
+        row: usize,
+        /// j
+        column: usize,
+        /// `b_i ã_ij + b̃_j a_ji − b_i b̃_j`
+        defect: f64,
+    },
+}
+
+/// " in row i", or nothing.
+struct OfRow(Option<usize>);
+
+impl core::fmt::Display for OfRow {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        self.0
+            .map_or(Ok(()), |row| write!(formatter, " in row {row}"))
+    }
+}
+
+/// Units of rounding by which sums and products of correctly rounded numbers may be off, and one more for each term of a sum.
+const UNITS: f64 = 4.0;
+
+/// Whether two numbers are equal up to the rounding of what they were made of, so many terms.
+pub(super) fn is_about(left: f64, right: f64, terms: usize) -> bool {
+    is_rounding(left - right, left.abs() + right.abs(), terms)
+}
+
+/// Whether a number is the rounding error of so many terms, the sizes of which sum to `size`.
+fn is_rounding(value: f64, size: f64, terms: usize) -> bool {
+    value.abs() <= (UNITS + terms as f64) * f64::EPSILON * size
+}
+
+/// Checks all that can be seen of coefficients.
+pub(super) fn check(coefficients: &RunTimeCoefficients) -> Result<(), TableauError> {
+    let RunTimeCoefficients {
+        a,
+        a_tilde,
+        b,
+        b_tilde,
+        c,
+        c_tilde,
+    } = coefficients;
+    let stages = b.len();
+    if stages == 0 {
+        return Err(TableauError::NoStages);
+    }
+    for (what, list) in [("b", b), ("b̃", b_tilde), ("c", c), ("c̃", c_tilde)] {
+        check_list(what, None, list, stages)?;
+    }
+    for (what, matrix) in [("a", a), ("ã", a_tilde)] {
+        if matrix.len() != stages {
+            let found = matrix.len();
+            return Err(shape(what, None, stages, found));
+        }
+        for (i, row) in matrix.iter().enumerate() {
+            check_list(what, Some(i + 1), row, stages)?;
+        }
+    }
+    for (what, weights) in [("b", b), ("b̃", b_tilde)] {
+        let sum: f64 = weights.iter().sum();
+        let size: f64 = weights.iter().map(|weight| weight.abs()).sum();
+        if !is_rounding(sum - 1.0, size + 1.0, stages) {
+            return Err(TableauError::Weights { what, sum });
+        }
+    }
+    for (what, matrix, nodes) in [("a", a, c), ("ã", a_tilde, c_tilde)] {
+        for (i, (row, &node)) in matrix.iter().zip(nodes).enumerate() {
+            let sum: f64 = row.iter().sum();
+            let size: f64 = row.iter().map(|entry| entry.abs()).sum();
+            if !is_rounding(sum - node, size + node.abs(), stages) {
+                let row = i + 1;
+                return Err(TableauError::Node {
+                    what,
+                    row,
+                    sum,
+                    node,
+                });
+            }
+        }
+    }
+    for i in 0..stages {
+        for j in 0..stages {
+            let terms = [
+                b[i] * a_tilde[i][j],
+                b_tilde[j] * a[j][i],
+                -b[i] * b_tilde[j],
+            ];
+            let defect: f64 = terms.iter().sum();
+            let size: f64 = terms.iter().map(|term| term.abs()).sum();
+            if !is_rounding(defect, size, 0) {
+                return Err(TableauError::NotSymplectic {
+                    row: i + 1,
+                    column: j + 1,
+                    defect,
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn shape(what: &'static str, row: Option<usize>, expected: usize, found: usize) -> TableauError {
+    TableauError::Shape {
+        what,
+        row,
+        expected,
+        found,
+    }
+}
+
+fn check_list(
+    what: &'static str,
+    row: Option<usize>,
+    list: &[f64],
+    stages: usize,
+) -> Result<(), TableauError> {
+    if list.len() != stages {
+        return Err(shape(what, row, stages, list.len()));
+    }
+    match list.iter().position(|value| !value.is_finite()) {
+        Some(index) => Err(TableauError::NotFinite {
+            what,
+            row,
+            column: index + 1,
+            value: list[index],
+        }),
+        None => Ok(()),
+    }
+}

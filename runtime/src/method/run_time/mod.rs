@@ -1,0 +1,231 @@
+//! Methods that are known only when the program runs: a tableau is a value instead of a type.
+
+mod error;
+mod plan;
+mod schedule;
+
+use alloc::string::{String, ToString};
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use core::fmt::Write as _;
+
+pub use error::TableauError;
+pub use plan::{RunTimePlan, RunTimeStages};
+pub(crate) use schedule::{Coupled, Half, Kind, MOST, Row, Schedule, Splitting};
+
+use crate::method::{Method, Orders, ProvedFor};
+use crate::number::Coefficients;
+use crate::system::{Class, General, Separable};
+
+/// The coefficients of a method with s stages, each the double nearest to the exact number.
+///
+/// ```text
+/// Q_i = q0 + h Σ_j a_ij velocity_j      q1 = q0 + h Σ_i b_i velocity_i      velocity_i at t0 + c̃_i h
+/// P_i = p0 + h Σ_j ã_ij force_j         p1 = p0 + h Σ_i b̃_i force_i         force_i at t0 + c_i h
+/// ```
+///
+/// `Tableau::to_f64` of the package `symplectic-compiler` has the same fields, and so have its files in JSON and TOML.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RunTimeCoefficients {
+    /// `a_ij`, by rows.
+    pub a: Vec<Vec<f64>>,
+    /// `ã_ij`, by rows.
+    pub a_tilde: Vec<Vec<f64>>,
+    /// `b_i`
+    pub b: Vec<f64>,
+    /// `b̃_i`
+    pub b_tilde: Vec<f64>,
+    /// `c_i = Σ_j a_ij`
+    pub c: Vec<f64>,
+    /// `c̃_i = Σ_j ã_ij`
+    pub c_tilde: Vec<f64>,
+}
+
+/// A symplectic partitioned Runge–Kutta method that is known only when the program runs: derived by it, or read from a file.
+///
+/// [`Integrator::at_run_time`](crate::Integrator::at_run_time) steps a system with it. Steps take longer than those of a method
+/// that a macro emits, by a factor that the guide has measured.
+///
+/// It is symplectic as rounded, as emitted methods are: stages are sums of increments with `μ_ij = a_ij/b_j` and
+/// `μ̃_ij = ã_ij/b̃_j`, of which the larger one is rounded and the other one is the exact rest, so that `μ̃_ij + μ_ji = 1`.
+/// Coefficients are known to 53 bits, whatever the scalar.
+///
+/// A copy shares the coefficients.
+///
+/// ```
+/// use symplectic::nalgebra::Vector1;
+/// use symplectic::{Integrator, Orders, RunTimeCoefficients, RunTimeTableau, State, acceleration};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// // The midpoint rule.
+/// let midpoint = RunTimeCoefficients {
+///     a: vec![vec![0.5]],
+///     a_tilde: vec![vec![0.5]],
+///     b: vec![1.0],
+///     b_tilde: vec![1.0],
+///     c: vec![0.5],
+///     c_tilde: vec![0.5],
+/// };
+/// let orders = Orders { general: 2, separable: 2, nystrom: 2 };
+/// let midpoint = RunTimeTableau::new("midpoint", &midpoint, orders)?;
+///
+/// let pendulum = acceleration(|_time, q: &Vector1<f64>, acceleration| acceleration[0] = -q[0].sin());
+/// let start = State::from_arrays(0.0, [1.0], [0.0]);
+/// let mut integrator = Integrator::at_run_time(&midpoint, pendulum, start, 0.1)?;
+/// integrator.integrate_to(10.0)?;
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunTimeTableau {
+    data: Arc<Data>,
+    accepts_lower_order: bool,
+}
+
+#[derive(Debug, PartialEq)]
+struct Data {
+    name: String,
+    orders: Orders,
+    coefficients: RunTimeCoefficients,
+    separable: Schedule,
+    general: Schedule,
+}
+
+impl RunTimeTableau {
+    /// The method with these coefficients. `orders` are its orders for each class of Hamiltonians, as the compiler has found them;
+    /// they decide for which systems the method is refused.
+    ///
+    /// # Errors
+    ///
+    /// [`TableauError`], with the row where something is wrong: [`Shape`](TableauError::Shape),
+    /// [`NotFinite`](TableauError::NotFinite), [`Weights`](TableauError::Weights) where weights do not sum to 1,
+    /// [`Node`](TableauError::Node) where a node is not the sum of its row, and [`NotSymplectic`](TableauError::NotSymplectic)
+    /// where `b_i ã_ij + b̃_j a_ji` is not `b_i b̃_j`; all but the first two up to rounding of the coefficients.
+    pub fn new(
+        name: &str,
+        coefficients: &RunTimeCoefficients,
+        orders: Orders,
+    ) -> Result<Self, TableauError> {
+        error::check(coefficients)?;
+        Ok(Self {
+            data: Arc::new(Data {
+                name: name.to_string(),
+                orders,
+                coefficients: coefficients.clone(),
+                separable: Schedule::new(coefficients, true),
+                general: Schedule::new(coefficients, false),
+            }),
+            accepts_lower_order: false,
+        })
+    }
+
+    /// The same method, for every system: also where its order is lower or it is not symplectic.
+    #[must_use]
+    pub fn accept_lower_order(self) -> Self {
+        Self {
+            accepts_lower_order: true,
+            ..self
+        }
+    }
+
+    /// What it is called.
+    pub fn name(&self) -> &str {
+        &self.data.name
+    }
+
+    /// Number of stages s.
+    pub fn stages(&self) -> usize {
+        self.data.coefficients.b.len()
+    }
+
+    /// Its order for each class of Hamiltonians, as it was given.
+    pub fn orders(&self) -> Orders {
+        self.data.orders
+    }
+
+    /// The coefficients, as they were given.
+    pub fn coefficients(&self) -> &RunTimeCoefficients {
+        &self.data.coefficients
+    }
+
+    /// Whether a step of a separable system is explicit: drifts and kicks, one after the other.
+    pub fn is_explicit(&self) -> bool {
+        matches!(self.data.separable, Schedule::Splitting(_))
+    }
+
+    /// Whether it is for general Hamiltonians what it is for separable ones: symplectic, for which `b = b̃`, and of the same order.
+    pub(crate) fn keeps_its_order_in_general(&self) -> bool {
+        let Orders {
+            general, separable, ..
+        } = self.data.orders;
+        let RunTimeCoefficients { b, b_tilde, .. } = &self.data.coefficients;
+        let mut weights = b.iter().zip(b_tilde);
+        let are_equal = |(b, b_tilde): (&f64, &f64)| error::is_about(*b, *b_tilde, 0);
+        self.accepts_lower_order || general >= separable && weights.all(are_equal)
+    }
+
+    /// The orders where the kinetic energy has to be quadratic for the higher one.
+    pub(crate) fn needs_quadratic_kinetic(&self) -> Option<Orders> {
+        let Orders {
+            separable, nystrom, ..
+        } = self.data.orders;
+        (!self.accepts_lower_order && nystrom > separable).then_some(self.data.orders)
+    }
+
+    /// How it steps systems of a class.
+    #[inline]
+    pub(crate) fn schedule<C: Class>(&self) -> &Schedule {
+        if C::SEPARABLE {
+            &self.data.separable
+        } else {
+            &self.data.general
+        }
+    }
+
+    /// All coefficients, bit by bit: what a checkpoint is compared by.
+    pub(crate) fn definition(&self) -> String {
+        let RunTimeCoefficients {
+            a,
+            a_tilde,
+            b,
+            b_tilde,
+            c,
+            c_tilde,
+        } = &self.data.coefficients;
+        let mut text = String::from("at run time:");
+        let lists = [b, b_tilde, c, c_tilde].into_iter();
+        for value in lists.chain(a).chain(a_tilde).flatten() {
+            let written = write!(text, " {:016x}", value.to_bits());
+            debug_assert!(written.is_ok(), "a string takes all");
+        }
+        text
+    }
+}
+
+/// The method of an integrator [at run time](crate::Integrator::at_run_time): its coefficients are in a [`RunTimeTableau`].
+#[derive(Clone, Copy, Debug)]
+pub struct AtRunTime(());
+
+impl Method for AtRunTime {
+    const NAME: &'static str = "the tableau at run time";
+    const STAGES: usize = 0;
+    const DEFINITION: &'static str = "at run time";
+    const COEFFICIENTS: Coefficients = Coefficients {
+        a: &[],
+        a_tilde: &[],
+        b: &[],
+        b_tilde: &[],
+        c: &[],
+        c_tilde: &[],
+    };
+    const ORDERS: Orders = Orders {
+        general: 0,
+        separable: 0,
+        nystrom: 0,
+    };
+    type General = RunTimePlan<General>;
+    type Separable = RunTimePlan<Separable>;
+}
+
+// Looked at when the integrator is made.
+impl<C> ProvedFor<C> for AtRunTime {}

@@ -1,0 +1,242 @@
+//! One step of a tableau at run time.
+
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+
+use super::{Kind, RunTimeTableau, Schedule, Splitting};
+use crate::error::Quantity;
+use crate::method::storage::{first_mismatch, first_non_finite, first_non_finite_of};
+use crate::method::{
+    EvaluationObserver, Failure, Inside, Interpolation, Outcome, Plan, Solver, StageStorage, Step,
+    StepStatistics, Stopping, WarmStart,
+};
+use crate::number::{Coefficient, Summation, Vector, Visit, advance, copy, vector_words};
+use crate::system::{Class, System};
+
+/// The plan of [`AtRunTime`](super::AtRunTime) for systems of one class.
+#[derive(Clone, Copy, Debug)]
+pub struct RunTimePlan<C>(PhantomData<C>);
+
+/// The memory of a [`RunTimePlan`]: the tableau, and one vector for each stage value and evaluation that its schedule stores.
+#[derive(Debug)]
+pub struct RunTimeStages<V, C> {
+    pub(crate) tableau: Option<RunTimeTableau>,
+    pub(crate) q: Vec<V>,
+    pub(crate) p: Vec<V>,
+    pub(crate) velocity: Vec<V>,
+    pub(crate) force: Vec<V>,
+    class: PhantomData<C>,
+}
+
+impl<V: Clone, C> Clone for RunTimeStages<V, C> {
+    fn clone(&self) -> Self {
+        Self {
+            tableau: self.tableau.clone(),
+            q: self.q.clone(),
+            p: self.p.clone(),
+            velocity: self.velocity.clone(),
+            force: self.force.clone(),
+            class: PhantomData,
+        }
+    }
+}
+
+impl<V: Vector, C: Class> StageStorage<V> for RunTimeStages<V, C> {
+    const AT_RUN_TIME: bool = true;
+
+    /// Without a tableau there is nothing to store.
+    fn like(_prototype: &V) -> Self {
+        Self {
+            tableau: None,
+            q: Vec::new(),
+            p: Vec::new(),
+            velocity: Vec::new(),
+            force: Vec::new(),
+            class: PhantomData,
+        }
+    }
+
+    fn tableau(&self) -> Option<&RunTimeTableau> {
+        self.tableau.as_ref()
+    }
+
+    fn set_tableau(&mut self, tableau: &RunTimeTableau, prototype: &V) {
+        let zeros = |count: usize| (0..count).map(|_| prototype.zeros_like()).collect();
+        // A splitting stores the latest evaluation of each kind, and no stages.
+        let (stages, forces, velocities) = match tableau.schedule::<C>() {
+            Schedule::Splitting(_) => ((0, 0), 1, 1),
+            Schedule::Coupled(coupled) => {
+                let (forces, velocities) =
+                    (coupled.positions.rows.len(), coupled.momenta.rows.len());
+                ((forces, velocities), forces, velocities)
+            }
+        };
+        *self = Self {
+            q: zeros(stages.0),
+            p: zeros(stages.1),
+            velocity: zeros(velocities),
+            force: zeros(forces),
+            tableau: Some(tableau.clone()),
+            class: PhantomData,
+        };
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        for vectors in [
+            &mut self.q,
+            &mut self.p,
+            &mut self.velocity,
+            &mut self.force,
+        ] {
+            vector_words(vectors, visit);
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        if self.q.is_empty() {
+            // Evaluations of a splitting are observed.
+            return None;
+        }
+        first_non_finite((&self.q, &self.force), (&self.p, &self.velocity))
+    }
+
+    fn non_finite_force(&self) -> Option<usize> {
+        first_non_finite_of(&self.force)
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        first_mismatch(&self.force, &self.velocity, dimension)
+    }
+}
+
+/// What [`Integrator::at_run_time`](crate::Integrator::at_run_time) has put there, and no other way makes an integrator.
+const TABLEAU: &str = "the memory of a step at run time has its tableau";
+
+impl<C: Class> Plan for RunTimePlan<C> {
+    type Class = C;
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = RunTimeStages<V, C>;
+
+    #[inline]
+    fn take<R, V, S, N>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut RunTimeStages<V, C>,
+        kept: WarmStart,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = C>,
+        N: Solver<V, S>,
+    {
+        let tableau = memory.tableau.as_ref().expect(TABLEAU);
+        match tableau.schedule::<C>() {
+            Schedule::Splitting(splitting) => {
+                let evaluations = (&mut *memory.velocity, &mut *memory.force);
+                let count = apply::<R, V, S, ()>(
+                    splitting,
+                    step,
+                    system,
+                    evaluations,
+                    kept,
+                    outcome,
+                    &mut (),
+                );
+                Ok(StepStatistics {
+                    evaluations: count,
+                    ..StepStatistics::default()
+                })
+            }
+            Schedule::Coupled(_) => {
+                N::take_at_run_time::<C, R>(step, system, memory, kept, stopping, outcome)
+            }
+        }
+    }
+
+    fn observe<R, V, S, N, W>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut RunTimeStages<V, C>,
+        outcome: Outcome<'_, V>,
+        witness: &mut W,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = C>,
+        N: Solver<V, S>,
+        W: EvaluationObserver,
+    {
+        let tableau = memory.tableau.clone().expect(TABLEAU);
+        // The evaluations of coupled stages are in the memory.
+        if let Schedule::Splitting(splitting) = tableau.schedule::<C>() {
+            memory.set_tableau(&tableau, step.q);
+            let evaluations = (&mut *memory.velocity, &mut *memory.force);
+            let kept = WarmStart::default();
+            apply::<R, V, S, W>(splitting, step, system, evaluations, kept, outcome, witness);
+        }
+    }
+
+    const INTERPOLATION: Interpolation = Interpolation::Hermite;
+
+    /// The inside of a step is the cubic polynomial of its ends.
+    fn extend<V, S, N>(_memory: &RunTimeStages<V, C>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
+    where
+        V: Vector,
+        S: System<V, Class = C>,
+        N: Solver<V, S>,
+    {
+    }
+}
+
+/// Applies drifts and kicks to the state at the start of a step; returns the number of evaluations.
+#[inline]
+fn apply<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
+    splitting: &Splitting,
+    step: &Step<'_, V>,
+    system: &S,
+    (velocity, force): (&mut [V], &mut [V]),
+    kept: WarmStart,
+    state: Outcome<'_, V>,
+    witness: &mut W,
+) -> u32 {
+    let Outcome { q, q_low, p, p_low } = state;
+    copy(q, step.q);
+    copy(p, step.p);
+    if R::COMPENSATED {
+        copy(q_low, step.q_low);
+        copy(p_low, step.p_low);
+    }
+    let (Some(velocity), Some(force)) = (velocity.first_mut(), force.first_mut()) else {
+        return 0;
+    };
+    let mut counts = [0; 2];
+    let mut made = 0;
+    for (index, evaluation) in splitting.evaluations.iter().enumerate() {
+        let is_carried = index == 0 && splitting.carries && kept.evaluation;
+        let time = step.at(Coefficient::exact(evaluation.time));
+        let factor = Coefficient::exact(evaluation.factor);
+        counts[evaluation.kind as usize] += 1;
+        let stage = counts[evaluation.kind as usize];
+        made += u32::from(!is_carried);
+        match evaluation.kind {
+            Kind::Velocity => {
+                if !is_carried {
+                    system.velocity(time, q, p, velocity);
+                    witness.evaluation(Quantity::Velocity, stage, &*p, velocity);
+                }
+                advance::<R, V>(q, q_low, step.size, factor, velocity);
+            }
+            Kind::Force => {
+                if !is_carried {
+                    system.force(time, q, p, force);
+                    witness.evaluation(Quantity::Force, stage, &*q, force);
+                }
+                advance::<R, V>(p, p_low, step.size, factor, force);
+            }
+        }
+    }
+    made
+}

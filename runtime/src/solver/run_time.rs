@@ -1,0 +1,321 @@
+//! Coupled stages of a tableau at run time, by fixed-point iteration.
+
+use core::marker::PhantomData;
+
+use num_traits::Zero;
+
+use crate::error::Quantity;
+use crate::method::run_time::{Coupled, Half, MOST, Row, Schedule};
+use crate::method::storage::{first_non_finite, first_non_finite_of};
+use crate::method::{
+    EvaluationCounts, Failure, HalfChange, Outcome, RunTimeStages, StageChange, Step,
+    StepStatistics, Stopping, WarmStart,
+};
+use crate::number::linear_combination::sum_of_products;
+use crate::number::rows::{Eight, Row as _};
+use crate::number::summation::{Overrelaxed, add, moved};
+use crate::number::{Coefficient, F64x8, Lanes, Scalar, Summation, Vector, copy, scale};
+use crate::solver::convergence::{Sweeps, settle};
+use crate::system::{Class, System};
+
+/// Takes a step whose stages depend on each other: the iteration of [`FixedPoint`](crate::solver::FixedPoint) over rows of
+/// coefficients instead of straight-line code. Nothing is allocated.
+#[inline]
+pub(crate) fn by_rows<C, R, V, S>(
+    step: &Step<'_, V>,
+    system: &S,
+    memory: &mut RunTimeStages<V, C>,
+    kept: WarmStart,
+    stopping: Stopping,
+    outcome: Outcome<'_, V>,
+) -> Result<StepStatistics, Failure>
+where
+    C: Class,
+    R: Summation,
+    V: Vector,
+    S: System<V, Class = C>,
+{
+    let RunTimeStages {
+        tableau,
+        q,
+        p,
+        velocity,
+        force,
+        ..
+    } = memory;
+    let schedule = tableau.as_ref().map(|tableau| tableau.schedule::<C>());
+    let Some(Schedule::Coupled(coupled)) = schedule else {
+        // A splitting has no coupled stages.
+        return Ok(StepStatistics::default());
+    };
+    let mut sweeps = ByRows::<R, V, S> {
+        step,
+        system,
+        coupled,
+        q,
+        p,
+        velocity,
+        force,
+        sums: PhantomData,
+    };
+    let work = settle::<C, V::Scalar>(&mut sweeps, kept, stopping)?;
+    let Outcome {
+        q: q1,
+        q_low,
+        p: p1,
+        p_low,
+    } = outcome;
+    let (drifts, kicks) = (&coupled.momenta, &coupled.positions);
+    total::<R, V>((q1, q_low), (step.q, step.q_low), drifts, velocity);
+    total::<R, V>((p1, p_low), (step.p, step.p_low), kicks, force);
+    Ok(work)
+}
+
+/// The stages of a step. Evaluations are increments: multiplied by the step size and their weights.
+struct ByRows<'a, R, V, S> {
+    step: &'a Step<'a, V>,
+    system: &'a S,
+    coupled: &'a Coupled,
+    q: &'a mut [V],
+    p: &'a mut [V],
+    velocity: &'a mut [V],
+    force: &'a mut [V],
+    sums: PhantomData<R>,
+}
+
+impl<R: Summation, V: Vector, S: System<V>> ByRows<'_, R, V, S> {
+    fn sweep_by<T: Summation>(&mut self) -> StageChange {
+        let mut change = StageChange::default();
+        let Coupled { positions, momenta } = self.coupled;
+        let step = self.step;
+        // Of a separable system the other argument is whatever is at hand.
+        for (i, (force, evaluation)) in self
+            .force
+            .iter_mut()
+            .zip(&positions.evaluations)
+            .enumerate()
+        {
+            let p = self.p.get(i).unwrap_or(step.p);
+            let time = step.at(Coefficient::exact(evaluation.time));
+            self.system.force(time, &self.q[i], p, force);
+            scale(force, step.size, Coefficient::exact(evaluation.factor));
+        }
+        for (row, p) in momenta.rows.iter().zip(&mut *self.p) {
+            relax::<T, V>(p, (step.p, step.p_low), row, self.force, &mut change.p);
+        }
+        for (i, (velocity, evaluation)) in self
+            .velocity
+            .iter_mut()
+            .zip(&momenta.evaluations)
+            .enumerate()
+        {
+            let q = self.q.get(i).unwrap_or(step.q);
+            let time = step.at(Coefficient::exact(evaluation.time));
+            self.system.velocity(time, q, &self.p[i], velocity);
+            scale(velocity, step.size, Coefficient::exact(evaluation.factor));
+        }
+        for (row, q) in positions.rows.iter().zip(&mut *self.q) {
+            relax::<T, V>(q, (step.q, step.q_low), row, self.velocity, &mut change.q);
+        }
+        change
+    }
+}
+
+impl<R: Summation, V: Vector, S: System<V>> Sweeps for ByRows<'_, R, V, S> {
+    type Movement = StageChange;
+
+    const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
+
+    fn evaluations(&self) -> EvaluationCounts {
+        let Coupled { positions, momenta } = self.coupled;
+        let always = momenta.extrapolation.is_empty();
+        EvaluationCounts {
+            begin: u32::from(always),
+            start: u32::from(!always),
+            sweep: (positions.evaluations.len() + momenta.evaluations.len()) as u32,
+            finish: 0,
+            carried: 0,
+        }
+    }
+
+    fn time(&self) -> f64 {
+        self.step.time
+    }
+
+    fn begin(&mut self, kept: WarmStart) {
+        let Coupled { positions, momenta } = self.coupled;
+        let step = self.step;
+        if kept.stages && !momenta.extrapolation.is_empty() {
+            transform(self.velocity, &momenta.extrapolation);
+        } else if let [first, others @ ..] = &mut *self.velocity {
+            let time = momenta.evaluations[0].time;
+            let time = step.at(Coefficient::exact(time));
+            self.system.velocity(time, step.q, step.p, first);
+            others.iter_mut().for_each(|other| copy(other, first));
+            for (velocity, evaluation) in self.velocity.iter_mut().zip(&momenta.evaluations) {
+                scale(velocity, step.size, Coefficient::exact(evaluation.factor));
+            }
+        }
+        let mut unseen = HalfChange::default();
+        for (row, q) in positions.rows.iter().zip(&mut *self.q) {
+            relax::<R, V>(q, (step.q, step.q_low), row, self.velocity, &mut unseen);
+        }
+        if kept.stages && !positions.extrapolation.is_empty() {
+            transform(self.force, &positions.extrapolation);
+            for (row, p) in momenta.rows.iter().zip(&mut *self.p) {
+                relax::<R, V>(p, (step.p, step.p_low), row, self.force, &mut unseen);
+            }
+        } else {
+            self.p.iter_mut().for_each(|p| copy(p, step.p));
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        first_non_finite((self.q, self.force), (self.p, self.velocity))
+    }
+
+    fn non_finite_force(&self) -> Option<usize> {
+        first_non_finite_of(self.force)
+    }
+
+    fn sweep(&mut self) -> StageChange {
+        self.sweep_by::<R>()
+    }
+
+    fn overrelaxed_sweep(&mut self) -> StageChange {
+        self.sweep_by::<Overrelaxed<R>>()
+    }
+
+    fn change(&self, movement: &StageChange) -> StageChange {
+        *movement
+    }
+}
+
+/// `out = base + low + Σ factor increment` over a row; notes in `change` how far `out` moved.
+#[inline]
+fn relax<R: Summation, V: Vector>(
+    out: &mut V,
+    (base, low): (&V, &V),
+    row: &Row,
+    increments: &[V],
+    change: &mut HalfChange,
+) {
+    let (base, low) = (base.as_slice(), low.as_slice());
+    let out = out.as_mut_slice();
+    let lengths = row
+        .iter()
+        .map(|&(index, _)| increments[index].as_slice().len());
+    let n = lengths.fold(out.len().min(base.len()).min(low.len()), usize::min);
+    let (out, base, low) = (&mut out[..n], &base[..n], &low[..n]);
+    let mut local = *change;
+    let rest = relax_rows::<R, V>(out, (base, low), row, increments, &mut local);
+    for i in rest..n {
+        let new = value::<R, V::Scalar>(base[i], low[i], row, |index| {
+            increments[index].as_slice()[i]
+        });
+        let new = moved(R::BEYOND, out[i], new);
+        local.record(base[i], out[i], new);
+        out[i] = new;
+    }
+    *change = local;
+}
+
+/// [`relax`], with eight components side by side where they are doubles; returns from which one on they are left.
+#[inline]
+fn relax_rows<R: Summation, V: Vector>(
+    out: &mut [V::Scalar],
+    (base, low): (&[V::Scalar], &[V::Scalar]),
+    row: &Row,
+    increments: &[V],
+    change: &mut HalfChange,
+) -> usize {
+    let (Some(out), Some(base), Some(low)) = (
+        V::Scalar::doubles_mut(out),
+        V::Scalar::doubles(base),
+        V::Scalar::doubles(low),
+    ) else {
+        return 0;
+    };
+    let n = out.len() / Eight::WIDTH;
+    if n == 0 {
+        return 0;
+    }
+    let (out, _) = Eight::rows_mut(out);
+    let rows = |slice| Eight::rows(slice).0;
+    let (base, low) = (rows(base), rows(low));
+    let zero = F64x8::zero();
+    let (mut difference, mut scale) = (zero, zero);
+    for i in 0..n {
+        let start = Eight::load(&base[i]);
+        let new = value::<R, F64x8>(start, Eight::load(&low[i]), row, |index| {
+            let increment = V::Scalar::doubles(increments[index].as_slice());
+            Eight::load(&rows(increment.unwrap_or(&[]))[i])
+        });
+        let old = Eight::load(&out[i]);
+        let new = moved(R::BEYOND, old, new);
+        out[i] = Eight::store(new);
+        difference = difference.larger_or_nan((new - old).abs());
+        scale = scale.larger(start.abs()).larger(new.abs());
+    }
+    let difference = match difference.any_nan() {
+        true => f64::NAN,
+        false => difference.largest(),
+    };
+    change.join(difference, scale.largest());
+    n * Eight::WIDTH
+}
+
+/// One component of a stage, or eight.
+#[inline(always)]
+fn value<R: Summation, T: Scalar>(base: T, low: T, row: &Row, term: impl Fn(usize) -> T) -> T {
+    if row.is_empty() {
+        return base;
+    }
+    let start = R::COMPENSATED.then_some(low);
+    let product = |j: usize| {
+        let (index, factor) = row[j];
+        (T::from_f64(factor), term(index))
+    };
+    base + sum_of_products(start, row.len(), product)
+}
+
+/// `out = base + low + Σ increments`, of those that count, with what that leaves out in `out_low`.
+#[inline]
+fn total<R: Summation, V: Vector>(
+    (out, out_low): (&mut V, &mut V),
+    (base, low): (&V, &V),
+    half: &Half,
+    increments: &[V],
+) {
+    let (out, out_low) = (out.as_mut_slice(), out_low.as_mut_slice());
+    let (base, low) = (base.as_slice(), low.as_slice());
+    let terms = &half.counting;
+    let n = increments
+        .iter()
+        .fold(out.len(), |n, increment| n.min(increment.as_slice().len()));
+    for i in 0..n.min(out_low.len()).min(base.len()).min(low.len()) {
+        let term = |j: usize| increments[terms[j]].as_slice()[i];
+        let (high, rest) = add::<R, _>(base[i], low[i], terms.len(), term);
+        out[i] = high;
+        if R::COMPENSATED {
+            out_low[i] = rest;
+        }
+    }
+}
+
+/// `vectors_i = Σ_j matrix_ij vectors_j`, of no more than [`MOST`] vectors.
+fn transform<V: Vector>(vectors: &mut [V], matrix: &[alloc::vec::Vec<f64>]) {
+    let count = vectors.len().min(MOST);
+    let lengths = vectors.iter().map(|vector| vector.as_slice().len());
+    let n = lengths.min().unwrap_or(0);
+    let mut old = [V::Scalar::zero(); MOST];
+    for i in 0..n {
+        for (old, vector) in old.iter_mut().zip(&*vectors) {
+            *old = vector.as_slice()[i];
+        }
+        for (vector, row) in vectors.iter_mut().zip(matrix) {
+            let product = |j: usize| (V::Scalar::from_f64(row[j]), old[j]);
+            vector.as_mut_slice()[i] = sum_of_products(None, count, product);
+        }
+    }
+}
