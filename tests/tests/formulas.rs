@@ -232,7 +232,7 @@ fn formulas_give_what_systems_by_hand_give() {
     for n in [1, 2, 3, 17, 64, 100] {
         same::<DVector<f64>, DVector<f64>>(
             &scenes::fput_chain::system(),
-            &formulas::FputChain::default(),
+            &formulas::FputChain,
             n,
             1e-13,
         );

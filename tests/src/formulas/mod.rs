@@ -131,9 +131,9 @@ symplectic::hamiltonian! {
 
 symplectic::hamiltonian! {
     /// The chain of Fermi, Pasta, Ulam and Tsingou.
-    pub FputChain { beta: 1 }
+    pub FputChain
     q: [..], p: [..]; bonds: walls;
-    H = sum(i: p[i]^2/2) + sum(bonds d: d^2/2 + beta d^4/4)
+    H = sum(i: p[i]^2/2) + sum(bonds d: d^2/2 + d^4/4)
     require: [chain]
 }
 

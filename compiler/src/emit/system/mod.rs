@@ -22,7 +22,7 @@ use crate::formula::display::number_text;
 use crate::formula::graph::{Coordinate, Half, Id, LoopId, Node, Number};
 use crate::formula::structure::{ChainParts, Split, each_once};
 use crate::formula::syntax::{Ends, Length};
-use crate::formula::{Kinetic, Layout, Shape, Structure, System};
+use crate::formula::{Kinetic, Layout, Parameter, Shape, Structure, System};
 
 /// The type of a system with everything that was derived from its formula.
 pub fn system(system: &System, structure: &Structure, header: &Header) -> TokenStream {
@@ -652,6 +652,12 @@ impl<'a> Emitter<'a> {
             let force = parts.first().map(|part| part.value);
             (energy, force, over)
         });
+        // Numbers are copied, so that they stay in registers.
+        let only_numbers = |parameter: &Parameter| matches!(parameter.shape, Shape::Number(_));
+        let bonds = match self.system.parameters.iter().all(only_numbers) {
+            true => quote!(|bonds: &Self| *bonds),
+            false => quote!(|bonds| bonds),
+        };
         let (variable, site) = (quote!(stretch), quote!(position));
         let function = |this: &Self, argument: &TokenStream, value: Id, over: Option<LoopId>| {
             let operations = Operations::new(&this.system.graph, &[value]);
@@ -706,7 +712,7 @@ impl<'a> Emitter<'a> {
                 #outer
             }
 
-            ::symplectic::emitted::chain_system!((#parameters) (#name #arguments), #ends);
+            ::symplectic::emitted::chain_system!((#parameters) (#name #arguments), #bonds, #ends);
         }
     }
 
