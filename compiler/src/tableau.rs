@@ -33,6 +33,9 @@ pub struct Provenance {
 /// P_i = p0 − h Σ_j ã_ij ∂H/∂q(Q_j, P_j)      p1 = p0 − h Σ_i b̃_i ∂H/∂q(Q_i, P_i)
 /// ```
 ///
+/// $$ Q_i = q_0 + h \sum_j a_{ij} \frac{\partial H}{\partial p}(Q_j, P_j) \qquad
+/// P_i = p_0 - h \sum_j \tilde a_{ij} \frac{\partial H}{\partial q}(Q_j, P_j) $$
+///
 /// with `c_i = Σ_j a_ij` and `c̃_i = Σ_j ã_ij`. Stages of a derived method are ordered by ascending
 /// nodes; those of its adjoint keep their labels, and those of a composition follow one another as the steps do. Nothing in it is a floating-point number.
 #[derive(Debug, Clone)]

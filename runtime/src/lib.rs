@@ -12,6 +12,11 @@
 //! P_i = p0 + h Σ_j ã_ij force_j         p1 = p0 + h Σ_i b_i force_i
 //! ```
 //!
+//! $$ Q_i = q_0 + h \sum_j a_{ij} \dot Q_j \qquad P_i = p_0 + h \sum_j \tilde a_{ij} \dot P_j \qquad
+//! q_1 = q_0 + h \sum_i b_i \dot Q_i \qquad p_1 = p_0 + h \sum_i b_i \dot P_i $$
+//! $$ \dot Q_i = \frac{\partial H}{\partial p}(Q_i, P_i) \qquad \dot P_i = -\frac{\partial H}{\partial q}(Q_i, P_i) \qquad
+//! b_i \tilde a_{ij} + b_j a_{ji} = b_i b_j $$
+//!
 //! | What | Where |
 //! |---|---|
 //! | The system: a formula, closures or a trait | [`hamiltonian!`]; [`separable`], [`hamiltonian`], [`acceleration`]; [`SeparableHamiltonian`], [`Hamiltonian`]; [`system`] |

@@ -1,6 +1,6 @@
 //! What the integration tests, the examples and the report share: [`scenes`] to integrate, [`methods`] to
 //! integrate them with, how results are measured ([`measure`], [`counting`], [`order`]), and what they are measured
-//! against ([`references`]).
+//! against ([`references`], [`peers`]).
 
 pub mod at_run_time;
 pub mod counting;
@@ -10,6 +10,7 @@ pub mod linear_stability;
 pub mod measure;
 pub mod methods;
 pub mod order;
+pub mod peers;
 pub mod references;
 pub mod scenes;
 pub mod stiff_and_extreme;

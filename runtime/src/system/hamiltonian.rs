@@ -25,6 +25,7 @@ use crate::system::{Class, Separable};
 /// `t0 + c_i h`, the time of its position `Q_i`, and for the *velocity* at `t0 + c̃_i h`, the time of its momentum
 /// `P_i`. For a separable H this is the autonomous system in which each half has got a time of its own, so the order of
 /// the method is kept. Where `c = c̃`, as MW 4.9.3 (Marsden & West, 2001) asks, there is one time only.
+/// With two clocks a step of a non-separable H is not symplectic if ∂²H/∂q∂p depends on time: take a method with `c = c̃`.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;

@@ -38,6 +38,9 @@ pub struct GeneratingFunction<V: Vector> {
 /// p0 = D1 H_d⁺(q0, p1)      q1 = D2 H_d⁺(q0, p1)
 /// ```
 ///
+/// $$ H_d^{+}(q_0, p_1) = p_1 q_0 - h^2 \sum_{ij} b_i a_{ij} \frac{\partial H}{\partial q}(Q_i, P_i)
+/// \frac{\partial H}{\partial p}(Q_j, P_j) + h \sum_i b_i H(Q_i, P_i) $$
+///
 /// with the stages of the step from `(q0, p0)` to `(q1, p1)`, which are solved for from the two ends that are given:
 ///
 /// ```text

@@ -6,8 +6,6 @@ pub mod systems;
 
 use symplectic::{Error, Integrator, Method, ProvedFor, State, System, Vector};
 
-pub use methods::{Midpoint, StoermerVerlet};
-
 /// The state at `end` after `steps` equal steps.
 pub fn run<M, S, V>(
     method: M,
@@ -39,19 +37,4 @@ pub fn distance<V: Vector<Scalar = f64>>(a: &State<V>, b: &State<V>) -> f64 {
         differences.fold(0.0, f64::max)
     };
     pairs(&a.q, &b.q).max(pairs(&a.p, &b.p))
-}
-
-/// The slopes log2(error(n)/error(2n)) for n = `coarsest`, 2 `coarsest`, … over `halvings`.
-pub fn slopes(
-    coarsest: u32,
-    halvings: u32,
-    error: impl Fn(u32) -> Result<f64, Error>,
-) -> Result<Vec<f64>, Error> {
-    let errors = (0..=halvings)
-        .map(|i| error(coarsest << i))
-        .collect::<Result<Vec<_>, _>>()?;
-    Ok(errors
-        .windows(2)
-        .map(|pair| (pair[0] / pair[1]).log2())
-        .collect())
 }

@@ -1,8 +1,10 @@
 use std::cell::Cell;
 
-use symplectic::nalgebra::{DVector, SVector, Vector1};
+use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::solver::FixedPoint;
-use symplectic::{General, Hamiltonian, Scalar, Separable, State, System, Vector};
+use symplectic::{
+    General, Hamiltonian, Scalar, Separable, SeparableHamiltonian, State, System, Vector,
+};
 
 /// H = Σ p²/2 − cos q, over every vector, counting its evaluations.
 #[derive(Default)]
@@ -38,7 +40,8 @@ impl<V: Vector> System<V> for Pendulum {
     }
 }
 
-/// H = (q² + 1)(p² + 1)/2: a local type that implements [`Hamiltonian`] itself, generically over the scalar.
+/// H = (q² + 1)(p² + 1)/2.
+#[derive(Clone, Copy, Debug)]
 pub struct Product;
 
 impl Hamiltonian for Product {
@@ -68,6 +71,32 @@ impl Hamiltonian for Product {
     fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
         Some((q.dot(q) + T::one()) * (p.dot(p) + T::one()) * T::from_f64(0.5))
     }
+}
+
+/// H = |p|²/2 − 1/|q|.
+#[derive(Clone, Copy, Debug)]
+pub struct Kepler;
+
+impl SeparableHamiltonian for Kepler {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+        *velocity = *p;
+    }
+
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+        let square = q.dot(q);
+        *force = -q * (square * square.sqrt()).recip();
+    }
+
+    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
+        Some(p.dot(p) * T::from_f64(0.5) - q.dot(q).sqrt().recip())
+    }
+}
+
+/// The perihelion of an orbit of [`Kepler`] with eccentricity 0.6.
+pub fn perihelion() -> State<Vector2<f64>> {
+    State::from_arrays(0.0, [0.4, 0.0], [0.0, 2.0])
 }
 
 /// H = p²/2 + q²/2 − q cos 3t.
@@ -165,5 +194,91 @@ impl System<DVector<f64>> for GeneralChain {
 
     fn force(&self, _t: f64, q: &DVector<f64>, _p: &DVector<f64>, force: &mut DVector<f64>) {
         Chain::pull(q, force);
+    }
+}
+
+/// 1 + sin(t)/4
+fn pulse<T: Scalar>(time: T) -> T {
+    T::one() + time.sin() * T::from_f64(0.25)
+}
+
+/// H = |p|²/2 − (1 + sin(t)/4)/|q|: separable, depends on time, conserves the angular momentum.
+#[derive(Clone, Copy, Debug)]
+pub struct PulsatingStar<'a>(pub &'a Fuse);
+
+/// H = (|q|² + 1)(|p|² + 1)/2 + (1 + sin(t)/4)|q|²/2: not separable, depends on time, conserves the angular momentum.
+///
+/// Time is in the potential only: where `c̃` is not `c`, force and velocity of a stage are taken at different times, and a step
+/// preserves dq ∧ dp only if the derivatives ∂²H/∂q∂p do not depend on time.
+#[derive(Clone, Copy, Debug)]
+pub struct PulsatingProduct<'a>(pub &'a Fuse);
+
+/// A number of evaluations, after which they are NaN.
+#[derive(Debug)]
+pub struct Fuse(Cell<u64>);
+
+impl Fuse {
+    /// Of a system that is always defined.
+    pub const fn never() -> Self {
+        Self(Cell::new(u64::MAX))
+    }
+
+    pub fn set(&self, evaluations: u64) {
+        self.0.set(evaluations);
+    }
+
+    /// Whether all evaluations were finite.
+    pub fn holds(&self) -> bool {
+        self.0.get() > 0
+    }
+
+    /// One, or NaN.
+    fn burn<T: Scalar>(&self) -> T {
+        match self.0.get() {
+            0 => T::from_f64(f64::NAN),
+            u64::MAX => T::one(),
+            left => {
+                self.0.set(left - 1);
+                T::one()
+            }
+        }
+    }
+}
+
+impl SeparableHamiltonian for PulsatingStar<'_> {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+        *velocity = p * self.0.burn::<T>();
+    }
+
+    fn force<T: Scalar>(&self, time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+        SeparableHamiltonian::force(&Kepler, time, q, force);
+        *force *= pulse::<T>(time) * self.0.burn();
+    }
+}
+
+impl Hamiltonian for PulsatingProduct<'_> {
+    type Class = General;
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn velocity<T: Scalar>(
+        &self,
+        _time: T,
+        q: &SVector<T, 2>,
+        p: &SVector<T, 2>,
+        velocity: &mut SVector<T, 2>,
+    ) {
+        *velocity = p * ((q.dot(q) + T::one()) * self.0.burn());
+    }
+
+    fn force<T: Scalar>(
+        &self,
+        time: T,
+        q: &SVector<T, 2>,
+        p: &SVector<T, 2>,
+        force: &mut SVector<T, 2>,
+    ) {
+        *force = q * (-(p.dot(p) + T::one() + pulse(time)) * self.0.burn());
     }
 }

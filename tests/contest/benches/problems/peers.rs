@@ -1,69 +1,13 @@
 //! The same problems by other crates.
 
 use differential_equations::methods::{ExplicitRungeKutta, SymplecticIntegrator};
-use differential_equations::prelude::{IVP, ODE};
-use ode_solvers::{Dop853, SVector as PeerVector, System};
+use differential_equations::prelude::IVP;
 use symplectic::nalgebra::SVector;
+use symplectic_tests::peers;
+pub use symplectic_tests::peers::Equations;
 
 /// The state `y = (q, p)` at the end, or nothing where the crate gives up.
 pub type End = Option<Vec<f64>>;
-
-/// A system of `N` components as first-order equations for `M = 2N`.
-pub struct Equations<S, const N: usize>(pub S);
-
-impl<S: symplectic::System<SVector<f64, N>>, const N: usize> Equations<S, N> {
-    fn slopes(&self, time: f64, y: &[f64], slopes: &mut [f64]) {
-        let (q, p) = (vector(&y[..N]), vector(&y[N..2 * N]));
-        let (mut velocity, mut force) = (SVector::zeros(), SVector::zeros());
-        self.0.velocity(time, &q, &p, &mut velocity);
-        self.0.force(time, &q, &p, &mut force);
-        slopes[..N].copy_from_slice(velocity.as_slice());
-        slopes[N..2 * N].copy_from_slice(force.as_slice());
-    }
-}
-
-fn vector<const N: usize>(values: &[f64]) -> SVector<f64, N> {
-    SVector::from_fn(|i, _| values[i])
-}
-
-impl<S, const N: usize, const M: usize> System<f64, PeerVector<f64, M>> for &Equations<S, N>
-where
-    S: symplectic::System<SVector<f64, N>>,
-{
-    fn system(&self, time: f64, y: &PeerVector<f64, M>, slopes: &mut PeerVector<f64, M>) {
-        self.slopes(time, y.as_slice(), slopes.as_mut_slice());
-    }
-}
-
-impl<S, const N: usize, const M: usize> ODE<f64, [f64; M]> for Equations<S, N>
-where
-    S: symplectic::System<SVector<f64, N>>,
-{
-    fn diff(&self, time: f64, y: &[f64; M], slopes: &mut [f64; M]) {
-        self.slopes(time, y, slopes);
-    }
-}
-
-/// Their Hamiltonian systems have positions and momenta in vectors as long as the state.
-impl<S, const N: usize, const M: usize> differential_equations::ode::Hamiltonian<f64, [f64; M]>
-    for Equations<S, N>
-where
-    S: symplectic::System<SVector<f64, N>>,
-{
-    fn velocity(&self, time: f64, q: &[f64; M], p: &[f64; M], velocity: &mut [f64; M]) {
-        let mut found = SVector::zeros();
-        self.0
-            .velocity(time, &vector(&q[..N]), &vector(&p[..N]), &mut found);
-        velocity[..N].copy_from_slice(found.as_slice());
-    }
-
-    fn force(&self, time: f64, q: &[f64; M], p: &[f64; M], force: &mut [f64; M]) {
-        let mut found = SVector::zeros();
-        self.0
-            .force(time, &vector(&q[..N]), &vector(&p[..N]), &mut found);
-        force[..N].copy_from_slice(found.as_slice());
-    }
-}
 
 /// `ode_solvers`: DOP853 with one tolerance, relative and absolute.
 pub fn ode_solvers<S, const N: usize, const M: usize>(
@@ -75,26 +19,7 @@ pub fn ode_solvers<S, const N: usize, const M: usize>(
 where
     S: symplectic::System<SVector<f64, N>>,
 {
-    let start = PeerVector::<f64, M>::from(start);
-    let mut solver = Dop853::from_param(
-        equations,
-        0.0,
-        end,
-        end,
-        start,
-        tolerance,
-        tolerance,
-        // The defaults, but for the bound on the steps and for no output on the way.
-        0.9,
-        0.0,
-        0.333,
-        6.0,
-        end,
-        0.0,
-        10_000_000,
-        1000,
-        ode_solvers::OutputType::Sparse,
-    );
+    let mut solver = peers::dop853(equations, start, end, tolerance, 10_000_000);
     solver.integrate().ok()?;
     Some(solver.y_out().last()?.as_slice().to_vec())
 }

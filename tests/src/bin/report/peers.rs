@@ -2,11 +2,11 @@
 //! called `diff-equations` for short.
 
 use differential_equations::methods::{ExplicitRungeKutta, SymplecticIntegrator};
-use differential_equations::prelude::{IVP, ODE, Solution};
-use ode_solvers::{Dop853, OutputType, SVector as PeerVector, System};
+use differential_equations::prelude::{IVP, Solution};
 use symplectic::nalgebra::SVector;
 use symplectic::{State, Vector};
 use symplectic_report::{Finish, Ladder, Observe, Problem};
+use symplectic_tests::peers::{Equations, dop853};
 
 /// Steps that a peer may take that chooses them itself: a second or so, after which it is said to have failed. No problem here is
 /// solved with as many, but in an encounter a loose tolerance leads astray, to steps that are shorter and shorter.
@@ -14,63 +14,6 @@ const MOST_STEPS: usize = 500_000;
 
 /// Steps that a peer may take whose steps are chosen here.
 const MOST_EQUAL_STEPS: usize = 100_000_000;
-
-/// A system of `N` components as first-order equations for `M = 2N`.
-struct Equations<S, const N: usize>(S);
-
-impl<S: symplectic::System<SVector<f64, N>>, const N: usize> Equations<S, N> {
-    fn slopes(&self, time: f64, y: &[f64], slopes: &mut [f64]) {
-        let (q, p) = (vector(&y[..N]), vector(&y[N..2 * N]));
-        let (mut velocity, mut force) = (SVector::zeros(), SVector::zeros());
-        self.0.velocity(time, &q, &p, &mut velocity);
-        self.0.force(time, &q, &p, &mut force);
-        slopes[..N].copy_from_slice(velocity.as_slice());
-        slopes[N..2 * N].copy_from_slice(force.as_slice());
-    }
-}
-
-fn vector<const N: usize>(values: &[f64]) -> SVector<f64, N> {
-    SVector::from_fn(|i, _| values[i])
-}
-
-impl<S, const N: usize, const M: usize> System<f64, PeerVector<f64, M>> for &Equations<S, N>
-where
-    S: symplectic::System<SVector<f64, N>>,
-{
-    fn system(&self, time: f64, y: &PeerVector<f64, M>, slopes: &mut PeerVector<f64, M>) {
-        self.slopes(time, y.as_slice(), slopes.as_mut_slice());
-    }
-}
-
-impl<S, const N: usize, const M: usize> ODE<f64, [f64; M]> for Equations<S, N>
-where
-    S: symplectic::System<SVector<f64, N>>,
-{
-    fn diff(&self, time: f64, y: &[f64; M], slopes: &mut [f64; M]) {
-        self.slopes(time, y, slopes);
-    }
-}
-
-/// Their Hamiltonian systems have positions and momenta in vectors as long as the state.
-impl<S, const N: usize, const M: usize> differential_equations::ode::Hamiltonian<f64, [f64; M]>
-    for Equations<S, N>
-where
-    S: symplectic::System<SVector<f64, N>>,
-{
-    fn velocity(&self, time: f64, q: &[f64; M], p: &[f64; M], velocity: &mut [f64; M]) {
-        let mut found = SVector::zeros();
-        self.0
-            .velocity(time, &vector(&q[..N]), &vector(&p[..N]), &mut found);
-        velocity[..N].copy_from_slice(found.as_slice());
-    }
-
-    fn force(&self, time: f64, q: &[f64; M], p: &[f64; M], force: &mut [f64; M]) {
-        let mut found = SVector::zeros();
-        self.0
-            .force(time, &vector(&q[..N]), &vector(&p[..N]), &mut found);
-        force[..N].copy_from_slice(found.as_slice());
-    }
-}
 
 /// A start with `N` components, as it is handed to others.
 struct Begin<V, const M: usize> {
@@ -167,25 +110,8 @@ where
     V: Vector<Scalar = f64>,
     S: symplectic::System<SVector<f64, N>>,
 {
-    let mut solver = Dop853::from_param(
-        equations,
-        0.0,
-        begin.end,
-        begin.end,
-        PeerVector::<f64, M>::from(begin.values),
-        tolerance,
-        tolerance,
-        // The defaults, but for the bound on the steps and for no output on the way.
-        0.9,
-        0.0,
-        0.333,
-        6.0,
-        begin.end,
-        0.0,
-        MOST_STEPS as u32,
-        1000,
-        OutputType::Sparse,
-    );
+    let (start, most_steps) = (begin.values, MOST_STEPS as u32);
+    let mut solver = dop853(equations, start, begin.end, tolerance, most_steps);
     let statistics = solver.integrate().map_err(|error| error.to_string())?;
     if let Some(observe) = observe {
         for (time, y) in solver.x_out().iter().zip(solver.y_out()) {

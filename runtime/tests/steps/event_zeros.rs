@@ -3,14 +3,10 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
+use crate::common::methods::Gauss4;
 use proptest::prelude::*;
 use symplectic::nalgebra::Vector1;
-use symplectic::{Error, Event, Integrator, Moment, State, acceleration, tableau};
-
-tableau! {
-    /// Its dense output is exact for cubic motions.
-    Gauss4 { basis: polynomial(4), nodes: gauss(4) }
-}
+use symplectic::{Error, Event, Integrator, Moment, State, acceleration};
 
 type Point = State<Vector1<f64>>;
 

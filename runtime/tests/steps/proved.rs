@@ -1,16 +1,11 @@
 //! Methods on systems for which they are not proved: refused, or taken on a word.
 
+use crate::common::methods::{ForestRuth, Gauss2, McLachlanAtela};
 use symplectic::nalgebra::Vector1;
 use symplectic::{
     Error, Integrator, Method, ProvedFor, Separable, State, System, acceleration, hamiltonian,
     separable,
 };
-
-symplectic::tableau! {
-    ForestRuth { base: forest-ruth-1990 }
-    McLachlanAtela { base: mclachlan-atela-1992-order-4-optimal }
-    Gauss2 { basis: polynomial(2), nodes: gauss(2) }
-}
 
 type V = Vector1<f64>;
 

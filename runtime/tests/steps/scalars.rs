@@ -1,10 +1,9 @@
 //! The same systems over other numbers and other vectors.
 
-mod common;
-
-use common::dual::{Dual, dual};
-use common::systems::{Pendulum, Product, point};
-use common::{Midpoint, StoermerVerlet, run};
+use crate::common::dual::{Dual, dual};
+use crate::common::methods::{Midpoint, StoermerVerlet};
+use crate::common::run;
+use crate::common::systems::{Pendulum, Product, point};
 use symplectic::nalgebra::{DVector, SVector, Vector1};
 use symplectic::{
     Error, Integrator, Method, ProvedFor, Scalar, State, System, Vector, hamiltonian, separable,

@@ -1,55 +1,14 @@
 //! States inside a step.
 
-mod common;
-
-use common::systems::{Pendulum, Product, point};
-use symplectic::nalgebra::{DVector, SVector, Vector2};
+use crate::common::methods::{
+    Gauss2, Gauss3, Gauss6, Gauss8, Lobatto3, Lobatto4, Midpoint, Radau2, RadauIA, RadauIIA,
+    StoermerVerlet, Tang, Waves, Yoshida6,
+};
+use crate::common::systems::{Kepler, Pendulum, Product, perihelion, point};
+use symplectic::nalgebra::{DVector, SVector};
 use symplectic::output::Interpolation;
 use symplectic::solver::{FixedPoint, SimdFixedPoint, Solver};
-use symplectic::{
-    Error, Integrator, Method, ProvedFor, Scalar, SeparableHamiltonian, State, Summation, System,
-    Vector, composition, tableau,
-};
-
-tableau! {
-    Midpoint { basis: polynomial(1), nodes: gauss(1) }
-    Gauss2 { basis: polynomial(2), nodes: gauss(2) }
-    Gauss3 { basis: polynomial(3), nodes: gauss(3) }
-    Gauss8 { basis: polynomial(8), nodes: gauss(8) }
-    Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
-    Lobatto4 { basis: polynomial(4), nodes: lobatto(4) }
-    Radau2 { basis: polynomial(2), nodes: radau-right(2) }
-    RadauIA { basis: polynomial(2), nodes: radau-right(2), exchange: true }
-    Tang { basis: legendre(2), quadrature: gauss(3) }
-    Waves { basis: [1, cos(pi*t), sin(pi*t)], nodes: [0, 1/2, 1] }
-    RadauIIA { a: [[5/12, -1/12], [3/4, 1/4]], b: [3/4, 1/4] }
-    StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) }
-}
-composition! {
-    Yoshida6 { base: StoermerVerlet, weights: triple_jump(6) }
-    Gauss6 { base: gauss-2, weights: triple_jump(6) }
-}
-
-/// H = |p|²/2 − 1/|q|
-struct Kepler;
-
-impl SeparableHamiltonian for Kepler {
-    type Vector<T: Scalar> = SVector<T, 2>;
-
-    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
-        *velocity = *p;
-    }
-
-    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
-        let square = q.dot(q);
-        *force = -q * (square * square.sqrt()).recip();
-    }
-}
-
-/// The perihelion of an orbit with eccentricity 0.6.
-fn perihelion() -> State<Vector2<f64>> {
-    State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0))
-}
+use symplectic::{Error, Integrator, Method, ProvedFor, State, Summation, System, Vector};
 
 /// The state after a step of the size `fraction size`, in a hundred steps of Gauss 8.
 fn exact<S, V>(system: S, start: &State<V>, time: f64) -> Result<State<V>, Error>

@@ -2,6 +2,9 @@
 
 use std::cell::Cell;
 
+use crate::common::methods::{
+    AdjointEuler, Gauss2, PositionJump, StoermerVerlet, SymplecticEuler, TripleJump,
+};
 use symplectic::emitted::copy;
 use symplectic::nalgebra::DVector;
 use symplectic::simd::{F64x4, Lanes};
@@ -9,15 +12,7 @@ use symplectic::solver::FixedPoint;
 use symplectic::system::{Bonds, Chain, Layout};
 use symplectic::{
     Compensated, Error, Integrator, Method, Scalar, Separable, State, System, Vector, acceleration,
-    composition, tableau,
 };
-
-tableau! { VelocityVerlet { basis: polynomial(2), nodes: lobatto(2) } }
-tableau! { SymplecticEuler { basis: polynomial(1), nodes: [0] } }
-tableau! { AdjointEuler { basis: polynomial(1), nodes: [1] } }
-tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
-composition! { TripleJump { base: velocity-verlet, weights: triple_jump(4) } }
-composition! { PositionJump { base: position-verlet, weights: triple_jump(4) } }
 
 /// `V(d) = d²/2 + d³/3`, which pulls at rest length too once it is moved by a quarter; a driven pendulum on every particle.
 #[derive(Clone, Copy)]
@@ -273,9 +268,9 @@ fn long_vectors_make_passes() -> Result<(), Error> {
         assert_eq!(chain.take_steps(102)?, plain.state());
         Ok(())
     }
-    check(VelocityVerlet, 2, 99)?;
+    check(StoermerVerlet, 2, 99)?;
     // Two kicks meet at every step.
-    check(VelocityVerlet, 1, 0)?;
+    check(StoermerVerlet, 1, 0)?;
     check(TripleJump, 2, 299)?;
     check(TripleJump, 1, 200)?;
     check(SymplecticEuler, 1, 100)
@@ -319,7 +314,7 @@ fn a_system_without_passes_is_not_evaluated_while_an_integrator_is_made() -> Res
         copy(force, q);
     });
     let start = State::new(0.0, waves(70, 0.1), waves(70, 1.3));
-    Integrator::plain(VelocityVerlet, system, start, 0.02)?;
+    Integrator::plain(StoermerVerlet, system, start, 0.02)?;
     assert_eq!(calls.get(), 0);
     Ok(())
 }
@@ -343,7 +338,7 @@ fn many_steps_are_the_steps_one_by_one() -> Result<(), Error> {
         Ok(())
     }
     for n in [63, 64, 70, 257] {
-        check(VelocityVerlet, n)?;
+        check(StoermerVerlet, n)?;
         check(SymplecticEuler, n)?;
         check(AdjointEuler, n)?;
         check(TripleJump, n)?;
@@ -377,7 +372,7 @@ fn a_step_that_fails_among_many_is_found() -> Result<(), Error> {
         }
     }
     let start = State::new(0.0, DVector::zeros(80), waves(80, 0.0));
-    let made = || Integrator::plain(VelocityVerlet, Chain::ring(Breaking), start.clone(), 0.01);
+    let made = || Integrator::plain(StoermerVerlet, Chain::ring(Breaking), start.clone(), 0.01);
     let (mut at_once, mut one_by_one) = (made()?, made()?);
     let expected = loop {
         if let Err(error) = one_by_one.step() {

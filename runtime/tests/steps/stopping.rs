@@ -1,40 +1,14 @@
 //! Tolerances of the iteration for coupled stages.
 
+use crate::common::methods::{Gauss2, Gauss8, Lobatto4};
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
 use symplectic::solver::{
     Dense, Differences, FixedPoint, Newton, SimdFixedPoint, SimdJacobi, Solver,
 };
 use symplectic::system::SystemInLanes;
-use symplectic::{
-    Error, Integrator, Method, Plain, Quantity, Scalar, SeparableHamiltonian, State, tableau,
-};
+use symplectic::{Error, Integrator, Method, Plain, Quantity, Scalar, SeparableHamiltonian, State};
 
-mod common;
-use common::systems::{Pendulum, Product};
-
-tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
-tableau! { Gauss8 { basis: polynomial(8), nodes: gauss(8) } }
-tableau! { Lobatto4 { basis: polynomial(4), nodes: lobatto(4) } }
-
-/// q'' = −q/|q|³
-struct Kepler;
-
-impl SeparableHamiltonian for Kepler {
-    type Vector<T: Scalar> = SVector<T, 2>;
-
-    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
-        *velocity = *p;
-    }
-
-    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
-        let square = q.dot(q);
-        *force = -q * (square * square.sqrt()).recip();
-    }
-}
-
-fn kepler() -> State<Vector2<f64>> {
-    State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0))
-}
+use crate::common::systems::{Kepler, Pendulum, Product, perihelion};
 
 type Made<M, N> = Integrator<M, Kepler, Vector2<f64>, Plain, N>;
 
@@ -55,7 +29,7 @@ fn check<M: Method, N: Solver<Vector2<f64>, Kepler>>(
         let error = (near.state().q - exact.state().q).amax();
         assert!(error < 10.0 * tolerance, "{} {error:e}", M::NAME);
         near.set_tolerance(0.0)?;
-        near.set_state(kepler())?;
+        near.set_state(perihelion())?;
         near.take_steps(10)?;
         assert_eq!(near.state(), exact.state(), "{}", M::NAME);
         // One below rounding is not waited for.
@@ -71,7 +45,7 @@ fn check<M: Method, N: Solver<Vector2<f64>, Kepler>>(
 #[test]
 fn a_tolerance_saves_sweeps_and_bounds_the_change() -> Result<(), Error> {
     fn all<M: Method>(method: M) -> Result<(), Error> {
-        let made = || Integrator::plain(method, Kepler, kepler(), 0.05);
+        let made = || Integrator::plain(method, Kepler, perihelion(), 0.05);
         check(made)?;
         check(|| Ok(made()?.with_solver(SimdFixedPoint)))?;
         check(|| Ok(made()?.with_solver(FixedPoint)))?;
@@ -99,7 +73,7 @@ fn lanes_end_where_single_stages_do() -> Result<(), Error> {
         }
         Ok(())
     }
-    check(|| Kepler, &kepler())?;
+    check(|| Kepler, &perihelion())?;
     let start = State::new(0.0, Vector1::new(0.5), Vector1::new(1.0));
     check(|| Product, &start)
 }

@@ -1,50 +1,16 @@
 //! Output at given times, events, progress, observers.
 
-mod common;
-
 use std::cell::Cell;
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-use common::distance;
-use symplectic::nalgebra::{SVector, Vector1, Vector2};
-use symplectic::{
-    Error, Event, Integrator, Invariant, Retry, Scalar, SeparableHamiltonian, State, tableau,
-};
-
-tableau! {
-    Gauss2 { basis: polynomial(2), nodes: gauss(2) }
-    Gauss8 { basis: polynomial(8), nodes: gauss(8) }
-    StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) }
-}
-
-/// H = |p|²/2 − 1/|q|
-#[derive(Clone, Copy)]
-struct Kepler;
-
-impl SeparableHamiltonian for Kepler {
-    type Vector<T: Scalar> = SVector<T, 2>;
-
-    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
-        *velocity = *p;
-    }
-
-    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
-        let square = q.dot(q);
-        *force = -q * (square * square.sqrt()).recip();
-    }
-
-    fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {
-        Some(p.dot(p) * T::from_f64(0.5) - q.dot(q).sqrt().recip())
-    }
-}
+use crate::common::distance;
+use crate::common::methods::{Gauss2, Gauss8, StoermerVerlet};
+use crate::common::systems::{Kepler, perihelion};
+use symplectic::nalgebra::{Vector1, Vector2};
+use symplectic::{Error, Event, Integrator, Invariant, Retry, SeparableHamiltonian, State};
 
 type Point = State<Vector2<f64>>;
-
-/// The perihelion of an orbit with eccentricity 0.6.
-fn perihelion() -> Point {
-    State::from_arrays(0.0, [0.4, 0.0], [0.0, 2.0])
-}
 
 /// Positive on the way out.
 fn outward(state: &Point) -> f64 {

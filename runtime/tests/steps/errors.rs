@@ -1,11 +1,10 @@
 //! Every error, with the state untouched and the way on.
 
-mod common;
-
 use std::cell::Cell;
 
-use common::systems::{Pendulum, Product, point};
-use common::{Midpoint, StoermerVerlet};
+use crate::common::systems::{Pendulum, Product, point};
+
+use crate::common::methods::{Gauss2, Lobatto3, Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1};
 use symplectic::solver::FixedPoint;
 use symplectic::{
@@ -409,8 +408,6 @@ fn messages_say_what_where_and_what_to_do() {
 /// What a step has begun to change is not used by the next one if the system panics.
 #[test]
 fn a_panic_of_the_system_leaves_nothing_behind() -> Result<(), Error> {
-    symplectic::tableau! { Lobatto3 { basis: polynomial(3), nodes: lobatto(3) } }
-    symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
     fn check<M: Method>(method: M) -> Result<(), Error> {
         let panics = Cell::new(u32::MAX);
         let pendulum = acceleration(|_time, q: &Point, acceleration| {

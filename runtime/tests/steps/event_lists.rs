@@ -2,13 +2,9 @@
 
 use std::ops::ControlFlow;
 
+use crate::common::methods::{Gauss4, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
-use symplectic::{Error, Event, Events, Integrator, Moment, Retry, State, acceleration, tableau};
-
-tableau! {
-    Gauss4 { basis: polynomial(4), nodes: gauss(4) }
-    StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) }
-}
+use symplectic::{Error, Event, Events, Integrator, Moment, Retry, State, acceleration};
 
 type Point = State<Vector1<f64>>;
 

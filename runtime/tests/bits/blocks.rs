@@ -1,18 +1,14 @@
 //! Many steps at once are the steps one by one.
 
+use crate::common::methods::{
+    AdjointEuler, Midpoint, PositionJump, StoermerVerlet, SymplecticEuler, TripleJump,
+};
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::solver::FixedPoint;
 use symplectic::{
     Error, Integrator, Method, Quantity, Retry, Separable, State, Summation, System, Vector,
-    acceleration, composition, separable, tableau,
+    acceleration, separable,
 };
-
-tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
-tableau! { SymplecticEuler { basis: polynomial(1), nodes: [0] } }
-tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
-tableau! { AdjointEuler { basis: polynomial(1), nodes: [1] } }
-composition! { TripleJump { base: velocity-verlet, weights: triple_jump(4) } }
-composition! { PositionJump { base: position-verlet, weights: triple_jump(4) } }
 
 /// A driven oscillator in each component.
 struct Driven;

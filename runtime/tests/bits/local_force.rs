@@ -2,21 +2,14 @@
 
 use std::cell::Cell;
 
+use crate::common::methods::{Gauss2, Gauss3, Gauss5, Gauss7, Gauss8, Gauss10, Lobatto3};
 use symplectic::nalgebra::DVector;
 use symplectic::solver::Automatic;
 use symplectic::system::{Bonds, Chain, Components, OverEveryScalar, StageRows};
 use symplectic::{
     Compensated, Error, Integrator, Method, Plain, Scalar, Separable, State, Statistics, Summation,
-    System, Vector, tableau,
+    System, Vector,
 };
-
-tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
-tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
-tableau! { Gauss5 { basis: polynomial(5), nodes: gauss(5) } }
-tableau! { Gauss7 { basis: polynomial(7), nodes: gauss(7) } }
-tableau! { Gauss8 { basis: polynomial(8), nodes: gauss(8) } }
-tableau! { Gauss10 { basis: polynomial(10), nodes: gauss(10) } }
-tableau! { Lobatto3 { basis: polynomial(3), nodes: lobatto(3) } }
 
 /// `V(d) = (1 + t/100) d²/2 + d⁴/4`, a driven pendulum on every particle, and no number for bonds that are stretched by more than so much.
 #[derive(Clone, Copy, Debug)]

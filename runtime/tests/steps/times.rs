@@ -1,9 +1,8 @@
 //! Times: exact ends, equal steps, no accumulated rounding.
 
-mod common;
-
-use common::systems::{Pendulum, point};
-use common::{Midpoint, StoermerVerlet, distance};
+use crate::common::distance;
+use crate::common::methods::{Midpoint, StoermerVerlet};
+use crate::common::systems::{Pendulum, point};
 use symplectic::nalgebra::Vector1;
 use symplectic::{Error, Integrator, State};
 

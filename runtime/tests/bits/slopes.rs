@@ -2,16 +2,12 @@
 
 use std::cell::Cell;
 
+use crate::common::methods::{Gauss3, Lobatto3, SymplecticEuler};
 use symplectic::nalgebra::SVector;
 use symplectic::solver::SimdJacobi;
 use symplectic::{
-    Error, General, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State, Statistics, tableau,
+    Error, General, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State, Statistics,
 };
-
-tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
-tableau! { Lobatto3 { basis: polynomial(3), nodes: lobatto(3) } }
-// Force and velocity of a stage have different times.
-tableau! { SymplecticEuler { basis: polynomial(1), nodes: [0] } }
 
 type Vector1<T> = SVector<T, 1>;
 

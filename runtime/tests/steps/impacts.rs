@@ -2,13 +2,9 @@
 
 use std::ops::ControlFlow;
 
+use crate::common::methods::{Gauss2, StoermerVerlet};
 use symplectic::nalgebra::{Vector1, Vector2};
-use symplectic::{Error, Event, Integrator, Method, Moment, State, System, acceleration, tableau};
-
-tableau! {
-    Gauss2 { basis: polynomial(2), nodes: gauss(2) }
-    StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) }
-}
+use symplectic::{Error, Event, Integrator, Method, Moment, State, System, acceleration};
 
 type Ball = State<Vector1<f64>>;
 type Point = State<Vector2<f64>>;

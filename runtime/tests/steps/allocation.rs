@@ -4,13 +4,12 @@
 //! come from `clone` and `zeros_like` of the vectors it is generic over. These count here; the whole allocator is
 //! counted in the tests of the workspace.
 
-mod common;
-
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
-use common::systems::Pendulum;
-use common::{Midpoint, StoermerVerlet};
+use crate::common::systems::Pendulum;
+
+use crate::common::methods::{Midpoint, StoermerVerlet};
 use symplectic::system::{Bonds, Chain};
 use symplectic::{Error, Event, Integrator, Method, Moment, Scalar, State, Vector};
 

@@ -1,13 +1,10 @@
 //! Stages that are no numbers for a sweep, and numbers again after it.
 
+use crate::common::methods::Gauss2;
 use symplectic::nalgebra::Vector2;
 use symplectic::solver::{FixedPoint, SimdFixedPoint, Solver};
 use symplectic::system::SystemInLanes;
-use symplectic::{
-    Error, Integrator, Scalar, SeparableHamiltonian, State, Summation, System, tableau,
-};
-
-tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
+use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, State, Summation, System};
 
 /// `H = p_a²/2 + p_b ln p_a + k sin(w q_a)/w`: nothing depends on `q_b`. Where a stage overshoots to `p_a < 0` it is no number, and a
 /// sweep later it is one.

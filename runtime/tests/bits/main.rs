@@ -1,0 +1,12 @@
+//! The same bits on every path: in lanes of any width, in blocks of steps, along a chain.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod blocks;
+mod chain;
+mod elementary;
+mod lanes;
+mod local_force;
+mod not_a_number;
+mod slopes;

@@ -1,0 +1,20 @@
+//! Steps and runs: accuracy, solvers, errors, events, output, restart.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod accuracy;
+mod allocation;
+mod dense;
+mod errors;
+mod event_lists;
+mod event_zeros;
+mod events;
+mod generating_function;
+mod impacts;
+mod newton;
+mod proved;
+mod restart;
+mod scalars;
+mod stopping;
+mod times;
