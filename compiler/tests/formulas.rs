@@ -349,7 +349,7 @@ fn derivatives_are_right(formula: &str, values: [f64; 4]) -> Result<(), TestCase
         let found = Evaluator::new(&read.graph, &here)
             .sum(&parts)
             .expect("values");
-        for i in 0..2 {
+        for (i, entry) in found.iter().enumerate() {
             let at = |by: f256| {
                 let mut there = here.clone();
                 let x = &mut there.halves[usize::from(half == Half::P)][i][0];
@@ -361,13 +361,13 @@ fn derivatives_are_right(formula: &str, values: [f64; 4]) -> Result<(), TestCase
             };
             let size = at(f256::ZERO).abs() + f256::ONE;
             let slope = (at(small) - at(-small)) / (small + small);
-            let error = (slope - found[i][0].0).abs();
+            let error = (slope - entry[0].0).abs();
             // The truncation error is 10⁻⁴⁰ times a third derivative, which may be large; rounding makes 10⁻⁵⁰.
             let bound = f256::from(1e-25) * (size + slope.abs());
             prop_assert!(
                 error <= bound || !slope.is_finite(),
                 "{formula}: the derivative by {i} of {half:?} is {:?} and not {slope:?}",
-                found[i][0].0
+                entry[0].0
             );
         }
     }

@@ -420,7 +420,7 @@ fn symmetries_give_conserved_momenta() {
     let before = (planets.momentum(&q, &p), planets.angular_momentum(&q, &p));
     let mut run = Integrator::new(
         symplectic_tests::methods::Gauss4,
-        planets.clone(),
+        planets,
         State::new(0.0, q, p),
         50.0,
     )

@@ -17,7 +17,7 @@ use crate::system::{Class, Separable};
 /// error of the step. As everywhere in code for every scalar, no value decides which way to go.
 ///
 /// A system whose velocity depends only on `p`, and whose force only on `q`, implements [`SeparableHamiltonian`] instead and gets
-/// this trait from it; any other says `type Class = General`. [`hamiltonian`](crate::hamiltonian) makes a system of two closures.
+/// this trait from it; any other says `type Class = General`. [`hamiltonian`](crate::hamiltonian()) makes a system of two closures.
 ///
 /// # Time
 ///

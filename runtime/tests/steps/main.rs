@@ -15,6 +15,7 @@ mod impacts;
 mod newton;
 mod proved;
 mod restart;
+mod run_time;
 mod scalars;
 mod stopping;
 mod times;

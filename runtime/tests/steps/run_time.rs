@@ -1,9 +1,8 @@
 //! Tableaux at run time beside the emitted methods of the same coefficients.
 
-mod common;
-
-use common::systems::{Driven, Pendulum, Product};
-use common::{Midpoint, StoermerVerlet, distance, slopes};
+use crate::common::distance;
+use crate::common::methods::{ForestRuth, Gauss2, Gauss4, Lobatto3, Midpoint, StoermerVerlet};
+use crate::common::systems::{Driven, Pendulum, Product};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
 use symplectic::solver::{Coefficient, FixedPoint};
 use symplectic::{
@@ -11,12 +10,21 @@ use symplectic::{
     RunTimeTableau, Separable, State, System, TableauError, acceleration, separable,
 };
 
-symplectic::tableau! {
-    Gauss2 { basis: polynomial(2), nodes: gauss(2) }
-    Gauss4 { basis: polynomial(4), nodes: gauss(4) }
-    Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
-    ForestRuth { base: forest-ruth-1990 }
-    BlanesMoanSrkn11b { base: blanes-moan-2002-srkn11b }
+symplectic::tableau! { BlanesMoanSrkn11b { base: blanes-moan-2002-srkn11b } }
+
+/// The slopes between numbers of steps that are doubled again and again.
+fn slopes(
+    coarsest: u32,
+    halvings: u32,
+    error: impl Fn(u32) -> Result<f64, Error>,
+) -> Result<Vec<f64>, Error> {
+    let errors = (0..=halvings)
+        .map(|i| error(coarsest << i))
+        .collect::<Result<Vec<_>, _>>()?;
+    Ok(errors
+        .windows(2)
+        .map(|pair| (pair[0] / pair[1]).log2())
+        .collect())
 }
 
 /// The coefficients of an emitted method as doubles.
