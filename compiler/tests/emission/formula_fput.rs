@@ -54,5 +54,7 @@ const _: () = {
             })
         }
     }
-    ::symplectic::emitted::chain_system!(() (Fput), between_walls);
+    ::symplectic::emitted::chain_system!(
+        () (Fput), | bonds : & Self | * bonds, between_walls
+    );
 };

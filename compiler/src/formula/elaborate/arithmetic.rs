@@ -225,7 +225,9 @@ impl Elaborator<'_> {
     ) -> Result<Value, Error> {
         let name = function.text.as_str();
         if NOT_SMOOTH.contains(&name) {
-            return Err(self.input.error(&function.span, kink(name).into()));
+            return Err(self
+                .input
+                .error(&function.span, kink(&format!("`{name}`")).into()));
         }
         if let Some(Value::Abbreviation(k)) = self.names.get(name).cloned() {
             return self.expand(k, arguments, at);
@@ -340,14 +342,14 @@ impl Elaborator<'_> {
 /// The error of a function that is not smooth.
 pub(super) fn kink(function: &str) -> FormulaError {
     let (defect, instead) = match function {
-        "floor" | "ceil" | "round" | "mod" | "sign" => ("jumps", "use a smooth function"),
+        "`floor`" | "`ceil`" | "`round`" | "`mod`" | "`sign`" => ("jumps", "use a smooth function"),
         _ => (
             "a kink",
             "use a square, a power above 2 as in `|x|^3`, or `sqrt(x^2 + a^2)`",
         ),
     };
     FormulaError::NotSmooth {
-        function: format!("`{function}`"),
+        function: function.to_owned(),
         defect,
         instead,
     }

@@ -4,7 +4,9 @@ use super::arithmetic::kink;
 use super::{Elaborator, MOST_COMPONENTS, Value};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
+use crate::formula::function::ELEMENTARY;
 use crate::formula::graph::{Coordinate, Half, Id, Index};
+use crate::formula::parse::VECTOR_FUNCTIONS;
 use crate::formula::syntax::{Expression, Kind, Length, Name};
 use crate::formula::system::{Layout, Shape};
 
@@ -136,7 +138,7 @@ impl Elaborator<'_> {
             Kind::Bars(inner) => {
                 let value = self.value(inner)?;
                 match self.whole(value) {
-                    Value::Scalar(_) => return self.error(written, kink("|…| of a number")),
+                    Value::Scalar(_) => return self.error(written, kink("`|…|` of a number")),
                     Value::Vector(parts) => {
                         let square = self.dot(&parts, &parts);
                         Value::Scalar(self.root(square, inner)?)
@@ -169,7 +171,10 @@ impl Elaborator<'_> {
             .chain(["pi", "t"])
             .collect();
         known.sort_unstable();
-        let nearest = nearest(name, &known);
+        let functions = ELEMENTARY.iter().map(|(function, _)| *function);
+        let functions = functions.chain(["sqrt"]).chain(VECTOR_FUNCTIONS);
+        let candidates: Vec<&str> = known.iter().copied().chain(functions).collect();
+        let nearest = nearest(name, &candidates);
         let known = match nearest {
             Some(nearest) => format!("{}; did you mean `{nearest}`?", known.join(", ")),
             None => known.join(", "),
@@ -202,5 +207,6 @@ fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
         row[b.len()]
     };
     let close = known.iter().map(|other| (distance(other), *other)).min()?;
-    (close.0 <= 1 + name.chars().count() / 4).then_some(close.1)
+    let length = name.chars().count();
+    (close.0 < length && close.0 <= 1 + length / 3).then_some(close.1)
 }
