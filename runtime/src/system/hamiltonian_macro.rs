@@ -17,7 +17,7 @@
 /// }
 ///
 /// # fn main() -> Result<(), Error> {
-/// let start = State::new(0.0, SVector::from([1.0, 2.0]), SVector::from([0.0, 0.0]));
+/// let start = State::new(0.0, SVector::from([1.0_f64, 2.0]), SVector::from([0.0, 0.0]));
 /// let mut run = Integrator::new(Gauss4, DoublePendulum { g: 1.62 }, start, 0.01)?;
 /// let before = run.energy().expect("H is known");
 /// run.integrate_to(100.0)?;
