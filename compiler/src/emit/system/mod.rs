@@ -5,24 +5,26 @@
 //! thousand bodies as for three.
 
 mod block;
+mod chain;
+mod expression;
+mod fields;
+mod invariants;
+mod jacobian;
+mod names;
 mod operations;
 
-use num_traits::One;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use self::block::{Statement, Task, Writer, entry, index_tokens, length_tokens};
+use self::block::{Statement, Task, Writer};
+use self::names::{entry, length_tokens};
 use self::operations::Operations;
 use super::Header;
-use crate::arithmetic::rounding::to_f64;
-use crate::emit::literal;
 use crate::formula::derivative::{Scatter, gradient};
-use crate::formula::description::{momenta, page};
-use crate::formula::display::number_text;
-use crate::formula::graph::{Coordinate, Half, Id, LoopId, Node, Number};
-use crate::formula::structure::{ChainParts, Split, each_once};
-use crate::formula::syntax::{Ends, Length};
-use crate::formula::{Kinetic, Layout, Parameter, Shape, Structure, System};
+use crate::formula::graph::{Half, Id, Number};
+use crate::formula::structure::{Split, each_once};
+use crate::formula::syntax::Length;
+use crate::formula::{Kinetic, Layout, Structure, System};
 
 /// The type of a system with everything that was derived from its formula.
 pub fn system(system: &System, structure: &Structure, header: &Header) -> TokenStream {
@@ -134,98 +136,6 @@ impl<'a> Emitter<'a> {
             quote!(#(const #names: usize),*),
             quote!(<#(#names),*>),
         ]
-    }
-
-    /// The type of a parameter.
-    fn field(shape: &Shape) -> TokenStream {
-        let vector = |item: TokenStream, length: &Length| match length {
-            Length::Runtime | Length::PairsOf(_) => quote!(::symplectic::emitted::Vec<#item>),
-            length => {
-                let length = length_tokens(length);
-                quote!([#item; #length])
-            }
-        };
-        match shape {
-            Shape::Number(_) => quote!(f64),
-            Shape::Pairs => quote!(::symplectic::emitted::Vec<(usize, usize)>),
-            Shape::Array(lengths) => lengths.iter().rev().fold(quote!(f64), vector),
-        }
-    }
-
-    /// The type, what makes one, and the default.
-    fn fields(&self) -> TokenStream {
-        let Header {
-            attributes,
-            visibility,
-            name,
-        } = self.header;
-        let [generics, _, arguments] = self.generics();
-        let documentation = page(&self.system, self.structure);
-        if self.system.parameters.is_empty() {
-            return quote! {
-                #attributes
-                #[doc = #documentation]
-                #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-                #visibility struct #name #generics;
-            };
-        }
-        let mut fields = Vec::new();
-        let (mut names, mut values, mut inputs) = (Vec::new(), Vec::new(), Vec::new());
-        let mut all_copy = true;
-        for parameter in &self.system.parameters {
-            let field = identifier(&parameter.name);
-            let kind = Self::field(&parameter.shape);
-            let what = match &parameter.shape {
-                Shape::Number(Some(value)) => format!(
-                    " The parameter `{}`, {} unless it is set.",
-                    parameter.name,
-                    number_text(value)
-                ),
-                _ => format!(" The parameter `{}`.", parameter.name),
-            };
-            fields.push(quote!(#[doc = #what] pub #field: #kind));
-            all_copy &= !kind.to_string().contains("Vec");
-            match &parameter.shape {
-                Shape::Number(Some(value)) => {
-                    let value = literal::double(to_f64(value));
-                    values.push(quote!(#field: #value));
-                }
-                _ => {
-                    inputs.push(quote!(#field: #kind));
-                    values.push(quote!(#field));
-                }
-            }
-            names.push(field);
-        }
-        let copy = all_copy.then(|| quote!(Copy,));
-        let default = inputs.is_empty().then(|| {
-            quote! {
-                impl #generics ::core::default::Default for #name #arguments {
-                    fn default() -> Self {
-                        Self::new()
-                    }
-                }
-            }
-        });
-        quote! {
-            #attributes
-            #[doc = #documentation]
-            #[allow(non_snake_case)]
-            #[derive(Clone, #copy Debug, PartialEq)]
-            #visibility struct #name #generics {
-                #(#fields),*
-            }
-
-            impl #generics #name #arguments {
-                /// The system with these parameters, and the values of the definition for the others.
-                #[allow(non_snake_case, clippy::too_many_arguments)]
-                pub const fn new(#(#inputs),*) -> Self {
-                    Self { #(#values),* }
-                }
-            }
-
-            #default
-        }
     }
 
     /// The type of positions and momenta over a scalar.
@@ -532,262 +442,6 @@ impl<'a> Emitter<'a> {
             }
 
             #jacobian
-        }
-    }
-
-    /// The second derivatives, for Newton's iteration.
-    fn jacobian(&mut self, split: Option<Split>) -> TokenStream {
-        let name = self.header.name.clone();
-        let [_, parameters, arguments] = self.generics();
-        let scalar = self.scalar.clone();
-        let over = self.vector(&quote!(#scalar));
-        let energy = self.system.energy;
-        // The matrix, H or its part, the sign, the half of the row and that of the column.
-        let blocks = match split {
-            Some(split) => vec![
-                ("velocity_by_momentum", split.kinetic, 1, Half::P, Half::P),
-                ("force_by_position", split.potential, -1, Half::Q, Half::Q),
-            ],
-            None => vec![
-                ("velocity_by_momentum", energy, 1, Half::P, Half::P),
-                ("velocity_by_position", energy, 1, Half::P, Half::Q),
-                ("force_by_position", energy, -1, Half::Q, Half::Q),
-            ],
-        };
-        let mut parts: Vec<(&str, Coordinate, Scatter)> = Vec::new();
-        for (matrix, of, sign, row, column) in blocks {
-            let sign = Number::from_integer(sign.into());
-            for first in gradient(&mut self.system.graph, of, &[], sign, row) {
-                let loops: Vec<LoopId> = first.loops.clone();
-                for second in gradient(
-                    &mut self.system.graph,
-                    first.value,
-                    &loops,
-                    Number::one(),
-                    column,
-                ) {
-                    parts.push((matrix, first.target.clone(), second));
-                }
-            }
-        }
-        let third = |id: &Id| {
-            let nodes = self.system.graph.below([*id]);
-            nodes
-                .iter()
-                .any(|&id| matches!(self.system.graph.node(id), Node::User(_, 3.., _)))
-        };
-        if self.system.graph.is_full() || parts.iter().any(|(_, _, part)| third(&part.value)) {
-            return TokenStream::new();
-        }
-        let roots: Vec<Id> = parts.iter().map(|(_, _, part)| part.value).collect();
-        let operations = Operations::new(&self.system.graph, &roots);
-        let views = self.views(&["q", "p"], &[]);
-        let nan =
-            quote!(jacobian.force_by_position.set(0, 0, #scalar::from_f64(f64::NAN)); return;);
-        let least = self.least(&nan);
-        let tasks = parts.iter().map(|(matrix, row, part)| {
-            let matrix = format_ident!("{matrix}");
-            let [row, column] = [row, &part.target].map(|place| self.place(place));
-            let write: Statement =
-                Box::new(move |value| quote!(jacobian.#matrix.add(#row, #column, #value);));
-            Task {
-                loops: part.loops.clone(),
-                value: operations.of(part.value),
-                write,
-                fixed: false,
-            }
-        });
-        let mut writer = Writer::new(&self.system, &operations, scalar.clone(), &self.prefix, nan);
-        let statements = writer.write(tasks.collect());
-        quote! {
-            ::symplectic::emitted::if_alloc! {
-                #[allow(unused_variables, non_snake_case, clippy::all)]
-                impl<#scalar: Scalar, #parameters> ::symplectic::solver::Linearized<#over> for #name #arguments {
-                    fn derivatives(&self, time: #scalar, q: &#over, p: &#over, jacobian: &mut ::symplectic::solver::Jacobian<#scalar>) {
-                        #views #least #statements
-                    }
-                }
-            }
-        }
-    }
-
-    /// The number of a component among all.
-    fn place(&self, coordinate: &Coordinate) -> TokenStream {
-        let index = index_tokens(&coordinate.index);
-        match self.system.layout {
-            Layout::Numbered(_, Some(components)) => {
-                let component = Literal::usize_unsuffixed(coordinate.component);
-                let components = Literal::usize_unsuffixed(components);
-                let index = match coordinate.index.offset {
-                    0 => index,
-                    _ => quote!((#index)),
-                };
-                quote!(#index * #components + #component)
-            }
-            _ => index,
-        }
-    }
-
-    /// A chain: what the runtime asks of its bonds.
-    fn chain(&mut self, parts: &ChainParts) -> TokenStream {
-        let name = self.header.name.clone();
-        let [generics, parameters, arguments] = self.generics();
-        let scalar = self.scalar.clone();
-        let ends = match self.system.ends {
-            Some(Ends::Walls) => quote!(between_walls),
-            Some(Ends::Free) => quote!(with_free_ends),
-            Some(Ends::Ring) | None => quote!(ring),
-        };
-        let tension = gradient(
-            &mut self.system.graph,
-            parts.bond,
-            &[],
-            Number::one(),
-            Half::Q,
-        );
-        let tension = tension.first().map_or(parts.bond, |part| part.value);
-        let outer = parts.on_site.map(|(energy, over)| {
-            let minus = -Number::one();
-            let parts = gradient(&mut self.system.graph, energy, &[over], minus, Half::Q);
-            let force = parts.first().map(|part| part.value);
-            (energy, force, over)
-        });
-        // Numbers are copied, so that they stay in registers.
-        let only_numbers = |parameter: &Parameter| matches!(parameter.shape, Shape::Number(_));
-        let bonds = match self.system.parameters.iter().all(only_numbers) {
-            true => quote!(|bonds: &Self| *bonds),
-            false => quote!(|bonds| bonds),
-        };
-        let (variable, site) = (quote!(stretch), quote!(position));
-        let function = |this: &Self, argument: &TokenStream, value: Id, over: Option<LoopId>| {
-            let operations = Operations::new(&this.system.graph, &[value]);
-            let mut writer = Writer::new(
-                &this.system,
-                &operations,
-                scalar.clone(),
-                &this.prefix,
-                TokenStream::new(),
-            );
-            let write: Statement = Box::new(|value| quote!(let value = #value;));
-            let task = Task {
-                loops: Vec::new(),
-                value: operations.of(value),
-                write,
-                fixed: false,
-            };
-            let statements = writer.function(task, argument.clone(), over);
-            quote!(#statements value)
-        };
-        let bond_energy = function(self, &variable, parts.bond, None);
-        let tension = function(self, &variable, tension, None);
-        let outer = outer.map(|(energy, force, over)| {
-            let energy = function(self, &site, energy, Some(over));
-            let force = match force {
-                Some(force) => function(self, &site, force, Some(over)),
-                None => quote!(#scalar::zero()),
-            };
-            quote! {
-                #[inline(always)]
-                fn outer_force<#scalar: Scalar>(&self, time: #scalar, position: #scalar) -> ::core::option::Option<#scalar> {
-                    ::core::option::Option::Some({ #force })
-                }
-
-                fn outer_energy<#scalar: Scalar>(&self, time: #scalar, position: #scalar) -> ::core::option::Option<#scalar> {
-                    ::core::option::Option::Some({ #energy })
-                }
-            }
-        });
-        quote! {
-            #[allow(unused_variables, non_snake_case, clippy::all)]
-            impl #generics ::symplectic::system::Bonds for #name #arguments {
-                #[inline(always)]
-                fn tension<#scalar: Scalar>(&self, time: #scalar, stretch: #scalar) -> #scalar {
-                    #tension
-                }
-
-                fn bond_energy<#scalar: Scalar>(&self, time: #scalar, stretch: #scalar) -> ::core::option::Option<#scalar> {
-                    ::core::option::Option::Some({ #bond_energy })
-                }
-
-                #outer
-            }
-
-            ::symplectic::emitted::chain_system!((#parameters) (#name #arguments), #bonds, #ends);
-        }
-    }
-
-    /// Functions for what is conserved.
-    fn invariants(&mut self) -> TokenStream {
-        let mut code = TokenStream::new();
-        for invariant in self.system.invariants.clone() {
-            let what = format!(" `{}`, which the exact flow conserves.", invariant.name);
-            code.extend(self.function(&invariant.name, &what, &invariant.parts, invariant.scalar));
-        }
-        let own = |name: &str| {
-            self.system
-                .invariants
-                .iter()
-                .any(|invariant| invariant.name == name)
-                || self
-                    .system
-                    .parameters
-                    .iter()
-                    .any(|parameter| parameter.name == name)
-        };
-        let found = momenta(&self.system, self.structure);
-        let found: Vec<_> = found.into_iter().filter(|(name, _)| !own(name)).collect();
-        for (name, kind) in found {
-            let parts = kind.parts(&mut self.system);
-            let what = format!(
-                " The {}, which the exact flow conserves: H has the symmetry.",
-                name.replace('_', " ")
-            );
-            let known = self
-                .system
-                .invariants
-                .iter()
-                .any(|invariant| invariant.parts == parts);
-            if !known {
-                code.extend(self.function(name, &what, &parts, parts.len() == 1));
-            }
-        }
-        if code.is_empty() {
-            return code;
-        }
-        let [generics, _, arguments] = self.generics();
-        let name = &self.header.name;
-        quote! {
-            #[allow(unused_variables, non_snake_case, clippy::all)]
-            impl #generics #name #arguments {
-                #code
-            }
-        }
-    }
-
-    fn function(&self, name: &str, what: &str, parts: &[Id], alone: bool) -> TokenStream {
-        let name = identifier(name);
-        let scalar = &self.scalar;
-        let over = self.vector(&quote!(#scalar));
-        let nan = vec![quote!(#scalar::from_f64(f64::NAN)); parts.len()];
-        let outside = match alone {
-            true => quote!(return #(#nan)*;),
-            false => quote!(return [#(#nan),*];),
-        };
-        let values = self.values(&["q", "p"], parts, outside);
-        let (result, finish) = match alone {
-            true => (quote!(#scalar), quote!(result_1)),
-            false => {
-                let count = Literal::usize_unsuffixed(parts.len());
-                let names = (1..=parts.len()).map(|k| format_ident!("result_{k}"));
-                (quote!([#scalar; #count]), quote!([#(#names),*]))
-            }
-        };
-        quote! {
-            #[doc = #what]
-            pub fn #name<#scalar: Scalar>(&self, q: &#over, p: &#over) -> #result {
-                #values
-                #finish
-            }
         }
     }
 }

@@ -18,20 +18,19 @@
 //!
 //! Factors that follow one another are multiplied: `2 pa pb cos(d)`.
 
+mod statements;
+mod tokens;
+
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
 
+use self::tokens::{Token, tokenize};
 use super::error::FormulaError;
 use super::function::Function;
-use super::syntax::{
-    Abbreviation, Coordinates, CoordinatesKind, Definition, Ends, Expression, Kind, Length, Name,
-    Over, Parameter, ParameterKind, Span,
-};
+use super::syntax::{Definition, Expression, Kind, Name, Over, Span};
 use crate::error::{Error, ErrorKind};
-use crate::expression::{Input, number, number_end};
+use crate::expression::Input;
 
-/// The longest text that is read.
-const MAX_LENGTH: usize = 1_000_000;
 /// The deepest nesting of parentheses.
 const MAX_DEPTH: usize = 64;
 /// Words that are not names.
@@ -50,14 +49,6 @@ pub const KEYWORDS: [&str; 12] = [
     "require",
 ];
 
-#[derive(Debug, Clone, PartialEq)]
-enum Token {
-    Number(BigRational),
-    Name(String),
-    Symbol(char),
-    End,
-}
-
 /// Reads a definition.
 ///
 /// # Errors
@@ -73,59 +64,6 @@ pub fn parse(input: Input<'_>) -> Result<Definition, Error> {
         in_bars: Vec::new(),
     };
     parser.definition()
-}
-
-fn tokenize(input: Input<'_>) -> Result<Vec<(Token, Span)>, Error> {
-    let text = input.text;
-    if text.len() > MAX_LENGTH {
-        let kind = ErrorKind::ExpressionSize {
-            what: "its length",
-            size: text.len(),
-            limit: MAX_LENGTH,
-        };
-        return Err(input.error(&(0..1), kind));
-    }
-    let mut tokens = Vec::new();
-    let mut position = 0;
-    while let Some(first) = text[position..].chars().next() {
-        let start = position;
-        let rest = &text[start..];
-        let digit_follows = rest[first.len_utf8()..].starts_with(|c: char| c.is_ascii_digit());
-        let token = if first.is_whitespace() {
-            position += first.len_utf8();
-            continue;
-        } else if rest.starts_with("//") {
-            position = rest.find('\n').map_or(text.len(), |end| start + end);
-            continue;
-        } else if first.is_ascii_digit() || (first == '.' && digit_follows) {
-            // `0..n` is a range.
-            let digits = rest.find(|c: char| !c.is_ascii_digit());
-            let whole = start + digits.unwrap_or(rest.len());
-            position = match text[whole..].starts_with("..") {
-                true => whole,
-                false => number_end(text, start),
-            };
-            Token::Number(number(input, start..position)?)
-        } else if first.is_alphabetic() || first == '_' {
-            // A word of Rust as a name, `r#type`, is that name.
-            let begin = start + if rest.starts_with("r#") { 2 } else { 0 };
-            let end = text[begin..].find(|c: char| !(c.is_alphanumeric() || c == '_'));
-            position = begin + end.unwrap_or(text.len() - begin);
-            Token::Name(text[begin..position].to_owned())
-        } else if "+-*/^()[]{},;:|<>=.×·".contains(first) {
-            position += first.len_utf8();
-            Token::Symbol(first)
-        } else {
-            let kind = ErrorKind::Syntax {
-                found: format!("found `{first}`"),
-                expected: "a number, a name or one of + - * / ^ ( ) [ ] | , ; :".to_owned(),
-            };
-            return Err(input.error(&(start..start + first.len_utf8()), kind));
-        };
-        tokens.push((token, start..position));
-    }
-    tokens.push((Token::End, text.len()..text.len()));
-    Ok(tokens)
 }
 
 struct Parser<'a> {
@@ -237,300 +175,6 @@ impl Parser<'_> {
             meaning: meaning.to_owned(),
         };
         Err(self.input.error(&name.span, kind.into()))
-    }
-
-    fn definition(&mut self) -> Result<Definition, Error> {
-        let mut definition = Definition {
-            name: self.name("the name of the system")?,
-            lengths: Vec::new(),
-            parameters: Vec::new(),
-            coordinates: [None, None],
-            ends: None,
-            functions: Vec::new(),
-            abbreviations: Vec::new(),
-            energy: None,
-            invariants: Vec::new(),
-            required: Vec::new(),
-        };
-        if self.accept('<') {
-            while !self.is('>') {
-                definition
-                    .lengths
-                    .push(self.new_name("a length such as `N`, or `>`")?);
-                if !self.accept(',') {
-                    break;
-                }
-            }
-            self.expect('>', "`,` or `>`")?;
-        }
-        let open = self.span();
-        if self.accept('{') {
-            while !self.is('}') {
-                let parameter = self.parameter(&definition)?;
-                definition.parameters.push(parameter);
-                if !self.accept(',') {
-                    break;
-                }
-            }
-            self.close(&open, ['{', '}'])?;
-        }
-        while *self.peek() != Token::End {
-            self.statement(&mut definition)?;
-        }
-        Ok(definition)
-    }
-
-    fn parameter(&mut self, definition: &Definition) -> Result<Parameter, Error> {
-        let name = self.new_name("a parameter such as `g: 9.81`, or `}`")?;
-        let kind = if !self.accept(':') {
-            ParameterKind::Number(None)
-        } else if self.accept_word("pairs") {
-            ParameterKind::Pairs
-        } else if self.is('[') {
-            let open = self.span();
-            self.next += 1;
-            let mut lengths = vec![self.length(definition)?];
-            if self.accept(';') || self.accept(',') {
-                lengths.push(self.length(definition)?);
-            }
-            self.close(&open, ['[', ']'])?;
-            ParameterKind::Array(lengths)
-        } else {
-            let value = self.expression()?;
-            let Some(number) = constant(&value) else {
-                let kind = ErrorKind::Type {
-                    found: format!("`{}`", &self.input.text[value.span.clone()]),
-                    expected: "a number, a shape such as `[N]` or `[3, 3]`, or `pairs`".to_owned(),
-                };
-                return Err(self.input.error(&value.span, kind));
-            };
-            ParameterKind::Number(Some(number))
-        };
-        Ok(Parameter { name, kind })
-    }
-
-    /// A length in a shape.
-    fn length(&mut self, definition: &Definition) -> Result<Length, Error> {
-        const EXPECTED: &str =
-            "a length: a number, a name between the `<…>` of the system, or `..`";
-        if self.accept('.') {
-            self.expect('.', EXPECTED)?;
-            return Ok(Length::Runtime);
-        }
-        let span = self.span();
-        match self.peek().clone() {
-            Token::Number(number) => {
-                self.next += 1;
-                let length = number.to_usize().filter(|&n| number.is_integer() && n > 0);
-                let Some(length) = length.filter(|&n| n <= 1_000_000) else {
-                    let kind = ErrorKind::Type {
-                        found: format!("the length {number}"),
-                        expected: "a whole number from 1 to 1000000".to_owned(),
-                    };
-                    return Err(self.input.error(&span, kind));
-                };
-                Ok(Length::Fixed(length))
-            }
-            Token::Name(text) => {
-                self.next += 1;
-                let pairs = |parameter: &&Parameter| {
-                    parameter.name.text == text && matches!(parameter.kind, ParameterKind::Pairs)
-                };
-                if definition.lengths.iter().any(|length| length.text == text) {
-                    Ok(Length::Generic(text))
-                } else if definition.parameters.iter().find(pairs).is_some() {
-                    Ok(Length::PairsOf(text))
-                } else {
-                    let known = definition.lengths.iter().map(|length| length.text.clone());
-                    let known: Vec<String> = known.collect();
-                    let known = match known.is_empty() {
-                        true => format!("none; write `{}<{text}>`", definition.name.text),
-                        false => known.join(", "),
-                    };
-                    Err(self.input.error(
-                        &span,
-                        ErrorKind::Unknown {
-                            what: "length",
-                            name: text,
-                            known,
-                        },
-                    ))
-                }
-            }
-            _ => Err(self.unexpected(EXPECTED)),
-        }
-    }
-
-    fn statement(&mut self, definition: &mut Definition) -> Result<(), Error> {
-        let span = self.span();
-        let twice = |parser: &Self, part: &str| {
-            let part = part.to_owned();
-            Err(parser
-                .input
-                .error(&span, FormulaError::Twice { part }.into()))
-        };
-        let Token::Name(word) = self.peek().clone() else {
-            return Err(self.unexpected(STATEMENT));
-        };
-        self.next += 1;
-        match word.as_str() {
-            "q" | "p" => {
-                let half = usize::from(word == "p");
-                self.expect(':', "`:` and the coordinates: `q: [a, b], p: [pa, pb];`")?;
-                if definition.coordinates[half].is_some() {
-                    return twice(self, &format!("`{word}`"));
-                }
-                definition.coordinates[half] = Some(self.coordinates(definition)?);
-                // `q: […], p: […];`
-                if !self.accept(',') && !self.accept(';') {
-                    return Err(self.unexpected("`,` or `;`"));
-                }
-            }
-            "bonds" => {
-                const ENDS: &str = "`walls`, `free` or `ring`";
-                self.expect(':', "`:` and how the chain ends: `bonds: walls;`")?;
-                let name = self.name(ENDS)?;
-                let ends = match name.text.as_str() {
-                    "walls" => Ends::Walls,
-                    "free" => Ends::Free,
-                    "ring" => Ends::Ring,
-                    _ => {
-                        self.next -= 1;
-                        return Err(self.unexpected(ENDS));
-                    }
-                };
-                if definition.ends.is_some() {
-                    return twice(self, "`bonds`");
-                }
-                definition.ends = Some((ends, name.span));
-                self.accept(';');
-            }
-            "extern" => {
-                const FORM: &str =
-                    "a function with its two derivatives: `extern fn V with dV, d2V;`";
-                if !self.accept_word("fn") {
-                    return Err(self.unexpected(FORM));
-                }
-                let function = self.new_name(FORM)?;
-                if !self.accept_word("with") {
-                    return Err(self.unexpected(FORM));
-                }
-                let first = self.name(FORM)?;
-                self.expect(',', FORM)?;
-                let second = self.name(FORM)?;
-                self.calls.push(function.text.clone());
-                definition.functions.push([function, first, second]);
-                self.expect(';', "`;`")?;
-            }
-            "let" => {
-                let name = self.new_name("a name")?;
-                let mut arguments = Vec::new();
-                if self.accept('(') {
-                    while !self.is(')') {
-                        arguments.push(self.new_name("an argument, or `)`")?);
-                        if !self.accept(',') {
-                            break;
-                        }
-                    }
-                    self.expect(')', "`,` or `)`")?;
-                }
-                self.expect('=', "`=`")?;
-                let value = self.expression()?;
-                self.expect(';', "an operator or `;`")?;
-                if !arguments.is_empty() {
-                    self.calls.push(name.text.clone());
-                }
-                definition.abbreviations.push(Abbreviation {
-                    name,
-                    arguments,
-                    value,
-                });
-            }
-            "H" => {
-                self.expect('=', "`=` and the Hamiltonian")?;
-                if definition.energy.is_some() {
-                    return twice(self, "H");
-                }
-                definition.energy = Some(self.expression()?);
-                let ends = matches!(self.peek(), Token::End | Token::Name(_));
-                if !self.accept(';') && !ends {
-                    return Err(self.unexpected("an operator or `;`"));
-                }
-            }
-            "invariants" => {
-                const FORM: &str = "`invariants: { momentum = sum(i: p[i]) }`";
-                self.expect(':', FORM)?;
-                let open = self.span();
-                self.expect('{', FORM)?;
-                while !self.is('}') {
-                    let name = self.new_name("the name of an invariant, or `}`")?;
-                    self.expect('=', "`=`")?;
-                    definition.invariants.push((name, self.expression()?));
-                    if !self.accept(',') {
-                        break;
-                    }
-                }
-                self.close(&open, ['{', '}'])?;
-                self.accept(';');
-            }
-            "require" => {
-                const FORM: &str = "`require: [separable, quadratic_kinetic]`";
-                self.expect(':', FORM)?;
-                let open = self.span();
-                self.expect('[', FORM)?;
-                while !self.is(']') {
-                    definition.required.push(self.name("a property, or `]`")?);
-                    if !self.accept(',') {
-                        break;
-                    }
-                }
-                self.close(&open, ['[', ']'])?;
-                self.accept(';');
-            }
-            _ => {
-                self.next -= 1;
-                return Err(self.unexpected(STATEMENT));
-            }
-        }
-        Ok(())
-    }
-
-    fn coordinates(&mut self, definition: &Definition) -> Result<Coordinates, Error> {
-        let open = self.span();
-        self.expect('[', "`[`: `[a, b]`, `[N]`, `[N; 3]` or `[..]`")?;
-        let is_length = |name: &str| definition.lengths.iter().any(|length| length.text == name);
-        let kind = match self.peek() {
-            Token::Name(name) if !is_length(name) => {
-                let mut names = vec![self.new_name("a coordinate")?];
-                while self.accept(',') && !self.is(']') {
-                    names.push(self.new_name("a coordinate")?);
-                }
-                CoordinatesKind::Named(names)
-            }
-            _ => {
-                let length = self.length(definition)?;
-                let mut components = None;
-                if self.accept(';') {
-                    let span = self.span();
-                    match self.length(definition)? {
-                        Length::Fixed(n) if n <= 16 => components = Some(n),
-                        _ => {
-                            let kind = ErrorKind::Type {
-                                found: "these components of a vector".to_owned(),
-                                expected: "a number from 1 to 16".to_owned(),
-                            };
-                            return Err(self.input.error(&span, kind));
-                        }
-                    }
-                }
-                CoordinatesKind::Numbered(length, components)
-            }
-        };
-        self.close(&open, ['[', ']'])?;
-        Ok(Coordinates {
-            kind,
-            span: open.start..self.end(),
-        })
     }
 
     fn list(&mut self, end: char) -> Result<Vec<Expression>, Error> {
@@ -857,6 +501,3 @@ pub fn constant(expression: &Expression) -> Option<BigRational> {
         _ => return None,
     })
 }
-
-/// What a statement may begin with.
-const STATEMENT: &str = "`q: […], p: […];`, `let …;`, `H = …`, `bonds: …;`, `extern fn …;`, `invariants: {…}` or `require: […]`";

@@ -1,0 +1,104 @@
+//! Chains of neighbours.
+
+use num_traits::One;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::Emitter;
+use super::block::{Statement, Task, Writer};
+use super::operations::Operations;
+use crate::formula::derivative::gradient;
+use crate::formula::graph::{Half, Id, LoopId, Number};
+use crate::formula::structure::ChainParts;
+use crate::formula::syntax::Ends;
+use crate::formula::{Parameter, Shape};
+
+impl Emitter<'_> {
+    /// A chain: what the runtime asks of its bonds.
+    pub(super) fn chain(&mut self, parts: &ChainParts) -> TokenStream {
+        let name = self.header.name.clone();
+        let [generics, parameters, arguments] = self.generics();
+        let scalar = self.scalar.clone();
+        let ends = match self.system.ends {
+            Some(Ends::Walls) => quote!(between_walls),
+            Some(Ends::Free) => quote!(with_free_ends),
+            Some(Ends::Ring) | None => quote!(ring),
+        };
+        let tension = gradient(
+            &mut self.system.graph,
+            parts.bond,
+            &[],
+            Number::one(),
+            Half::Q,
+        );
+        let tension = tension.first().map_or(parts.bond, |part| part.value);
+        let outer = parts.on_site.map(|(energy, over)| {
+            let minus = -Number::one();
+            let parts = gradient(&mut self.system.graph, energy, &[over], minus, Half::Q);
+            let force = parts.first().map(|part| part.value);
+            (energy, force, over)
+        });
+        // Numbers are copied, so that they stay in registers.
+        let only_numbers = |parameter: &Parameter| matches!(parameter.shape, Shape::Number(_));
+        let bonds = match self.system.parameters.iter().all(only_numbers) {
+            true => quote!(|bonds: &Self| *bonds),
+            false => quote!(|bonds| bonds),
+        };
+        let (variable, site) = (quote!(stretch), quote!(position));
+        let function = |this: &Self, argument: &TokenStream, value: Id, over: Option<LoopId>| {
+            let operations = Operations::new(&this.system.graph, &[value]);
+            let mut writer = Writer::new(
+                &this.system,
+                &operations,
+                scalar.clone(),
+                &this.prefix,
+                TokenStream::new(),
+            );
+            let write: Statement = Box::new(|value| quote!(let value = #value;));
+            let task = Task {
+                loops: Vec::new(),
+                value: operations.of(value),
+                write,
+                fixed: false,
+            };
+            let statements = writer.function(task, argument.clone(), over);
+            quote!(#statements value)
+        };
+        let bond_energy = function(self, &variable, parts.bond, None);
+        let tension = function(self, &variable, tension, None);
+        let outer = outer.map(|(energy, force, over)| {
+            let energy = function(self, &site, energy, Some(over));
+            let force = match force {
+                Some(force) => function(self, &site, force, Some(over)),
+                None => quote!(#scalar::zero()),
+            };
+            quote! {
+                #[inline(always)]
+                fn outer_force<#scalar: Scalar>(&self, time: #scalar, position: #scalar) -> ::core::option::Option<#scalar> {
+                    ::core::option::Option::Some({ #force })
+                }
+
+                fn outer_energy<#scalar: Scalar>(&self, time: #scalar, position: #scalar) -> ::core::option::Option<#scalar> {
+                    ::core::option::Option::Some({ #energy })
+                }
+            }
+        });
+        quote! {
+            #[allow(unused_variables, non_snake_case, clippy::all)]
+            impl #generics ::symplectic::system::Bonds for #name #arguments {
+                #[inline(always)]
+                fn tension<#scalar: Scalar>(&self, time: #scalar, stretch: #scalar) -> #scalar {
+                    #tension
+                }
+
+                fn bond_energy<#scalar: Scalar>(&self, time: #scalar, stretch: #scalar) -> ::core::option::Option<#scalar> {
+                    ::core::option::Option::Some({ #bond_energy })
+                }
+
+                #outer
+            }
+
+            ::symplectic::emitted::chain_system!((#parameters) (#name #arguments), #bonds, #ends);
+        }
+    }
+}

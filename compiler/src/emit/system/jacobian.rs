@@ -1,0 +1,109 @@
+//! The second derivatives of H.
+
+use num_traits::One;
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::Emitter;
+use super::block::{Statement, Task, Writer};
+use super::names::index_tokens;
+use super::operations::Operations;
+use crate::formula::Layout;
+use crate::formula::derivative::{Scatter, gradient};
+use crate::formula::graph::{Coordinate, Half, Id, LoopId, Node, Number};
+use crate::formula::structure::Split;
+
+impl Emitter<'_> {
+    /// The second derivatives, for Newton's iteration.
+    pub(super) fn jacobian(&mut self, split: Option<Split>) -> TokenStream {
+        let name = self.header.name.clone();
+        let [_, parameters, arguments] = self.generics();
+        let scalar = self.scalar.clone();
+        let over = self.vector(&quote!(#scalar));
+        let energy = self.system.energy;
+        // The matrix, H or its part, the sign, the half of the row and that of the column.
+        let blocks = match split {
+            Some(split) => vec![
+                ("velocity_by_momentum", split.kinetic, 1, Half::P, Half::P),
+                ("force_by_position", split.potential, -1, Half::Q, Half::Q),
+            ],
+            None => vec![
+                ("velocity_by_momentum", energy, 1, Half::P, Half::P),
+                ("velocity_by_position", energy, 1, Half::P, Half::Q),
+                ("force_by_position", energy, -1, Half::Q, Half::Q),
+            ],
+        };
+        let mut parts: Vec<(&str, Coordinate, Scatter)> = Vec::new();
+        for (matrix, of, sign, row, column) in blocks {
+            let sign = Number::from_integer(sign.into());
+            for first in gradient(&mut self.system.graph, of, &[], sign, row) {
+                let loops: Vec<LoopId> = first.loops.clone();
+                for second in gradient(
+                    &mut self.system.graph,
+                    first.value,
+                    &loops,
+                    Number::one(),
+                    column,
+                ) {
+                    parts.push((matrix, first.target.clone(), second));
+                }
+            }
+        }
+        let third = |id: &Id| {
+            let nodes = self.system.graph.below([*id]);
+            nodes
+                .iter()
+                .any(|&id| matches!(self.system.graph.node(id), Node::User(_, 3.., _)))
+        };
+        if self.system.graph.is_full() || parts.iter().any(|(_, _, part)| third(&part.value)) {
+            return TokenStream::new();
+        }
+        let roots: Vec<Id> = parts.iter().map(|(_, _, part)| part.value).collect();
+        let operations = Operations::new(&self.system.graph, &roots);
+        let views = self.views(&["q", "p"], &[]);
+        let nan =
+            quote!(jacobian.force_by_position.set(0, 0, #scalar::from_f64(f64::NAN)); return;);
+        let least = self.least(&nan);
+        let tasks = parts.iter().map(|(matrix, row, part)| {
+            let matrix = format_ident!("{matrix}");
+            let [row, column] = [row, &part.target].map(|place| self.place(place));
+            let write: Statement =
+                Box::new(move |value| quote!(jacobian.#matrix.add(#row, #column, #value);));
+            Task {
+                loops: part.loops.clone(),
+                value: operations.of(part.value),
+                write,
+                fixed: false,
+            }
+        });
+        let mut writer = Writer::new(&self.system, &operations, scalar.clone(), &self.prefix, nan);
+        let statements = writer.write(tasks.collect());
+        quote! {
+            ::symplectic::emitted::if_alloc! {
+                #[allow(unused_variables, non_snake_case, clippy::all)]
+                impl<#scalar: Scalar, #parameters> ::symplectic::solver::Linearized<#over> for #name #arguments {
+                    fn derivatives(&self, time: #scalar, q: &#over, p: &#over, jacobian: &mut ::symplectic::solver::Jacobian<#scalar>) {
+                        #views #least #statements
+                    }
+                }
+            }
+        }
+    }
+
+    /// The number of a component among all.
+    pub(super) fn place(&self, coordinate: &Coordinate) -> TokenStream {
+        let index = index_tokens(&coordinate.index);
+        match self.system.layout {
+            Layout::Numbered(_, Some(components)) => {
+                let component = Literal::usize_unsuffixed(coordinate.component);
+                let components = Literal::usize_unsuffixed(components);
+                let index = match coordinate.index.offset {
+                    0 => index,
+                    _ => quote!((#index)),
+                };
+                quote!(#index * #components + #component)
+            }
+            _ => index,
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Names of entries, lengths and indices in the code.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::formula::Layout;
+use crate::formula::graph::{Base, Coordinate, Index, LoopId};
+use crate::formula::syntax::Length;
+
+/// An entry of a vector.
+pub fn entry(layout: &Layout, vector: &TokenStream, coordinate: &Coordinate) -> TokenStream {
+    let index = index_tokens(&coordinate.index);
+    match layout {
+        Layout::Numbered(_, Some(_)) => {
+            let component = Literal::usize_unsuffixed(coordinate.component);
+            quote!(#vector[#index][#component])
+        }
+        _ => quote!(#vector[#index]),
+    }
+}
+
+/// A name of the user.
+pub fn literal_name(name: &str) -> Ident {
+    super::identifier(name)
+}
+
+/// The length of an array.
+pub fn length_tokens(length: &Length) -> TokenStream {
+    match length {
+        Length::Fixed(n) => {
+            let n = Literal::usize_unsuffixed(*n);
+            quote!(#n)
+        }
+        Length::Generic(name) => {
+            let name = literal_name(name);
+            quote!(#name)
+        }
+        Length::Runtime | Length::PairsOf(_) => quote!(n),
+    }
+}
+
+/// The index of a loop; of a list, the number of the pair.
+pub fn index_name(id: LoopId) -> Ident {
+    let letters = ["i", "j", "k", "l", "m"];
+    match letters.get(id.0) {
+        Some(letter) => format_ident!("{letter}"),
+        None => format_ident!("i{}", id.0),
+    }
+}
+
+pub fn pair_name(id: LoopId, slot: usize) -> Ident {
+    format_ident!("{}_{}", index_name(id), ["first", "second"][slot])
+}
+
+/// An index.
+pub fn index_tokens(index: &Index) -> TokenStream {
+    let offset = Literal::usize_unsuffixed(index.offset.unsigned_abs() as usize);
+    let base = match &index.base {
+        Base::Start => return quote!(#offset),
+        Base::End(length) => length_tokens(length),
+        Base::Loop(id) => {
+            let name = index_name(*id);
+            quote!(#name)
+        }
+        Base::Pair(id, slot @ (0 | 1)) => {
+            let name = pair_name(*id, *slot);
+            quote!(#name)
+        }
+        Base::Pair(id, _) => {
+            let name = index_name(*id);
+            quote!(#name)
+        }
+    };
+    match index.offset.signum() {
+        0 => base,
+        1 => quote!(#base + #offset),
+        _ => quote!(#base - #offset),
+    }
+}
