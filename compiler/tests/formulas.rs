@@ -175,8 +175,75 @@ fn wrong_formulas_are_refused_at_their_place() {
         refused("P q: [x], p: [px]; H = px^2 + x cos(t) require: [time_independent]"),
         refused("P q: [x], p: [px]; H = px^2 + x require: [fast]"),
         refused("P q: [x], p: [px]; H = px^2 + x^2 invariants: { momentum = px }"),
+        refused("P { eps: 0 } q: [x], p: [px]; H = px^2 + eps x^2 invariants: { momentum = px }"),
+        refused(
+            "P q: [x], p: [px]; extern fn V with dV, d2V; H = px^2 + V(x) invariants: { momentum = px }",
+        ),
+        refused(
+            "P<N> q: [N], p: [N]; let s = sum(i: q[i]); H = sum(i: p[i]^2 + q[i]^2 s) invariants: { bad = sum(i: q[i]) }",
+        ),
+        refused("P q: [x], p: [px]; H = px^2 invariants: { a = px, a = px }"),
+        refused("P<i> q: [i], p: [i]; H = sum(a < b: p[a] p[b])"),
+        refused("P q: [x], p: [px]; extern fn force with dV, d2V; H = px^2 + force(x)"),
+        refused("P q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + sum(i in 0..2: q[i]^2)"),
+        refused("P q: [3], p: [3]; H = |p|^2 + sum(i in -1..2: q[i+1]^4)"),
+        refused("P q: [x], p: [px]; H = px^2 + ((((((x^999)^999)^999)^999)^999)^999)^999"),
+        refused("P q: [x], p: [px]; H = px^2 + x^((((1/3)^400)^400)^400)"),
     ];
     expect_file!["data/formulas_refused.txt"].assert_eq(&(all.join("\n\n") + "\n"));
+}
+
+#[test]
+fn nothing_is_found_that_does_not_hold() {
+    let springs = read("S q: [3], p: [3]; bonds: free; H = |p|^2/2 + sum(bonds d: d^2/2)").1;
+    assert!(springs.rotations.is_empty());
+    let line = read("S q: [2], p: [2]; H = |p|^2/2 + sum(i in 0..1: (q[i+1] - q[i])^2)").1;
+    assert!(line.rotations.is_empty());
+    let mean = read("S<N> q: [N], p: [N]; H = sum(i: p[i])^2/2 + sum(i: p[i]^2/2)").1;
+    assert_eq!(mean.kinetic, Kinetic::Quadratic);
+    let (read, _) = read(
+        "S q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 - cos(x) invariants: { e = py^2, h = px^2/2 - cos(x) }",
+    );
+    let proved: Vec<bool> = read
+        .invariants
+        .iter()
+        .map(|invariant| invariant.proved)
+        .collect();
+    assert_eq!(proved, [true, true]);
+}
+
+#[test]
+fn formulas_that_would_take_for_ever_are_refused_or_cut_short() {
+    let nested: String = (1..3000)
+        .map(|k| format!("let f{k}(a) = f{}(a) + 1; ", k - 1))
+        .collect();
+    let doubled: String = (1..30)
+        .map(|k| format!("let a{k} = g a{0} + h a{0}; ", k - 1))
+        .collect();
+    let terms: String = (0..30_000).map(|k| format!(" + {k} a^2")).collect();
+    let calls: String = (1..9000).map(|k| format!(" + f({k} x)")).collect();
+    let names = |letter: &str| (0..300).map(|k| format!("{letter}{k}")).collect::<Vec<_>>();
+    let all = format!(
+        "S q: [{}], p: [{}]; H = ({})^4 + |p|^2",
+        names("x").join(","),
+        names("y").join(","),
+        names("x").join("+")
+    );
+    for text in [
+        format!("S q: [x], p: [px]; let f0(a) = a; {nested} H = px^2/2 + f2999(x)^2"),
+        format!("S {{ g, h }} q: [x], p: [px]; let a0 = x px; {doubled} H = px^2 + a29"),
+        "S q: [x], p: [px]; H = px^2 + x ((((3^64)^64)^64)^64)^64".to_owned(),
+        format!("S q: [x], p: [px]; let f(a) = 1{terms}; H = px^2{calls}"),
+        "S q: [300], p: [300]; H = |p|^2 + sum(i: sum(j: sum(k: sum(l: q[i] q[j] q[k] q[l])))) invariants: { bad = sum(i: p[i]) }".to_owned(),
+        all,
+    ] {
+        if let Ok(mut read) = System::read("long", &text) {
+            let structure = Structure::of(&mut read);
+            let _ = read.check(&structure, &text);
+            let header = Header { attributes: TokenStream::new(), visibility: quote!(pub), name: format_ident!("S") };
+            assert!(system(&read, &structure, &header).to_string().len() < 10_000_000);
+        }
+    }
 }
 
 #[test]

@@ -324,6 +324,32 @@ mod others {
     }
 
     symplectic::hamiltonian! {
+        /// A sum in a function in a sum, as of atoms embedded in the density of the others.
+        pub Embedded<N>
+        q: [N], p: [N];
+        H = sum(i: p[i]^2/2) + sum(i: ln(1 + sum(j: exp(-(q[i] - q[j])^2))))
+    }
+
+    symplectic::hamiltonian! {
+        /// Powers of sums of sums, and sums of products of sums.
+        pub Squares<N>
+        q: [N], p: [N];
+        let s = sum(i: q[i] p[i]);
+        H = sum(i: p[i]^2/2) + sum(i: sum(j: q[i] q[j]^2))^2 + sum(i: exp(-sum(j: q[j] q[i])))
+            + sum(i: q[i]^2 s) + sum(i: sum(j in 0..i: (q[i] - q[j])^4))
+            + sum(i < j: q[j]^3 cos(q[i])) sum(i < j: q[j] p[i])
+    }
+
+    symplectic::hamiltonian! {
+        /// Three sums in one another.
+        pub Bonded<N>
+        q: [N; 2], p: [N; 2];
+        let cut(i, j) = exp(-|q[i] - q[j]|^2);
+        H = sum(i: |p[i]|^2/2)
+            + sum(i: sum(j: cut(i, j)/(1 + sum(k: cut(i, k) (1 + dot(q[i] - q[j], q[i] - q[k]))^2))))
+    }
+
+    symplectic::hamiltonian! {
         /// Angles and roots.
         pub Angles
         q: [x, y], p: [px, py];
@@ -335,6 +361,9 @@ mod others {
 fn all_of_the_language_is_derived() {
     consistent(&others::Driven::default(), 1);
     consistent(&others::Angles, 2);
+    consistent(&others::Embedded::<4>, 4);
+    consistent(&others::Squares::<4>, 4);
+    consistent(&others::Bonded::<3>, 6);
     let field = others::MeanField::new(
         [[2.0, 0.5, 0.0], [0.5, 1.0, 0.25], [0.0, 0.25, 3.0]],
         [0.5, 2.0, 1.0, 0.25],
@@ -377,6 +406,9 @@ fn derivatives_are_those_of_the_energy() {
     }
     check::<SVector<f64, 1>>(&others::Driven::default(), 1);
     check::<SVector<f64, 2>>(&others::Angles, 2);
+    check::<SVector<f64, 4>>(&others::Embedded::<4>, 4);
+    check::<SVector<f64, 4>>(&others::Squares::<4>, 4);
+    check::<SMatrix<f64, 2, 3>>(&others::Bonded::<3>, 6);
     let field = others::MeanField::new(
         [[2.0, 0.5, 0.0], [0.5, 1.0, 0.25], [0.0, 0.25, 3.0]],
         [0.5, 2.0, 1.0, 0.25],

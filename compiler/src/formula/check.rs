@@ -5,7 +5,7 @@ use num_traits::One;
 use super::derivative::{Scatter, directional, gradient};
 use super::error::FormulaError;
 use super::evaluate::{Evaluator, Point};
-use super::graph::{Base, Coordinate, Graph, Half, Id, Index, Node, Number, integer};
+use super::graph::{Base, Coordinate, Graph, Half, Id, Index, MOST_LOOPS, Node, Number, integer};
 use super::structure::{Kinetic, Structure, goes_over_all};
 use super::syntax::{Length, Name};
 use super::system::{Invariant, Layout, Shape, System};
@@ -31,14 +31,23 @@ impl System {
     /// A property that does not hold, at the term that violates it; a function that is not conserved.
     pub fn check(&mut self, structure: &Structure, text: &str) -> Result<(), Error> {
         let input = Input {
-            name: &self.name.clone(),
+            name: &self.source.clone(),
             text,
         };
+        if self.graph.overflowed() {
+            let kind = ErrorKind::ExpressionSize {
+                what: "its number of sums in one another",
+                size: MOST_LOOPS + 1,
+                limit: MOST_LOOPS,
+            };
+            return Err(kind.into());
+        }
         for name in self.required.clone() {
             self.require(structure, &name, input)?;
         }
-        for invariant in self.invariants.clone() {
-            self.conserved(&invariant, input)?;
+        for k in 0..self.invariants.len() {
+            let invariant = self.invariants[k].clone();
+            self.invariants[k].proved = self.conserved(&invariant, input)?;
         }
         Ok(())
     }
@@ -232,10 +241,8 @@ impl System {
             .parameters
             .iter()
             .map(|parameter| match &parameter.shape {
-                Shape::Number(Some(value)) => {
-                    vec![vec![crate::arithmetic::rounding::to_f64(value)]]
-                }
-                Shape::Number(None) => vec![vec![next()]],
+                // Whatever a parameter is set to.
+                Shape::Number(_) => vec![vec![next()]],
                 Shape::Pairs => Vec::new(),
                 Shape::Array(lengths) => {
                     let columns = lengths.get(1).map_or(1, length);

@@ -111,6 +111,10 @@ pub fn gradient(
     }
     // In the order of the coordinates in the formula.
     scatters.reverse();
+    let mut known = HashMap::new();
+    for scatter in &mut scatters {
+        scatter.value = distinct(graph, scatter.value, &scatter.loops, &mut known);
+    }
     scatters
 }
 
@@ -120,7 +124,16 @@ fn apart(graph: &mut Graph, loops: &[LoopId], over: LoopId, body: Id) -> (LoopId
         return (over, body);
     }
     let mut new = graph.get_loop(over).clone();
-    let depths = loops.iter().map(|&id| graph.get_loop(id).depth);
+    let inner = graph.below([body]);
+    let inner = inner.iter().filter_map(|&id| match graph.node(id) {
+        Node::Total(id, _) => Some(*id),
+        _ => None,
+    });
+    let depths = loops
+        .iter()
+        .copied()
+        .chain(inner)
+        .map(|id| graph.get_loop(id).depth);
     new.depth = depths.max().map_or(0, |deepest| deepest + 1);
     match graph.add_loop(new) {
         Some(other) => (other, graph.rename(body, over, other)),
@@ -239,4 +252,44 @@ pub fn directional(
         known.insert(id, speed);
     }
     known.get(&root).copied().unwrap_or(zero)
+}
+
+/// A value in some loops, with other indices for the sums in it that would stand in a loop of the same index.
+fn distinct(
+    graph: &mut Graph,
+    root: Id,
+    around: &[LoopId],
+    known: &mut HashMap<(Id, Vec<LoopId>), Id>,
+) -> Id {
+    let key = (root, around.to_vec());
+    if let Some(&id) = known.get(&key) {
+        return id;
+    }
+    // What the value is made of, down to its outermost sums.
+    let (mut order, mut open) = (std::collections::BTreeSet::new(), vec![root]);
+    while let Some(id) = open.pop() {
+        if order.insert(id) && !matches!(graph.node(id), Node::Total(..)) {
+            open.extend(graph.children(id));
+        }
+    }
+    let mut new: HashMap<Id, Id> = HashMap::new();
+    for id in order {
+        let made = match *graph.node(id) {
+            Node::Total(over, body) => {
+                // It is computed in the outermost loops that it needs.
+                let felt = around
+                    .iter()
+                    .rposition(|&id2| graph.depends(id).changes_in(id2));
+                let mut around = around[..felt.map_or(0, |k| k + 1)].to_vec();
+                let (over, body) = apart(graph, &around, over, body);
+                around.push(over);
+                let body = distinct(graph, body, &around, known);
+                graph.total(over, body)
+            }
+            _ => graph.rebuild(id, |x| new.get(&x).copied().unwrap_or(x)),
+        };
+        new.insert(id, made);
+    }
+    known.insert(key, new[&root]);
+    new[&root]
 }

@@ -11,6 +11,8 @@ use super::structure::{Kinetic, Structure};
 use super::syntax::Length;
 use super::system::{Layout, Shape, System};
 
+/// Most second derivatives that are shown.
+const MOST_LINES: usize = 2_000;
 /// Longest page.
 const MOST_CHARACTERS: usize = 8_000;
 
@@ -35,6 +37,10 @@ impl System {
         let mut lines = Vec::new();
         for (row, column) in [(Half::P, Half::P), (Half::P, Half::Q), (Half::Q, Half::Q)] {
             for first in gradient(&mut copy.graph, self.energy, &[], Number::one(), row) {
+                if lines.len() > MOST_LINES {
+                    lines.push("…".to_owned());
+                    return lines;
+                }
                 for second in gradient(
                     &mut copy.graph,
                     first.value,

@@ -7,6 +7,7 @@ use num_traits::{One, Signed, Zero};
 use super::derivative::Scatter;
 use super::elaborate::STRETCH;
 use super::graph::{Base, Coordinate, Half, Id, Index, LoopId, LoopRange, Node, Number};
+use super::structure::each_once;
 use super::syntax::Length;
 use super::system::{Layout, System};
 
@@ -49,6 +50,9 @@ impl System {
 
     /// A derivative, one line for each part: `q'[i] = …`, or `+=` where several are added.
     pub fn equations(&self, dotted: Half, parts: &[Scatter], notation: Notation) -> Vec<String> {
+        // Whether each line is the whole of a derivative.
+        let single = parts.iter().all(|part| part.loops.is_empty());
+        let alone = single || each_once(self, parts);
         let lines = parts.iter().map(|part| {
             let mut target = part.target.clone();
             target.half = dotted;
@@ -60,17 +64,10 @@ impl System {
                 },
                 Notation::Latex => format!("\\dot{{{name}}}"),
             };
-            let same = parts
-                .iter()
-                .filter(|other| other.target == part.target)
-                .count()
-                > 1;
-            let shared = part.loops.len() > 1
-                || (part.loops.is_empty() && parts.iter().any(|other| !other.loops.is_empty()));
-            let sign = match (same || shared, notation) {
-                (false, _) => "=",
-                (true, Notation::Text) => "+=",
-                (true, Notation::Latex) => "\\mathrel{+}=",
+            let sign = match (alone, notation) {
+                (true, _) => "=",
+                (false, Notation::Text) => "+=",
+                (false, Notation::Latex) => "\\mathrel{+}=",
             };
             let value = self.formula(part.value, notation);
             let ranges = self.ranges(&part.loops, notation);

@@ -37,6 +37,9 @@ pub struct Point<R> {
     pub pairs: Vec<Vec<[usize; 2]>>,
 }
 
+/// Most nodes that are computed.
+const MOST_NODES: usize = 3_000_000;
+
 /// The values of nodes at a point.
 pub struct Evaluator<'a, R> {
     graph: &'a Graph,
@@ -44,6 +47,8 @@ pub struct Evaluator<'a, R> {
     values: HashMap<Id, R>,
     /// The indices of the loops that are run, of a list the number of the pair.
     indices: HashMap<LoopId, usize>,
+    /// How many more nodes are computed.
+    budget: usize,
 }
 
 impl<'a, R: Real> Evaluator<'a, R> {
@@ -54,6 +59,7 @@ impl<'a, R: Real> Evaluator<'a, R> {
             point,
             values: HashMap::new(),
             indices: HashMap::new(),
+            budget: MOST_NODES,
         }
     }
 
@@ -141,6 +147,7 @@ impl<'a, R: Real> Evaluator<'a, R> {
     }
 
     fn compute(&mut self, id: Id) -> Option<R> {
+        self.budget = self.budget.checked_sub(1)?;
         let of = |this: &Self, id: &Id| this.values.get(id).cloned();
         Some(match self.graph.node(id) {
             Node::Constant(value) => R::number(value),
@@ -177,7 +184,19 @@ impl<'a, R: Real> Evaluator<'a, R> {
             }
             Node::Elementary(function, x) => of(self, x)?.elementary(*function),
             Node::Atan2(y, x) => of(self, y)?.atan2(&of(self, x)?),
-            Node::User(..) => return None,
+            // Any function will do: sin(x + c).
+            Node::User(function, derivative, x) => {
+                let shift = R::number(&super::graph::integer(*function as i64 + 1));
+                let angle = of(self, x)?.add(&shift);
+                match derivative % 4 {
+                    0 => angle.elementary(Elementary::Sin),
+                    1 => angle.elementary(Elementary::Cos),
+                    _ => {
+                        let minus = R::number(&super::graph::integer(-1));
+                        angle.elementary(Elementary::Sin).multiply(&minus)
+                    }
+                }
+            }
             Node::Total(over, body) => {
                 // Under other loops it is looked at there.
                 if self.graph.depends(id).loops & !self.bound() != 0 {
@@ -186,6 +205,15 @@ impl<'a, R: Real> Evaluator<'a, R> {
                 let (over, body) = (*over, *body);
                 let outer = self.indices.get(&over).copied();
                 let order = self.graph.below([body]);
+                let graph = self.graph;
+                let changes = |id: &Id| graph.depends(*id).changes_in(over);
+                let kept: Vec<(Id, R)> = match outer {
+                    Some(_) => {
+                        let values = self.values.iter().filter(|(id, _)| changes(id));
+                        values.map(|(id, value)| (*id, value.clone())).collect()
+                    }
+                    None => Vec::new(),
+                };
                 let mut sum = R::number(&super::graph::integer(0));
                 for index in self.range(over)? {
                     self.indices.insert(over, index);
@@ -198,6 +226,7 @@ impl<'a, R: Real> Evaluator<'a, R> {
                     None => self.indices.remove(&over),
                 };
                 self.forget(over);
+                self.values.extend(kept);
                 sum
             }
         })

@@ -176,6 +176,8 @@ impl Dependence {
 
 /// Most factors of a product; a longer one is a product of products.
 const MOST_FACTORS: usize = 8;
+/// The longest number that a power is written out as, in bits.
+const MOST_BITS: u64 = 4096;
 /// Most loops of a formula.
 pub const MOST_LOOPS: usize = 64;
 
@@ -186,6 +188,8 @@ pub struct Graph {
     depends: Vec<Dependence>,
     ids: HashMap<Node, Id>,
     loops: Vec<Loop>,
+    /// Whether a derivative needed more loops than there can be.
+    overflowed: bool,
 }
 
 impl Graph {
@@ -208,6 +212,7 @@ impl Graph {
     pub fn add_loop(&mut self, new: Loop) -> Option<LoopId> {
         let found = self.loops.iter().position(|known| *known == new);
         if found.is_none() && self.loops.len() == MOST_LOOPS {
+            self.overflowed = true;
             return None;
         }
         Some(LoopId(found.unwrap_or_else(|| {
@@ -362,10 +367,12 @@ impl Graph {
             let (scale, x) = self.scaled(x);
             match exponent.is_integer().then(|| exponent.to_i64()).flatten() {
                 // A number of its own.
-                Some(power) if scale.is_one() || power.abs() <= 64 => {
+                Some(power) if scale.is_one() || is_short(&scale, power) => {
                     factor *= whole_power(&scale, power);
                     match self.value(x) {
-                        Some(value) if power.abs() <= 64 && (power >= 0 || !value.is_zero()) => {
+                        Some(value)
+                            if is_short(value, power) && (power >= 0 || !value.is_zero()) =>
+                        {
                             factor *= whole_power(&value.clone(), power);
                         }
                         _ => self.factor(&mut list, x, exponent),
@@ -618,9 +625,19 @@ impl Graph {
         known.get(&root).copied().unwrap_or(root)
     }
 
-    /// Whether there are as many loops as there can be: derivatives may be incomplete then.
-    pub fn is_full(&self) -> bool {
-        self.loops.len() == MOST_LOOPS
+    /// Whether more loops were needed than there can be: a derivative is wrong then.
+    pub fn overflowed(&self) -> bool {
+        self.overflowed
+    }
+
+    /// How many loops there are.
+    pub fn count_loops(&self) -> usize {
+        self.loops.len()
+    }
+
+    /// How many nodes there are.
+    pub fn size(&self) -> usize {
+        self.nodes.len()
     }
 
     /// Makes a node anew with other parts.
@@ -661,6 +678,12 @@ pub fn integer(value: i64) -> Number {
 
 fn bits(index: &Index) -> u64 {
     index.loop_id().map_or(0, |id| 1 << id.0)
+}
+
+/// Whether a power is a number that is not too long.
+fn is_short(base: &Number, power: i64) -> bool {
+    let bits = base.numer().bits() + base.denom().bits();
+    bits.saturating_mul(power.unsigned_abs()) <= MOST_BITS
 }
 
 fn whole_power(base: &Number, power: i64) -> Number {

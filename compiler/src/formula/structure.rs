@@ -86,6 +86,9 @@ impl Structure {
     }
 }
 
+/// Most terms that a formula is taken apart into.
+const MOST_TERMS: usize = 100_000;
+
 /// Something around a term.
 #[derive(Clone)]
 enum Around {
@@ -93,11 +96,16 @@ enum Around {
     Factors(Vec<(Id, Number)>),
 }
 
-/// The terms of a node that `whole` does not leave as they are, each with the node that it was a part of.
-fn terms(graph: &mut Graph, root: Id, whole: impl Fn(&Graph, Id) -> bool) -> Vec<(Id, Id)> {
+/// The terms of a node that `whole` does not leave as they are, each with the node that it was a part of; `None` where there are too many.
+fn terms(graph: &mut Graph, root: Id, whole: impl Fn(&Graph, Id) -> bool) -> Option<Vec<(Id, Id)>> {
     let mut found = Vec::new();
     let mut open = vec![(root, Number::one(), Vec::<Around>::new())];
+    let mut steps = 0;
     while let Some((id, factor, around)) = open.pop() {
+        steps += 1;
+        if steps > MOST_TERMS {
+            return None;
+        }
         let node = graph.node(id).clone();
         if !whole(graph, id) {
             match node {
@@ -148,7 +156,7 @@ fn terms(graph: &mut Graph, root: Id, whole: impl Fn(&Graph, Id) -> bool) -> Vec
         }
         found.push((term, id));
     }
-    found
+    Some(found)
 }
 
 /// T and U, or a part with positions and momenta that is no sum.
@@ -158,7 +166,7 @@ fn split(graph: &mut Graph, energy: Id) -> Result<Split, Id> {
         !(depends.q && depends.p)
     };
     let (mut kinetic, mut potential) = (Vec::new(), Vec::new());
-    for (term, part) in terms(graph, energy, pure) {
+    for (term, part) in terms(graph, energy, pure).ok_or(energy)? {
         let depends = graph.depends(term);
         match (depends.q, depends.p) {
             (true, true) => return Err(part),
@@ -287,6 +295,14 @@ fn rotations(system: &mut System) -> Vec<[usize; 2]> {
         return Vec::new();
     }
     let energy = system.energy;
+    // In a loop, which component it is, is not seen.
+    let indexed = [Half::Q, Half::P].into_iter().any(|half| {
+        let found = coordinates(&system.graph, energy, half);
+        found.iter().any(|found| found.index.base != Base::Start)
+    });
+    if !bodies && indexed {
+        return Vec::new();
+    }
     let mut found = Vec::new();
     for a in 0..dimension {
         for b in a + 1..dimension {
@@ -301,10 +317,6 @@ fn rotations(system: &mut System) -> Vec<[usize; 2]> {
                     Some(k) if k == b => (a, 1),
                     _ => return graph.integer(0),
                 };
-                if !bodies && coordinate.index.base != Base::Start {
-                    // In a loop: which one it is, is not seen here. Nothing that is invariant has this speed.
-                    return graph.time();
-                }
                 let mut turned = coordinate.clone();
                 match bodies {
                     true => turned.component = other,
@@ -336,7 +348,7 @@ fn chain(system: &mut System, potential: Id) -> Option<ChainParts> {
     };
     let (mut bond, mut on_site) = (Vec::new(), Vec::new());
     let mut over = None;
-    for (term, _) in terms(&mut system.graph, potential, whole) {
+    for (term, _) in terms(&mut system.graph, potential, whole)? {
         let (factor, id) = system.graph.scaled(term);
         if let Some(k) = wholes.iter().position(|(_, known)| *known == id) {
             bond.push((factor / &wholes[k].0, bonds[k].potential));

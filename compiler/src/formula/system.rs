@@ -8,6 +8,8 @@ use super::syntax::{Ends, Length, Name, Span};
 /// A Hamiltonian system that was read from a formula.
 #[derive(Debug, Clone)]
 pub struct System {
+    /// Where the text is from.
+    pub source: String,
     /// Its name.
     pub name: String,
     /// The lengths that its type is generic in.
@@ -112,6 +114,8 @@ pub struct Invariant {
     pub parts: Vec<Id>,
     /// Whether it is a number, and no vector.
     pub scalar: bool,
+    /// Whether it is proved that it is conserved, by a symmetry that shows in the formula.
+    pub proved: bool,
 }
 
 /// A sum over the bonds of a chain.

@@ -6,9 +6,9 @@ H = (1/2) Σ(0 ≤ i < N) (p[i][0]² + p[i][1]² + p[i][2]²)/m[i] − Σ(0 ≤ 
 q'[i][0] = p[i][0]/m[i]    (0 ≤ i < N)
 q'[i][1] = p[i][1]/m[i]    (0 ≤ i < N)
 q'[i][2] = p[i][2]/m[i]    (0 ≤ i < N)
-p'[i][0] = −Σ(i+1 ≤ j < N) (q[i][0] − q[j][0]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N)
-p'[i][1] = −Σ(i+1 ≤ j < N) (q[i][1] − q[j][1]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N)
-p'[i][2] = −Σ(i+1 ≤ j < N) (q[i][2] − q[j][2]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N)
+p'[i][0] += −Σ(i+1 ≤ j < N) (q[i][0] − q[j][0]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N)
+p'[i][1] += −Σ(i+1 ≤ j < N) (q[i][1] − q[j][1]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N)
+p'[i][2] += −Σ(i+1 ≤ j < N) (q[i][2] − q[j][2]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N)
 p'[j][0] += (q[i][0] − q[j][0]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N, i+1 ≤ j < N)
 p'[j][1] += (q[i][1] − q[j][1]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N, i+1 ≤ j < N)
 p'[j][2] += (q[i][2] − q[j][2]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N, i+1 ≤ j < N)
@@ -178,7 +178,7 @@ const _: () = {
     }
     #[allow(unused_variables, non_snake_case, clippy::all)]
     impl<const N: usize> Planets<N> {
-        /// `momentum`, which the exact flow conserves.
+        /// `momentum`, which the exact flow conserves: H has the symmetry.
         pub fn momentum<T: Scalar>(
             &self,
             q: &::symplectic::nalgebra::SMatrix<T, 3, N>,
@@ -199,7 +199,7 @@ const _: () = {
             let result_3 = x3;
             [result_1, result_2, result_3]
         }
-        /// `angular_momentum`, which the exact flow conserves.
+        /// `angular_momentum`, which the exact flow conserves: H has the symmetry.
         pub fn angular_momentum<T: Scalar>(
             &self,
             q: &::symplectic::nalgebra::SMatrix<T, 3, N>,

@@ -12,7 +12,11 @@ impl Emitter<'_> {
     pub(super) fn invariants(&mut self) -> TokenStream {
         let mut code = TokenStream::new();
         for invariant in self.system.invariants.clone() {
-            let what = format!(" `{}`, which the exact flow conserves.", invariant.name);
+            let how = match invariant.proved {
+                true => "which the exact flow conserves: H has the symmetry",
+                false => "said to be conserved, and not refuted at a few states",
+            };
+            let what = format!(" `{}`, {how}.", invariant.name);
             code.extend(self.function(&invariant.name, &what, &invariant.parts, invariant.scalar));
         }
         let own = |name: &str| {
@@ -80,9 +84,13 @@ impl Emitter<'_> {
                 (quote!([#scalar; #count]), quote!([#(#names),*]))
             }
         };
+        let timed = parts
+            .iter()
+            .any(|&part| self.system.graph.depends(part).time);
+        let time = timed.then(|| quote!(time: #scalar,));
         quote! {
             #[doc = #what]
-            pub fn #name<#scalar: Scalar>(&self, q: &#over, p: &#over) -> #result {
+            pub fn #name<#scalar: Scalar>(&self, #time q: &#over, p: &#over) -> #result {
                 #values
                 #finish
             }

@@ -13,6 +13,9 @@ use crate::formula::derivative::{Scatter, gradient};
 use crate::formula::graph::{Coordinate, Half, Id, LoopId, Node, Number};
 use crate::formula::structure::Split;
 
+/// Most second derivatives that are written out. With more, a Jacobian is left to dual numbers and differences.
+const MOST_PARTS: usize = 2_000;
+
 impl Emitter<'_> {
     /// The second derivatives, for Newton's iteration.
     pub(super) fn jacobian(&mut self, split: Option<Split>) -> TokenStream {
@@ -37,6 +40,9 @@ impl Emitter<'_> {
         for (matrix, of, sign, row, column) in blocks {
             let sign = Number::from_integer(sign.into());
             for first in gradient(&mut self.system.graph, of, &[], sign, row) {
+                if parts.len() > MOST_PARTS {
+                    break;
+                }
                 let loops: Vec<LoopId> = first.loops.clone();
                 for second in gradient(
                     &mut self.system.graph,
@@ -55,7 +61,7 @@ impl Emitter<'_> {
                 .iter()
                 .any(|&id| matches!(self.system.graph.node(id), Node::User(_, 3.., _)))
         };
-        if self.system.graph.is_full() || parts.iter().any(|(_, _, part)| third(&part.value)) {
+        if parts.len() > MOST_PARTS || parts.iter().any(|(_, _, part)| third(&part.value)) {
             return TokenStream::new();
         }
         let roots: Vec<Id> = parts.iter().map(|(_, _, part)| part.value).collect();

@@ -107,6 +107,9 @@ impl<'a> Emitter<'a> {
             (None, Err(_)) => self.general(),
         };
         let invariants = self.invariants();
+        if self.system.graph.overflowed() {
+            return quote!(::core::compile_error!("the derivatives have too many sums in one another"););
+        }
         quote! {
             #fields
             const _: () = {

@@ -3,11 +3,11 @@
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::{Elaborator, MOST_EXPONENT, Value};
+use super::{Elaborator, MOST_EXPONENT, MOST_JOINED_EXPONENT, Value};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::function::{Elementary, Function};
-use crate::formula::graph::{Id, Number, integer};
+use crate::formula::graph::{Id, Node, Number, integer};
 use crate::formula::parse::{NOT_SMOOTH, constant};
 use crate::formula::syntax::{Expression, Kind, Name};
 
@@ -214,7 +214,20 @@ impl Elaborator<'_> {
                 return self.error(at, kind);
             }
         }
-        Ok(self.graph.power(x, exponent))
+        let power = self.graph.power(x, exponent);
+        let (_, inner) = self.graph.scaled(power);
+        if let Node::Product(factors) = self.graph.node(inner)
+            && factors
+                .iter()
+                .any(|(_, e)| e.abs() > integer(MOST_JOINED_EXPONENT))
+        {
+            let kind = ErrorKind::Type {
+                found: format!("a power of `{}` with a huge exponent", self.text(at)),
+                expected: format!("exponents up to {MOST_JOINED_EXPONENT}"),
+            };
+            return self.error(at, kind);
+        }
+        Ok(power)
     }
 
     pub(super) fn call(

@@ -36,6 +36,13 @@ impl Elaborator<'_> {
                         Layout::Numbered(length, components) => (length.clone(), *components),
                     };
                     self.inside(&index, &length, &name, written)?;
+                    if matches!(self.layout, Layout::Named(_)) && index.base != Base::Start {
+                        let kind = FormulaError::Unsupported {
+                            what: format!("`{}` with an index of a sum", self.text(array)),
+                            instead: "number the coordinates, `q: [3], p: [3];`, to sum over them",
+                        };
+                        return self.error(written, kind);
+                    }
                     let mut entry = |component| {
                         self.graph.coordinate(Coordinate {
                             half,
@@ -250,14 +257,20 @@ impl Elaborator<'_> {
 
     /// What an index is always below.
     pub(super) fn end(&self, index: &Index) -> Index {
-        let (base, offset) = match &index.base {
-            Base::Loop(id) => match &self.graph.get_loop(*id).range {
-                LoopRange::Between(_, end) => (end.base.clone(), end.offset + index.offset),
-                LoopRange::List(_) => (index.base.clone(), index.offset + 1),
-            },
-            _ => (index.base.clone(), index.offset + 1),
+        let mut end = Index {
+            base: index.base.clone(),
+            offset: index.offset + 1,
         };
-        normal(Index { base, offset })
+        // The index of a loop is at most the end of its range, less one.
+        while let Base::Loop(id) = &end.base
+            && let LoopRange::Between(_, after) = &self.graph.get_loop(*id).range
+        {
+            end = Index {
+                base: after.base.clone(),
+                offset: after.offset + end.offset - 1,
+            };
+        }
+        normal(end)
     }
 }
 

@@ -21,6 +21,10 @@ use crate::expression::Input;
 const MOST_COMPONENTS: usize = 64;
 /// The largest exponent, and the largest denominator of one.
 const MOST_EXPONENT: i64 = 1000;
+/// The largest exponent of powers of powers.
+const MOST_JOINED_EXPONENT: i64 = 1_000_000;
+/// Most nodes of a graph.
+const MOST_NODES: usize = 1_000_000;
 
 /// A value: a number, or several.
 #[derive(Debug, Clone)]
@@ -54,6 +58,7 @@ pub fn elaborate(input: Input<'_>, definition: &Definition) -> Result<System, Er
         names: HashMap::new(),
         locals: Vec::new(),
         expansions: 0,
+        nested: 0,
         loops: Vec::new(),
         bonds: Vec::new(),
         least: 0,
@@ -74,6 +79,8 @@ struct Elaborator<'a> {
     locals: Vec<String>,
     /// How many abbreviations with arguments were written out.
     expansions: usize,
+    /// In how many of them the expression stands that is read.
+    nested: usize,
     /// The loops in which the expression stands that is read.
     loops: Vec<LoopId>,
     bonds: Vec<Bonds>,
@@ -132,21 +139,36 @@ impl Elaborator<'_> {
             return Err(self.input.error(&definition.name.span, kind.into()));
         };
         let energy = self.scalar(written)?;
-        let invariants = definition.invariants.iter().map(|(name, written)| {
+        let mut invariants: Vec<Invariant> = Vec::new();
+        for (name, written) in &definition.invariants {
+            let constructor = name.text == "new";
+            if constructor || invariants.iter().any(|known| known.name == name.text) {
+                let meaning = if constructor {
+                    "what makes a system"
+                } else {
+                    "an invariant"
+                };
+                let kind = FormulaError::Taken {
+                    name: name.text.clone(),
+                    meaning: meaning.to_owned(),
+                };
+                return Err(self.input.error(&name.span, kind.into()));
+            }
             let (parts, scalar) = match self.value(written)? {
                 Value::Scalar(id) => (vec![id], true),
                 value => (self.components(value, written)?, false),
             };
-            Ok(Invariant {
+            invariants.push(Invariant {
                 name: name.text.clone(),
                 span: name.span.clone(),
                 parts,
                 scalar,
-            })
-        });
-        let invariants = invariants.collect::<Result<Vec<_>, Error>>()?;
+                proved: false,
+            });
+        }
         self.all_appear(energy)?;
         Ok(System {
+            source: self.input.name.to_owned(),
             name: definition.name.text.clone(),
             lengths: definition
                 .lengths

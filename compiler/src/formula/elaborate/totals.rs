@@ -6,12 +6,14 @@ use super::indices::normal;
 use super::{Elaborator, Value};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
-use crate::formula::graph::{
-    Base, Coordinate, Half, Id, Index, Loop, LoopId, LoopRange, MOST_LOOPS, Number,
-};
+use crate::formula::graph::{Base, Coordinate, Half, Id, Index, Loop, LoopId, LoopRange, Number};
 use crate::formula::syntax::{Abbreviation, Ends, Expression, Kind, Name, Over};
 use crate::formula::system::{Bonds, Layout, Shape};
 
+/// Most different sums of a formula.
+const MOST_SUMS: usize = 16;
+/// Deepest nesting of abbreviations with arguments.
+const MOST_NESTED: usize = 64;
 /// Most abbreviations with arguments that are written out.
 const MOST_EXPANSIONS: usize = 10_000;
 
@@ -19,15 +21,16 @@ impl Elaborator<'_> {
     pub(super) fn new_loop(&mut self, range: LoopRange, at: &Expression) -> Result<LoopId, Error> {
         let depth = self.loops.len();
         match self.graph.add_loop(Loop { range, depth }) {
-            Some(id) => {
+            // Derivatives need more of them.
+            Some(id) if self.graph.count_loops() <= MOST_SUMS => {
                 self.loops.push(id);
                 Ok(id)
             }
-            None => {
+            _ => {
                 let kind = ErrorKind::ExpressionSize {
                     what: "its number of different sums",
-                    size: MOST_LOOPS + 1,
-                    limit: MOST_LOOPS,
+                    size: MOST_SUMS + 1,
+                    limit: MOST_SUMS,
                 };
                 self.error(at, kind)
             }
@@ -77,11 +80,15 @@ impl Elaborator<'_> {
             return self.error(at, kind);
         }
         self.expansions += 1;
-        if self.expansions > MOST_EXPANSIONS {
+        if self.nested >= MOST_NESTED || self.expansions > MOST_EXPANSIONS {
             let kind = ErrorKind::ExpressionSize {
                 what: "its number of abbreviations in one another",
-                size: self.expansions,
-                limit: MOST_EXPANSIONS,
+                size: self.expansions.max(self.nested),
+                limit: if self.nested >= MOST_NESTED {
+                    MOST_NESTED
+                } else {
+                    MOST_EXPANSIONS
+                },
             };
             return self.error(at, kind);
         }
@@ -93,7 +100,9 @@ impl Elaborator<'_> {
         // Only its arguments, and what stands before it.
         let locals = std::mem::take(&mut self.locals);
         let hidden: Vec<_> = locals.iter().map(|name| self.names.remove(name)).collect();
+        self.nested += 1;
         let result = self.with(names.iter().zip(values).collect(), |this| this.value(value));
+        self.nested -= 1;
         for (name, value) in locals.iter().zip(hidden) {
             self.names.extend(value.map(|value| (name.clone(), value)));
         }
@@ -130,7 +139,26 @@ impl Elaborator<'_> {
         let value = match over {
             Over::Range(name, range) => {
                 let (start, end) = match range {
-                    Some([start, end]) => (self.index(start)?, self.index(end)?),
+                    Some(written) => {
+                        let [start, end] = written;
+                        let range = (self.index(start)?, self.index(end)?);
+                        // An index is never negative.
+                        let numbers = [(&range.0, start), (&range.1, end)];
+                        for (index, written) in numbers {
+                            let lowest = match index.base {
+                                Base::End(_) if index == numbers[1].0 => Some(0),
+                                _ => self.lowest(index),
+                            };
+                            if lowest.is_none_or(|lowest| lowest < 0) {
+                                let kind = ErrorKind::Type {
+                                    found: format!("the end `{}` of a range", self.text(written)),
+                                    expected: "an index that is never negative".to_owned(),
+                                };
+                                return self.error(written, kind);
+                            }
+                        }
+                        range
+                    }
                     None => (all(), count(self, name)?),
                 };
                 let id = self.new_loop(LoopRange::Between(start, end), at)?;

@@ -1,7 +1,7 @@
 //! Values with their shapes, names, and errors about them.
 
 use super::arithmetic::kink;
-use super::{Elaborator, MOST_COMPONENTS, Value};
+use super::{Elaborator, MOST_COMPONENTS, MOST_NODES, Value};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::function::ELEMENTARY;
@@ -117,6 +117,14 @@ impl Elaborator<'_> {
     }
 
     pub(super) fn value(&mut self, written: &Expression) -> Result<Value, Error> {
+        if self.graph.size() > MOST_NODES {
+            let kind = ErrorKind::ExpressionSize {
+                what: "its number of different parts",
+                size: self.graph.size(),
+                limit: MOST_NODES,
+            };
+            return self.error(written, kind);
+        }
         let value = self.value_of(written)?;
         if let Value::Scalar(id) = value {
             self.places

@@ -491,7 +491,9 @@ pub fn constant(expression: &Expression) -> Option<BigRational> {
         Kind::Power(base, exponent) => {
             let (base, exponent) = (constant(base)?, constant(exponent)?);
             let exponent = exponent.is_integer().then(|| exponent.to_i32()).flatten()?;
-            if exponent.abs() > 400 || (base.is_zero() && exponent < 0) || base.numer().bits() > 64
+            if exponent.abs() > 400
+                || (base.is_zero() && exponent < 0)
+                || base.numer().bits().max(base.denom().bits()) > 64
             {
                 return None;
             }

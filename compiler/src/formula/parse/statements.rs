@@ -7,7 +7,8 @@ use super::{Parser, constant};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::syntax::{
-    Abbreviation, Coordinates, CoordinatesKind, Definition, Ends, Length, Parameter, ParameterKind,
+    Abbreviation, Coordinates, CoordinatesKind, Definition, Ends, Length, Name, Parameter,
+    ParameterKind,
 };
 
 impl Parser<'_> {
@@ -26,9 +27,15 @@ impl Parser<'_> {
         };
         if self.accept('<') {
             while !self.is('>') {
-                definition
-                    .lengths
-                    .push(self.new_name("a length such as `N`, or `>`")?);
+                let length = self.new_name("a length such as `N`, or `>`")?;
+                if !length.text.starts_with(char::is_uppercase) {
+                    let kind = ErrorKind::Type {
+                        found: format!("the length `{}`", length.text),
+                        expected: "a name that begins with a capital letter".to_owned(),
+                    };
+                    return Err(self.input.error(&length.span, kind));
+                }
+                definition.lengths.push(length);
                 if !self.accept(',') {
                     break;
                 }
@@ -50,6 +57,27 @@ impl Parser<'_> {
             self.statement(&mut definition)?;
         }
         Ok(definition)
+    }
+
+    /// The name of a function in Rust, which is none of those that the code of a system has.
+    fn function_name(&mut self, expected: &str) -> Result<Name, Error> {
+        let name = self.new_name(expected)?;
+        let letters = name.text.trim_end_matches(|c: char| c.is_ascii_digit());
+        let used = ["i", "j", "k", "l", "m", "n", "u", "v", "w", "x", "y", "z"];
+        let words = [
+            "velocity", "force", "jacobian", "time", "value", "position", "stretch",
+        ];
+        if used.contains(&letters)
+            || words.contains(&name.text.as_str())
+            || name.text.contains("result_")
+        {
+            let kind = FormulaError::Taken {
+                name: name.text,
+                meaning: "a name in the code of a system".to_owned(),
+            };
+            return Err(self.input.error(&name.span, kind.into()));
+        }
+        Ok(name)
     }
 
     fn parameter(&mut self, definition: &Definition) -> Result<Parameter, Error> {
@@ -183,13 +211,13 @@ impl Parser<'_> {
                 if !self.accept_word("fn") {
                     return Err(self.unexpected(FORM));
                 }
-                let function = self.new_name(FORM)?;
+                let function = self.function_name(FORM)?;
                 if !self.accept_word("with") {
                     return Err(self.unexpected(FORM));
                 }
-                let first = self.name(FORM)?;
+                let first = self.function_name(FORM)?;
                 self.expect(',', FORM)?;
-                let second = self.name(FORM)?;
+                let second = self.function_name(FORM)?;
                 self.calls.push(function.text.clone());
                 definition.functions.push([function, first, second]);
                 self.expect(';', "`;`")?;

@@ -39,7 +39,9 @@ pub(super) fn tokenize(input: Input<'_>) -> Result<Vec<(Token, Span)>, Error> {
         } else if rest.starts_with("//") {
             position = rest.find('\n').map_or(text.len(), |end| start + end);
             continue;
-        } else if first.is_ascii_digit() || (first == '.' && digit_follows) {
+        } else if first.is_ascii_digit()
+            || (first == '.' && digit_follows && !text[..start].ends_with('.'))
+        {
             // `0..n` is a range.
             let digits = rest.find(|c: char| !c.is_ascii_digit());
             let whole = start + digits.unwrap_or(rest.len());
