@@ -39,13 +39,15 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The first names after `crate::` in code, not in comments.
+/// The first names after `crate::` in code, not in comments. After `$crate::` an exported macro names what it needs in another crate.
 fn imports(text: &str) -> Vec<&str> {
     let code = text
         .lines()
         .filter(|line| !line.trim_start().starts_with("//"));
-    code.flat_map(|line| line.split("crate::").skip(1))
-        .map(|rest| {
+    code.flat_map(|line| line.match_indices("crate::").map(move |(at, _)| (line, at)))
+        .filter(|(line, at)| !line[..*at].ends_with('$'))
+        .map(|(line, at)| {
+            let rest = &line[at + "crate::".len()..];
             let end = rest.find(|c: char| !(c.is_alphanumeric() || c == '_'));
             &rest[..end.unwrap_or(rest.len())]
         })
