@@ -38,7 +38,7 @@
 /// |---|---|---|
 /// | `q: [a, b], p: [pa, pb];` | with names | `SVector<T, 2>` |
 /// | `q: [4], p: [4];` | `q[0]` … `q[3]` | `SVector<T, 4>` |
-/// | `Name<N>` and `q: [N; 3], p: [N; 3];` | `N` bodies in space, `q[i]` is a vector | `SMatrix<T, 3, N>`, a column each |
+/// | `Name<N>`, a capital letter, and `q: [N; 3], p: [N; 3];` | `N` bodies in space, `q[i]` is a vector | `SMatrix<T, 3, N>`, a column each |
 /// | `q: [..], p: [..];`, `q: [..; 3], p: [..; 3];` | as many as there are at run time | `DVector<T>` |
 ///
 /// # Parameters
@@ -67,8 +67,9 @@
 /// # Conserved quantities
 ///
 /// A momentum is conserved where H has a symmetry that shows in its form: where all positions can be moved together there is a method
-/// `total_momentum`, where they can be turned `angular_momentum`. `invariants: { name = …, }` adds methods of your own; one whose Poisson
-/// bracket with H is not zero does not compile.
+/// `total_momentum`, where they can be turned `angular_momentum`. `invariants: { name = …, }` adds methods of your own. One that belongs
+/// to a symmetry of the formula is proved; of any other the Poisson bracket with H is computed at a few states, and what is not zero there
+/// does not compile. The page of the method says which.
 ///
 /// ```
 /// use symplectic::nalgebra::SMatrix;
