@@ -265,7 +265,7 @@ fn distinct(
     if let Some(&id) = known.get(&key) {
         return id;
     }
-    // What the value is made of, down to its outermost sums.
+    // The nodes below the value, down to its outermost sums.
     let (mut order, mut open) = (std::collections::BTreeSet::new(), vec![root]);
     while let Some(id) = open.pop() {
         if order.insert(id) && !matches!(graph.node(id), Node::Total(..)) {

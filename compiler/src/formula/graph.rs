@@ -523,7 +523,7 @@ impl Graph {
         self.scale(factor, total)
     }
 
-    /// What a node is made of.
+    /// The operands of a node.
     pub fn children(&self, id: Id) -> Vec<Id> {
         children(self.node(id))
     }

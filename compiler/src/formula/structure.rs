@@ -26,7 +26,7 @@ pub struct Structure {
     pub translations: Vec<usize>,
     /// The planes in which all positions and momenta can be turned together: the angular momentum there is conserved.
     pub rotations: Vec<[usize; 2]>,
-    /// What a chain is made of.
+    /// The potentials of a chain, if H is one.
     pub chain: Option<ChainParts>,
 }
 

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::names::{index_name, index_tokens, length_tokens, literal_name, pair_name};
+use super::names::{identifier, index_name, index_tokens, length_tokens, pair_name};
 use super::operations::{Op, Operation, Operations};
 use crate::formula::System;
 use crate::formula::function::Elementary;
@@ -220,7 +220,7 @@ impl<'a> Writer<'a> {
                 quote!(for #index in #start..#end { #inner })
             }
             LoopRange::List(parameter) => {
-                let list = literal_name(&self.system.parameters[*parameter].name);
+                let list = identifier(&self.system.parameters[*parameter].name);
                 let [first, second] = [0, 1].map(|slot| pair_name(over, slot));
                 let count = match self.system.layout.length() {
                     Length::Fixed(n) => {

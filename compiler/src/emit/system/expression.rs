@@ -7,7 +7,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::block::{Block, Strength, Writer, Written};
-use super::names::{entry, index_tokens, literal_name};
+use super::names::{entry, identifier, index_tokens};
 use super::operations::{Op, Operation};
 use crate::arithmetic::rounding::to_f64;
 use crate::emit::literal;
@@ -50,7 +50,7 @@ impl Writer<'_> {
         written
     }
 
-    /// Writes what an operation is made of, if there is much of it.
+    /// Names parts of a deeply nested operation, so that no expression in the code is too deep.
     pub(super) fn prepare(&mut self, block: &mut Block, op: Op) {
         let mut order = Vec::new();
         let mut open = vec![(op, 0_usize)];
@@ -257,7 +257,7 @@ impl Writer<'_> {
                 )
             }
             Operation::User(function, derivative, a) => {
-                let name = literal_name(&self.system.functions[function][derivative.min(2)]);
+                let name = identifier(&self.system.functions[function][derivative.min(2)]);
                 let a = self.require(block, a).tokens;
                 (quote!(#name(#a)), Strength::Atom)
             }
@@ -295,7 +295,7 @@ impl Writer<'_> {
 
     pub(super) fn parameter(&self, parameter: usize, indices: &[Index]) -> TokenStream {
         let parameter = &self.system.parameters[parameter];
-        let name = literal_name(&parameter.name);
+        let name = identifier(&parameter.name);
         let Shape::Array(lengths) = &parameter.shape else {
             return quote!(self.#name);
         };

@@ -3,8 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::names::length_tokens;
-use super::{Emitter, identifier};
+use super::Emitter;
+use super::names::{identifier, length_tokens};
 use crate::arithmetic::rounding::to_f64;
 use crate::emit::{Header, literal};
 use crate::formula::Shape;

@@ -3,7 +3,8 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{Emitter, identifier};
+use super::Emitter;
+use super::names::identifier;
 use crate::formula::description::momenta;
 use crate::formula::graph::Id;
 

@@ -13,11 +13,11 @@ mod jacobian;
 mod names;
 mod operations;
 
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use self::block::{Statement, Task, Writer};
-use self::names::{entry, length_tokens};
+use self::names::{entry, identifier, length_tokens};
 use self::operations::Operations;
 use super::Header;
 use crate::formula::derivative::{Scatter, gradient};
@@ -30,21 +30,6 @@ use crate::formula::{Kinetic, Layout, Structure, System};
 pub fn system(system: &System, structure: &Structure, header: &Header) -> TokenStream {
     let emitter = Emitter::new(system, structure, header);
     emitter.code()
-}
-
-/// A name of the user as an identifier; raw where it is a word of Rust.
-fn identifier(name: &str) -> Ident {
-    const WORDS: [&str; 46] = [
-        "as", "async", "await", "abstract", "become", "box", "break", "const", "continue", "do",
-        "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in",
-        "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
-        "return", "static", "struct", "trait", "true", "try", "type", "typeof", "unsafe",
-        "unsized", "use", "virtual", "where",
-    ];
-    match WORDS.contains(&name) || ["while", "yield"].contains(&name) {
-        true => Ident::new_raw(name, Span::call_site()),
-        false => Ident::new(name, Span::call_site()),
-    }
 }
 
 struct Emitter<'a> {

@@ -1,6 +1,6 @@
 //! Names of entries, lengths and indices in the code.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::formula::Layout;
@@ -19,9 +19,19 @@ pub fn entry(layout: &Layout, vector: &TokenStream, coordinate: &Coordinate) -> 
     }
 }
 
-/// A name of the user.
-pub fn literal_name(name: &str) -> Ident {
-    super::identifier(name)
+/// A name of the user as an identifier; raw where it is a word of Rust.
+pub fn identifier(name: &str) -> Ident {
+    const WORDS: [&str; 46] = [
+        "as", "async", "await", "abstract", "become", "box", "break", "const", "continue", "do",
+        "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in",
+        "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
+        "return", "static", "struct", "trait", "true", "try", "type", "typeof", "unsafe",
+        "unsized", "use", "virtual", "where",
+    ];
+    match WORDS.contains(&name) || ["while", "yield"].contains(&name) {
+        true => Ident::new_raw(name, Span::call_site()),
+        false => Ident::new(name, Span::call_site()),
+    }
 }
 
 /// The length of an array.
@@ -32,7 +42,7 @@ pub fn length_tokens(length: &Length) -> TokenStream {
             quote!(#n)
         }
         Length::Generic(name) => {
-            let name = literal_name(name);
+            let name = identifier(name);
             quote!(#name)
         }
         Length::Runtime | Length::PairsOf(_) => quote!(n),

@@ -188,7 +188,8 @@ impl Parser<'_> {
         Ok(items)
     }
 
-    fn expression(&mut self) -> Result<Expression, Error> {
+    /// Reads what stands one level deeper.
+    fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Error>) -> Result<T, Error> {
         self.depth += 1;
         if self.depth > MAX_DEPTH {
             let kind = ErrorKind::ExpressionSize {
@@ -198,6 +199,16 @@ impl Parser<'_> {
             };
             return Err(self.input.error(&self.span(), kind));
         }
+        let value = read(self)?;
+        self.depth -= 1;
+        Ok(value)
+    }
+
+    fn expression(&mut self) -> Result<Expression, Error> {
+        self.deeper(Self::sum_of_terms)
+    }
+
+    fn sum_of_terms(&mut self) -> Result<Expression, Error> {
         let start = self.span().start;
         let first = (self.accept('-'), self.term()?);
         let mut terms = vec![first];
@@ -209,7 +220,6 @@ impl Parser<'_> {
             self.next += 1;
             terms.push((minus, self.term()?));
         }
-        self.depth -= 1;
         let span = start..self.end();
         Ok(match terms.len() == 1 && !terms[0].0 {
             true => terms.remove(0).1,
@@ -294,17 +304,7 @@ impl Parser<'_> {
     fn factor(&mut self) -> Result<Expression, Error> {
         let start = self.span().start;
         if self.accept('-') {
-            self.depth += 1;
-            if self.depth > MAX_DEPTH {
-                let kind = ErrorKind::ExpressionSize {
-                    what: "its depth",
-                    size: self.depth,
-                    limit: MAX_DEPTH,
-                };
-                return Err(self.input.error(&self.span(), kind));
-            }
-            let inner = self.factor()?;
-            self.depth -= 1;
+            let inner = self.deeper(Self::factor)?;
             let span = start..inner.span.end;
             return Ok(Expression {
                 kind: Kind::Sum(vec![(true, inner)]),
@@ -315,17 +315,7 @@ impl Parser<'_> {
         if !self.accept('^') {
             return Ok(base);
         }
-        self.depth += 1;
-        if self.depth > MAX_DEPTH {
-            let kind = ErrorKind::ExpressionSize {
-                what: "its depth",
-                size: self.depth,
-                limit: MAX_DEPTH,
-            };
-            return Err(self.input.error(&self.span(), kind));
-        }
-        let exponent = self.factor()?;
-        self.depth -= 1;
+        let exponent = self.deeper(Self::factor)?;
         let span = start..self.end();
         Ok(Expression {
             kind: Kind::Power(Box::new(base), Box::new(exponent)),
