@@ -21,7 +21,7 @@ const UPWARD: &[(&str, &str)] = &[
     ("system/over_vectors.rs", "method"),
     ("system/over_vectors.rs", "solver"),
     ("system/closures.rs", "solver"),
-    ("system/chain.rs", "solver"),
+    ("system/chain/mod.rs", "solver"),
 ];
 
 fn level(room: &str) -> Option<usize> {

@@ -3,6 +3,7 @@
 use std::cell::Cell;
 
 use symplectic::solver::FixedPoint;
+use symplectic::system::Jacobian;
 use symplectic::{System, Vector};
 
 /// Counts of evaluations.
@@ -60,5 +61,19 @@ impl<V: Vector, S: System<V>> System<V> for Counting<'_, S> {
 
     fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
         self.system.energy(time, q, p)
+    }
+
+    fn second_derivatives(
+        &self,
+        time: V::Scalar,
+        q: &V,
+        p: &V,
+        jacobian: &mut Jacobian<V::Scalar>,
+    ) -> bool {
+        self.system.second_derivatives(time, q, p, jacobian)
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        self.system.half_bandwidth()
     }
 }

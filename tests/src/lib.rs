@@ -1,8 +1,9 @@
 //! What the integration tests, the examples and the report share: [`scenes`] to integrate, [`methods`] to
-//! integrate them with, how results are measured ([`measure`], [`counting`], [`order`]), and what they are measured
+//! integrate them with, how results are measured ([`measure`], [`counting`], [`counted`], [`order`]), and what they are measured
 //! against ([`references`], [`peers`]).
 
 pub mod at_run_time;
+pub mod counted;
 pub mod counting;
 pub mod drift;
 pub mod formulas;

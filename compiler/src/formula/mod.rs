@@ -24,6 +24,7 @@ mod check;
 pub mod derivative;
 pub mod description;
 pub mod display;
+pub mod distance;
 pub mod elaborate;
 mod error;
 pub mod evaluate;

@@ -41,6 +41,17 @@ const _: () = {
                 + T::from_f64(self.beta) * (stretch * (stretch * stretch));
             value
         }
+        fn stiffness<T: Scalar>(
+            &self,
+            time: T,
+            stretch: T,
+        ) -> ::core::option::Option<T> {
+            ::core::option::Option::Some({
+                let value = T::from_f64(3.0 * self.beta) * (stretch * stretch)
+                    + T::one();
+                value
+            })
+        }
         fn bond_energy<T: Scalar>(
             &self,
             time: T,

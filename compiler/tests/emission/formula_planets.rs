@@ -118,63 +118,63 @@ const _: () = {
             let result_1 = T::from_f64(0.5) * x1 - x2;
             ::core::option::Option::Some(result_1)
         }
-    }
-    ::symplectic::emitted::if_alloc! {
-        #[allow(unused_variables, non_snake_case, clippy::all)] impl < T : Scalar, const
-        N : usize > ::symplectic::solver::Linearized < ::symplectic::nalgebra::SMatrix <
-        T, 3, N > > for Planets < N > { fn derivatives(& self, time : T, q : &
-        ::symplectic::nalgebra::SMatrix < T, 3, N >, p : &
-        ::symplectic::nalgebra::SMatrix < T, 3, N >, jacobian : & mut
-        ::symplectic::solver::Jacobian < T >) { let q = & q.data.0; let p = & p.data.0;
-        for i in 0..N { let mut x1 = T::zero(); let mut x2 = T::zero(); let mut x3 =
-        T::zero(); let mut x4 = T::zero(); let mut x5 = T::zero(); let mut x6 =
-        T::zero(); let mut x7 = T::zero(); let mut x8 = T::zero(); let mut x9 =
-        T::zero(); let x10 = self.G * self.m[i]; for j in i + 1..N { let x11 = q[i] [2] -
-        q[j] [2]; let x12 = x10 * self.m[j]; let x13 = q[i] [0] - q[j] [0]; let x14 =
-        q[i] [1] - q[j] [1]; let x15 = x13 * x13 + x14 * x14 + x11 * x11; let x16 = x15
-        .sqrt(); let x17 = (x15 * x15 * x16).recip(); let x18 = T::from_f64(x12) * x13 *
-        x17; x1 += x11 * x18; x2 += x14 * x18; let x19 = T::from_f64(x12) / (x15 * x16);
-        let x20 = T::from_f64(3.0) * x13; let x21 = x20 * x18; let x22 = x19 - x21; x3 +=
-        x22; let x23 = T::from_f64(x12) * x14 * x17; x4 += x11 * x23; let x24 =
-        T::from_f64(3.0) * x14; let x25 = x24 * x23; let x26 = x19 - x25; x5 += x26; x6
-        += x13 * x23; let x27 = T::from_f64(3.0) * x11; let x28 = T::from_f64(x12) * x11
-        * x17; let x29 = x27 * x28; let x30 = x19 - x29; x7 += x30; x8 += x14 * x28; x9
-        += x13 * x28; jacobian.force_by_position.add(i * 3 + 0, j * 3 + 0, x22); let x31
-        = x24 * x18; let x32 = - x31; jacobian.force_by_position.add(i * 3 + 0, j * 3 +
-        1, x32); let x33 = x27 * x18; let x34 = - x33; jacobian.force_by_position.add(i *
-        3 + 0, j * 3 + 2, x34); let x35 = x20 * x23; let x36 = - x35; jacobian
-        .force_by_position.add(i * 3 + 1, j * 3 + 0, x36); jacobian.force_by_position
-        .add(i * 3 + 1, j * 3 + 1, x26); let x37 = x27 * x23; let x38 = - x37; jacobian
-        .force_by_position.add(i * 3 + 1, j * 3 + 2, x38); let x39 = x20 * x28; let x40 =
-        - x39; jacobian.force_by_position.add(i * 3 + 2, j * 3 + 0, x40); let x41 = x24 *
-        x28; let x42 = - x41; jacobian.force_by_position.add(i * 3 + 2, j * 3 + 1, x42);
-        jacobian.force_by_position.add(i * 3 + 2, j * 3 + 2, x30); jacobian
-        .force_by_position.add(j * 3 + 0, i * 3 + 0, x22); jacobian.force_by_position
-        .add(j * 3 + 0, i * 3 + 1, x32); jacobian.force_by_position.add(j * 3 + 0, i * 3
-        + 2, x34); jacobian.force_by_position.add(j * 3 + 0, j * 3 + 0, x21 - x19);
-        jacobian.force_by_position.add(j * 3 + 0, j * 3 + 1, x31); jacobian
-        .force_by_position.add(j * 3 + 0, j * 3 + 2, x33); jacobian.force_by_position
-        .add(j * 3 + 1, i * 3 + 0, x36); jacobian.force_by_position.add(j * 3 + 1, i * 3
-        + 1, x26); jacobian.force_by_position.add(j * 3 + 1, i * 3 + 2, x38); jacobian
-        .force_by_position.add(j * 3 + 1, j * 3 + 0, x35); jacobian.force_by_position
-        .add(j * 3 + 1, j * 3 + 1, x25 - x19); jacobian.force_by_position.add(j * 3 + 1,
-        j * 3 + 2, x37); jacobian.force_by_position.add(j * 3 + 2, i * 3 + 0, x40);
-        jacobian.force_by_position.add(j * 3 + 2, i * 3 + 1, x42); jacobian
-        .force_by_position.add(j * 3 + 2, i * 3 + 2, x30); jacobian.force_by_position
-        .add(j * 3 + 2, j * 3 + 0, x39); jacobian.force_by_position.add(j * 3 + 2, j * 3
-        + 1, x41); jacobian.force_by_position.add(j * 3 + 2, j * 3 + 2, x29 - x19); } let
-        x43 = 1.0 / self.m[i]; jacobian.velocity_by_momentum.add(i * 3 + 0, i * 3 + 0,
-        T::from_f64(x43)); jacobian.velocity_by_momentum.add(i * 3 + 1, i * 3 + 1,
-        T::from_f64(x43)); jacobian.velocity_by_momentum.add(i * 3 + 2, i * 3 + 2,
-        T::from_f64(x43)); jacobian.force_by_position.add(i * 3 + 0, i * 3 + 0, - x3);
-        jacobian.force_by_position.add(i * 3 + 0, i * 3 + 1, T::from_f64(3.0) * x2);
-        jacobian.force_by_position.add(i * 3 + 0, i * 3 + 2, T::from_f64(3.0) * x1);
-        jacobian.force_by_position.add(i * 3 + 1, i * 3 + 0, T::from_f64(3.0) * x6);
-        jacobian.force_by_position.add(i * 3 + 1, i * 3 + 1, - x5); jacobian
-        .force_by_position.add(i * 3 + 1, i * 3 + 2, T::from_f64(3.0) * x4); jacobian
-        .force_by_position.add(i * 3 + 2, i * 3 + 0, T::from_f64(3.0) * x9); jacobian
-        .force_by_position.add(i * 3 + 2, i * 3 + 1, T::from_f64(3.0) * x8); jacobian
-        .force_by_position.add(i * 3 + 2, i * 3 + 2, - x7); } } }
+        ::symplectic::emitted::if_alloc! {
+            fn second_derivatives < T : Scalar > (& self, time : T, q : &
+            ::symplectic::nalgebra::SMatrix < T, 3, N >, p : &
+            ::symplectic::nalgebra::SMatrix < T, 3, N >, jacobian : & mut
+            ::symplectic::system::Jacobian < T >) -> bool { let q = & q.data.0; let p = &
+            p.data.0; for i in 0..N { let mut x1 = T::zero(); let mut x2 = T::zero(); let
+            mut x3 = T::zero(); let mut x4 = T::zero(); let mut x5 = T::zero(); let mut
+            x6 = T::zero(); let mut x7 = T::zero(); let mut x8 = T::zero(); let mut x9 =
+            T::zero(); let x10 = self.G * self.m[i]; for j in i + 1..N { let x11 = q[i]
+            [2] - q[j] [2]; let x12 = x10 * self.m[j]; let x13 = q[i] [0] - q[j] [0]; let
+            x14 = q[i] [1] - q[j] [1]; let x15 = x13 * x13 + x14 * x14 + x11 * x11; let
+            x16 = x15.sqrt(); let x17 = (x15 * x15 * x16).recip(); let x18 =
+            T::from_f64(x12) * x13 * x17; x1 += x11 * x18; x2 += x14 * x18; let x19 =
+            T::from_f64(x12) / (x15 * x16); let x20 = T::from_f64(3.0) * x13; let x21 =
+            x20 * x18; let x22 = x19 - x21; x3 += x22; let x23 = T::from_f64(x12) * x14 *
+            x17; x4 += x11 * x23; let x24 = T::from_f64(3.0) * x14; let x25 = x24 * x23;
+            let x26 = x19 - x25; x5 += x26; x6 += x13 * x23; let x27 = T::from_f64(3.0) *
+            x11; let x28 = T::from_f64(x12) * x11 * x17; let x29 = x27 * x28; let x30 =
+            x19 - x29; x7 += x30; x8 += x14 * x28; x9 += x13 * x28; jacobian
+            .force_by_position.add(i * 3 + 0, j * 3 + 0, x22); let x31 = x24 * x18; let
+            x32 = - x31; jacobian.force_by_position.add(i * 3 + 0, j * 3 + 1, x32); let
+            x33 = x27 * x18; let x34 = - x33; jacobian.force_by_position.add(i * 3 + 0, j
+            * 3 + 2, x34); let x35 = x20 * x23; let x36 = - x35; jacobian
+            .force_by_position.add(i * 3 + 1, j * 3 + 0, x36); jacobian.force_by_position
+            .add(i * 3 + 1, j * 3 + 1, x26); let x37 = x27 * x23; let x38 = - x37;
+            jacobian.force_by_position.add(i * 3 + 1, j * 3 + 2, x38); let x39 = x20 *
+            x28; let x40 = - x39; jacobian.force_by_position.add(i * 3 + 2, j * 3 + 0,
+            x40); let x41 = x24 * x28; let x42 = - x41; jacobian.force_by_position.add(i
+            * 3 + 2, j * 3 + 1, x42); jacobian.force_by_position.add(i * 3 + 2, j * 3 +
+            2, x30); jacobian.force_by_position.add(j * 3 + 0, i * 3 + 0, x22); jacobian
+            .force_by_position.add(j * 3 + 0, i * 3 + 1, x32); jacobian.force_by_position
+            .add(j * 3 + 0, i * 3 + 2, x34); jacobian.force_by_position.add(j * 3 + 0, j
+            * 3 + 0, x21 - x19); jacobian.force_by_position.add(j * 3 + 0, j * 3 + 1,
+            x31); jacobian.force_by_position.add(j * 3 + 0, j * 3 + 2, x33); jacobian
+            .force_by_position.add(j * 3 + 1, i * 3 + 0, x36); jacobian.force_by_position
+            .add(j * 3 + 1, i * 3 + 1, x26); jacobian.force_by_position.add(j * 3 + 1, i
+            * 3 + 2, x38); jacobian.force_by_position.add(j * 3 + 1, j * 3 + 0, x35);
+            jacobian.force_by_position.add(j * 3 + 1, j * 3 + 1, x25 - x19); jacobian
+            .force_by_position.add(j * 3 + 1, j * 3 + 2, x37); jacobian.force_by_position
+            .add(j * 3 + 2, i * 3 + 0, x40); jacobian.force_by_position.add(j * 3 + 2, i
+            * 3 + 1, x42); jacobian.force_by_position.add(j * 3 + 2, i * 3 + 2, x30);
+            jacobian.force_by_position.add(j * 3 + 2, j * 3 + 0, x39); jacobian
+            .force_by_position.add(j * 3 + 2, j * 3 + 1, x41); jacobian.force_by_position
+            .add(j * 3 + 2, j * 3 + 2, x29 - x19); } let x43 = 1.0 / self.m[i]; jacobian
+            .velocity_by_momentum.add(i * 3 + 0, i * 3 + 0, T::from_f64(x43)); jacobian
+            .velocity_by_momentum.add(i * 3 + 1, i * 3 + 1, T::from_f64(x43)); jacobian
+            .velocity_by_momentum.add(i * 3 + 2, i * 3 + 2, T::from_f64(x43)); jacobian
+            .force_by_position.add(i * 3 + 0, i * 3 + 0, - x3); jacobian
+            .force_by_position.add(i * 3 + 0, i * 3 + 1, T::from_f64(3.0) * x2); jacobian
+            .force_by_position.add(i * 3 + 0, i * 3 + 2, T::from_f64(3.0) * x1); jacobian
+            .force_by_position.add(i * 3 + 1, i * 3 + 0, T::from_f64(3.0) * x6); jacobian
+            .force_by_position.add(i * 3 + 1, i * 3 + 1, - x5); jacobian
+            .force_by_position.add(i * 3 + 1, i * 3 + 2, T::from_f64(3.0) * x4); jacobian
+            .force_by_position.add(i * 3 + 2, i * 3 + 0, T::from_f64(3.0) * x9); jacobian
+            .force_by_position.add(i * 3 + 2, i * 3 + 1, T::from_f64(3.0) * x8); jacobian
+            .force_by_position.add(i * 3 + 2, i * 3 + 2, - x7); } true }
+        }
     }
     #[allow(unused_variables, non_snake_case, clippy::all)]
     impl<const N: usize> Planets<N> {

@@ -7,7 +7,7 @@ use crate::integrator::Integrator;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 #[cfg(feature = "alloc")]
-use crate::solver::{Dense, Differences, Newton};
+use crate::solver::Newton;
 use crate::system::System;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
@@ -26,8 +26,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         }
     }
 
-    /// The same integrator with [`Newton`]'s iteration, on full matrices of [`Differences`]: for stiff systems with few
-    /// components. An explicit method stays what it is.
+    /// The same integrator with [`Newton`]'s iteration: for stiff and strongly coupled systems. An explicit method stays what it is.
+    ///
+    /// The second derivatives are exact if the system [gives them](System::second_derivatives), as one from a
+    /// [formula](crate::hamiltonian!) does, and differences otherwise. The matrices are bands of the
+    /// [half bandwidth](System::half_bandwidth) of the system, and full if it does not know that; room for them is made in the first step.
     ///
     /// ```
     /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
@@ -43,7 +46,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// # }
     /// ```
     #[cfg(feature = "alloc")]
-    pub fn by_newton(self) -> Integrator<M, S, V, R, Newton<Dense<Differences>>> {
+    pub fn by_newton(self) -> Integrator<M, S, V, R, Newton> {
         self.with_solver(Newton::new())
     }
 }

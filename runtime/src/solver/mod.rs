@@ -22,9 +22,9 @@ pub use automatic::{Automatic, AutomaticStages};
 pub use fixed_point::FixedPoint;
 #[cfg(feature = "alloc")]
 pub use newton::{
-    Analytic, BandMatrix, Banded, Coupling, Dense, Derivatives, Differences, EveryStage,
-    FixedPointThenNewton, FixedPointThenNewtonMemory, Jacobian, LinearSolver, Linearized, Matrices,
-    Newton, NewtonMemory, Parts,
+    AnalyticOrDifferences, BandOrDense, Banded, Coupling, Dense, Derivatives, Differences,
+    EveryStage, FixedPointThenNewton, FixedPointThenNewtonMemory, LinearSolver, Matrices, Newton,
+    NewtonMemory, Parts,
 };
 #[cfg(feature = "num-dual")]
 pub use newton::{DualNumbers, SystemInDuals};

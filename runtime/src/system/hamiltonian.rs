@@ -1,6 +1,8 @@
 //! The systems that are integrated: a Hamiltonian, written once for every scalar.
 
 use crate::number::{F64x2, F64x4, F64x8, Scalar, Vector};
+#[cfg(feature = "alloc")]
+use crate::system::Jacobian;
 use crate::system::{Class, Separable};
 
 /// A Hamiltonian system, given by the right-hand sides of Hamilton's equations
@@ -139,6 +141,25 @@ pub trait Hamiltonian {
     fn energy<T: Scalar>(&self, _time: T, _q: &Self::Vector<T>, _p: &Self::Vector<T>) -> Option<T> {
         None
     }
+
+    /// Writes the second derivatives of H at `(time, q, p)` into `jacobian`, which is zero before, and returns `true`; `false` where the
+    /// system does not know them. [Newton](crate::solver::Newton)'s iteration takes differences then.
+    #[cfg(feature = "alloc")]
+    fn second_derivatives<T: Scalar>(
+        &self,
+        _time: T,
+        _q: &Self::Vector<T>,
+        _p: &Self::Vector<T>,
+        _jacobian: &mut Jacobian<T>,
+    ) -> bool {
+        false
+    }
+
+    /// The largest `|i − j|` of components that interact: `∂²H/∂x_i∂y_j = 0` beyond it, for positions or momenta x and y.
+    /// Each particle of a chain with one component interacts with the next: 1. `usize::MAX` where it is not known.
+    fn half_bandwidth(&self) -> usize {
+        usize::MAX
+    }
 }
 
 /// A system with a separable Hamiltonian `H = T(t, p) + U(t, q)`: the velocity depends only on `p`, the force only on `q`.
@@ -221,6 +242,64 @@ pub trait SeparableHamiltonian {
     fn energy<T: Scalar>(&self, _time: T, _q: &Self::Vector<T>, _p: &Self::Vector<T>) -> Option<T> {
         None
     }
+
+    /// Writes the second derivatives of H at `(time, q, p)` into `jacobian`, which is zero before, and returns `true`; `false` where the
+    /// system does not know them. [Newton](crate::solver::Newton)'s iteration takes differences then.
+    ///
+    /// ```
+    /// use symplectic::nalgebra::SVector;
+    /// use symplectic::system::Jacobian;
+    /// use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, State};
+    ///
+    /// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
+    ///
+    /// /// H = p²/2 + 10¹² (1 − cos q)
+    /// struct Stiff;
+    ///
+    /// type Vector1<T> = SVector<T, 1>;
+    ///
+    /// impl SeparableHamiltonian for Stiff {
+    ///     type Vector<T: Scalar> = Vector1<T>;
+    ///
+    ///     fn velocity<T: Scalar>(&self, _time: T, p: &Vector1<T>, velocity: &mut Vector1<T>) {
+    ///         *velocity = *p;
+    ///     }
+    ///
+    ///     fn force<T: Scalar>(&self, _time: T, q: &Vector1<T>, force: &mut Vector1<T>) {
+    ///         force[0] = -q[0].sin() * T::from_f64(1e12);
+    ///     }
+    ///
+    ///     fn second_derivatives<T: Scalar>(&self, _: T, q: &Vector1<T>, _: &Vector1<T>, jacobian: &mut Jacobian<T>) -> bool {
+    ///         jacobian.velocity_by_momentum.set(0, 0, T::one());
+    ///         jacobian.force_by_position.set(0, 0, -q[0].cos() * T::from_f64(1e12));
+    ///         true
+    ///     }
+    /// }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let start = State::new(0.0, SVector::from([1e-6]), SVector::from([0.0]));
+    /// let mut integrator = Integrator::new(Gauss3, Stiff, start, 0.01)?.by_newton();
+    /// integrator.integrate_to(1.0)?;
+    /// assert!(integrator.statistics().mean_iterations() < 6.0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[cfg(feature = "alloc")]
+    fn second_derivatives<T: Scalar>(
+        &self,
+        _time: T,
+        _q: &Self::Vector<T>,
+        _p: &Self::Vector<T>,
+        _jacobian: &mut Jacobian<T>,
+    ) -> bool {
+        false
+    }
+
+    /// The largest `|i − j|` of components that interact: `∂²H/∂x_i∂y_j = 0` beyond it, for positions or momenta x and y.
+    /// Each particle of a chain with one component interacts with the next: 1. `usize::MAX` where it is not known.
+    fn half_bandwidth(&self) -> usize {
+        usize::MAX
+    }
 }
 
 impl<S: SeparableHamiltonian> Hamiltonian for S {
@@ -253,5 +332,20 @@ impl<S: SeparableHamiltonian> Hamiltonian for S {
 
     fn energy<T: Scalar>(&self, time: T, q: &S::Vector<T>, p: &S::Vector<T>) -> Option<T> {
         SeparableHamiltonian::energy(self, time, q, p)
+    }
+
+    #[cfg(feature = "alloc")]
+    fn second_derivatives<T: Scalar>(
+        &self,
+        time: T,
+        q: &S::Vector<T>,
+        p: &S::Vector<T>,
+        jacobian: &mut Jacobian<T>,
+    ) -> bool {
+        SeparableHamiltonian::second_derivatives(self, time, q, p, jacobian)
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        SeparableHamiltonian::half_bandwidth(self)
     }
 }

@@ -3,6 +3,8 @@
 use crate::method::Solver;
 use crate::number::{F64x2, F64x4, F64x8, Vector};
 use crate::solver::Automatic;
+#[cfg(feature = "alloc")]
+use crate::system::Jacobian;
 use crate::system::{Class, Components, Hamiltonian, Layout, StageRows};
 
 /// A Hamiltonian system over one type of vectors: what an [`Integrator`](crate::Integrator) steps.
@@ -67,6 +69,24 @@ pub trait System<V: Vector>: Sized {
     /// H at `(time, q, p)`, where the system knows it. No method needs it.
     fn energy(&self, _time: V::Scalar, _q: &V, _p: &V) -> Option<V::Scalar> {
         None
+    }
+
+    /// Writes the second derivatives of H into `jacobian`, where the system knows them: see
+    /// [`Hamiltonian::second_derivatives`].
+    #[cfg(feature = "alloc")]
+    fn second_derivatives(
+        &self,
+        _time: V::Scalar,
+        _q: &V,
+        _p: &V,
+        _jacobian: &mut Jacobian<V::Scalar>,
+    ) -> bool {
+        false
+    }
+
+    /// The largest `|i − j|` of components that interact: see [`Hamiltonian::half_bandwidth`].
+    fn half_bandwidth(&self) -> usize {
+        usize::MAX
     }
 
     // What follows is how a `Chain` is made fast, for no other system.
@@ -140,6 +160,21 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
 
     fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
         Hamiltonian::energy::<V::Scalar>(self, time, q, p)
+    }
+
+    #[cfg(feature = "alloc")]
+    fn second_derivatives(
+        &self,
+        time: V::Scalar,
+        q: &V,
+        p: &V,
+        jacobian: &mut Jacobian<V::Scalar>,
+    ) -> bool {
+        Hamiltonian::second_derivatives::<V::Scalar>(self, time, q, p, jacobian)
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        Hamiltonian::half_bandwidth(self)
     }
 }
 

@@ -6,10 +6,11 @@ use crate::common::methods::{
     Gauss2, Gauss3, Gauss4, Gauss8, Lobatto3, Lobatto4, Midpoint, Radau3, StoermerVerlet,
 };
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
+use symplectic::num_traits::One;
 use symplectic::solver::{
-    Analytic, Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Jacobian, Linearized,
-    Newton,
+    AnalyticOrDifferences, Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Newton,
 };
+use symplectic::system::Jacobian;
 use symplectic::{
     Error, General, Hamiltonian, Integrator, Method, ProvedFor, Quantity, Scalar, Separable, State,
     System, Vector, separable,
@@ -328,29 +329,27 @@ impl<V: Vector> System<V> for Chain {
             }
         }
     }
-}
 
-impl Linearized<DVector<f64>> for Chain {
-    fn derivatives(
+    fn second_derivatives(
         &self,
-        _time: f64,
-        q: &DVector<f64>,
-        _p: &DVector<f64>,
-        jacobian: &mut Jacobian<f64>,
-    ) {
+        _time: V::Scalar,
+        q: &V,
+        _p: &V,
+        jacobian: &mut Jacobian<V::Scalar>,
+    ) -> bool {
+        let (stiffness, q) = (V::Scalar::from_f64(self.0), q.as_slice());
+        let forces = &mut jacobian.force_by_position;
         for i in 0..q.len() {
-            jacobian.velocity_by_momentum.set(i, i, 1.0);
-            let mut diagonal = -3.0 * q[i] * q[i];
-            if i > 0 {
-                jacobian.force_by_position.set(i, i - 1, self.0);
-                diagonal -= self.0;
+            jacobian.velocity_by_momentum.set(i, i, V::Scalar::one());
+            forces.set(i, i, V::Scalar::from_f64(-3.0) * q[i] * q[i]);
+            for k in [i.wrapping_sub(1), i + 1] {
+                if k < q.len() {
+                    forces.set(i, k, stiffness);
+                    forces.add(i, i, -stiffness);
+                }
             }
-            if i + 1 < q.len() {
-                jacobian.force_by_position.set(i, i + 1, self.0);
-                diagonal -= self.0;
-            }
-            jacobian.force_by_position.set(i, i, diagonal);
         }
+        true
     }
 }
 
@@ -366,8 +365,9 @@ fn chain_start() -> State<DVector<f64>> {
 fn bands_give_what_full_matrices_give() -> Result<(), Error> {
     fn check<M: Method>(method: M, stiffness: f64) -> Result<(), Error> {
         let integrator = || Integrator::new(method, Chain(stiffness), chain_start(), 0.1);
-        let mut dense = integrator()?.with_solver(Newton::<Dense<Analytic>>::new());
-        let mut banded = integrator()?.with_solver(Newton::<Banded<1, Analytic>>::new());
+        let mut dense = integrator()?.with_solver(Newton::<Dense<AnalyticOrDifferences>>::new());
+        let mut banded =
+            integrator()?.with_solver(Newton::<Banded<1, AnalyticOrDifferences>>::new());
         let mut differences = integrator()?.with_solver(Newton::<Banded<1, Differences>>::new());
         let expected = dense.integrate_to(2.0)?.clone();
         for (name, state) in [
@@ -386,7 +386,7 @@ fn bands_give_what_full_matrices_give() -> Result<(), Error> {
     check(Lobatto3, 190.0)?;
     // Without the neighbours the iteration does not converge: the band is what makes it do so.
     let integrator = Integrator::new(Gauss3, Chain(1e6), chain_start(), 0.1)?;
-    let mut diagonal = integrator.with_solver(Newton::<Banded<0, Analytic>>::new());
+    let mut diagonal = integrator.with_solver(Newton::<Banded<0, AnalyticOrDifferences>>::new());
     let failure = diagonal.step().map(|_| ());
     assert!(
         matches!(failure, Err(Error::NoConvergence { .. })),
@@ -485,27 +485,25 @@ fn a_singular_matrix_is_an_error() -> Result<(), Error> {
         fn force(&self, _time: f64, q: &DVector<f64>, _p: &DVector<f64>, force: &mut DVector<f64>) {
             force.copy_from(q);
         }
-    }
 
-    impl Linearized<DVector<f64>> for Repulsion {
-        fn derivatives(
+        fn second_derivatives(
             &self,
             _time: f64,
             _q: &DVector<f64>,
             _p: &DVector<f64>,
             jacobian: &mut Jacobian<f64>,
-        ) {
+        ) -> bool {
             for i in 0..3 {
                 jacobian.velocity_by_momentum.set(i, i, 1.0);
                 jacobian.force_by_position.set(i, i, 1.0);
             }
+            true
         }
     }
 
     let one = || DVector::from_element(3, 1.0);
     let begin = State::new(1.0, one(), one());
-    let integrator = Integrator::new(Midpoint, Repulsion, begin.clone(), 2.0)?;
-    let mut integrator = integrator.with_solver(Newton::<Dense<Analytic>>::new());
+    let mut integrator = Integrator::new(Midpoint, Repulsion, begin.clone(), 2.0)?.by_newton();
     let error = integrator.step().map(|_| ()).expect_err("singular");
     let expected = Error::SingularMatrix {
         time: 1.0,
@@ -543,23 +541,21 @@ fn derivatives_that_are_not_finite_are_an_error() -> Result<(), Error> {
         fn force(&self, _time: f64, q: &Vector1<f64>, _p: &Vector1<f64>, force: &mut Vector1<f64>) {
             *force = -q;
         }
-    }
 
-    impl Linearized<Vector1<f64>> for Broken {
-        fn derivatives(
+        fn second_derivatives(
             &self,
             _time: f64,
             _q: &Vector1<f64>,
             _p: &Vector1<f64>,
             jacobian: &mut Jacobian<f64>,
-        ) {
+        ) -> bool {
             jacobian.force_by_position.set(0, 0, f64::NAN);
+            true
         }
     }
 
     let begin = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
-    let integrator = Integrator::new(Gauss2, Broken, begin, 0.1)?;
-    let mut integrator = integrator.with_solver(Newton::<Dense<Analytic>>::new());
+    let mut integrator = Integrator::new(Gauss2, Broken, begin, 0.1)?.by_newton();
     let error = integrator.step().map(|_| ()).expect_err("NaN");
     let what = Quantity::Derivative;
     assert!(
@@ -657,7 +653,7 @@ fn dual_numbers_give_the_derivatives() -> Result<(), Error> {
 
     let State { q, p, .. } = chain_start();
     let mut expected = Jacobian::new(24, 1);
-    Chain(1e6).derivatives(0.0, &q, &p, &mut expected);
+    assert!(Chain(1e6).second_derivatives(0.0, &q, &p, &mut expected));
     let mut memory = <DualNumbers as Derivatives<_, Chain>>::memory(&q);
     let mut found = Jacobian::new(24, 1);
     DualNumbers::evaluate(&mut memory, &Chain(1e6), 0.0, &q, &p, &mut found);

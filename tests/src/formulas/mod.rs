@@ -25,6 +25,13 @@ symplectic::hamiltonian! {
 }
 
 symplectic::hamiltonian! {
+    /// The restricted three-body problem in the plane, in the frame that turns with the Earth and the Moon.
+    pub RestrictedThreeBody { mu: 0.01215058560962404 }
+    q: [x, y], p: [px, py];
+    H = (px^2 + py^2)/2 + y px - x py - (1 - mu)/hypot(x + mu, y) - mu/hypot(x - 1 + mu, y)
+}
+
+symplectic::hamiltonian! {
     /// The Hénon–Heiles system.
     pub HenonHeiles
     q: [x, y], p: [px, py];

@@ -11,7 +11,7 @@ mod systems;
 use std::rc::Rc;
 
 use symplectic::nalgebra::SVector;
-use symplectic::solver::{Analytic, Dense, Differences, LinearSolver, Newton};
+use symplectic::solver::{AnalyticOrDifferences, Dense, Differences, LinearSolver, Newton};
 use symplectic::{Compensated, Error, Integrator, Method, Plain, Scalar, State, Summation};
 
 use crate::methods::{Gauss2, Gauss3, Gauss4, Lobatto3, Midpoint, RadauRight2};
@@ -129,7 +129,7 @@ fn solvers<M: Method, S: Stiff<N> + 'static, const N: usize>(
             })*
         };
     }
-    run!(Differences Plain Differences Compensated Analytic Plain Analytic Compensated);
+    run!(Differences Plain Differences Compensated AnalyticOrDifferences Plain AnalyticOrDifferences Compensated);
 }
 
 /// The most iterations of full Newton in doubles.

@@ -6,7 +6,8 @@
 )]
 
 use symplectic::nalgebra::SVector;
-use symplectic::solver::{FixedPoint, Jacobian, Linearized};
+use symplectic::solver::FixedPoint;
+use symplectic::system::Jacobian;
 use symplectic::{Scalar, Separable, System};
 
 /// A separable system with unit masses, of `N` components.
@@ -42,23 +43,22 @@ impl<T: Scalar, S: Stiff<N>, const N: usize> System<SVector<T, N>> for Steps<S> 
     fn force(&self, _time: T, q: &SVector<T, N>, _p: &SVector<T, N>, force: &mut SVector<T, N>) {
         self.0.force(&q.data.0[0], &mut force.data.0[0]);
     }
-}
 
-impl<S: Stiff<N>, const N: usize> Linearized<SVector<f64, N>> for Steps<S> {
-    fn derivatives(
+    fn second_derivatives(
         &self,
-        _: f64,
-        q: &SVector<f64, N>,
-        _: &SVector<f64, N>,
-        jacobian: &mut Jacobian<f64>,
-    ) {
+        _time: T,
+        q: &SVector<T, N>,
+        _p: &SVector<T, N>,
+        jacobian: &mut Jacobian<T>,
+    ) -> bool {
         let derivative = self.0.derivative(&q.data.0[0]);
         for i in 0..N {
-            jacobian.velocity_by_momentum.set(i, i, 1.0);
+            jacobian.velocity_by_momentum.set(i, i, T::one());
             for j in 0..N {
                 jacobian.force_by_position.set(i, j, derivative[i][j]);
             }
         }
+        true
     }
 }
 

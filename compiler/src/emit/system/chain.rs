@@ -32,11 +32,16 @@ impl Emitter<'_> {
             Half::Q,
         );
         let tension = tension.first().map_or(parts.bond, |part| part.value);
+        let stiffness = self.slope(tension);
         let outer = parts.on_site.map(|(energy, over)| {
             let minus = -Number::one();
             let parts = gradient(&mut self.system.graph, energy, &[over], minus, Half::Q);
             let force = parts.first().map(|part| part.value);
-            (energy, force, over)
+            let stiffness = force.map(|force| {
+                let slope = self.slope(force);
+                self.system.graph.scale(-Number::one(), slope)
+            });
+            (energy, force, stiffness, over)
         });
         // Numbers are copied, so that they stay in registers.
         let only_numbers = |parameter: &Parameter| matches!(parameter.shape, Shape::Number(_));
@@ -66,16 +71,21 @@ impl Emitter<'_> {
         };
         let bond_energy = function(self, &variable, parts.bond, None);
         let tension = function(self, &variable, tension, None);
-        let outer = outer.map(|(energy, force, over)| {
+        let stiffness = function(self, &variable, stiffness, None);
+        let outer = outer.map(|(energy, force, stiffness, over)| {
             let energy = function(self, &site, energy, Some(over));
-            let force = match force {
-                Some(force) => function(self, &site, force, Some(over)),
+            let [force, stiffness] = [force, stiffness].map(|value| match value {
+                Some(value) => function(self, &site, value, Some(over)),
                 None => quote!(#scalar::zero()),
-            };
+            });
             quote! {
                 #[inline(always)]
                 fn outer_force<#scalar: Scalar>(&self, time: #scalar, position: #scalar) -> ::core::option::Option<#scalar> {
                     ::core::option::Option::Some({ #force })
+                }
+
+                fn outer_stiffness<#scalar: Scalar>(&self, time: #scalar, position: #scalar) -> ::core::option::Option<#scalar> {
+                    ::core::option::Option::Some({ #stiffness })
                 }
 
                 fn outer_energy<#scalar: Scalar>(&self, time: #scalar, position: #scalar) -> ::core::option::Option<#scalar> {
@@ -91,6 +101,10 @@ impl Emitter<'_> {
                     #tension
                 }
 
+                fn stiffness<#scalar: Scalar>(&self, time: #scalar, stretch: #scalar) -> ::core::option::Option<#scalar> {
+                    ::core::option::Option::Some({ #stiffness })
+                }
+
                 fn bond_energy<#scalar: Scalar>(&self, time: #scalar, stretch: #scalar) -> ::core::option::Option<#scalar> {
                     ::core::option::Option::Some({ #bond_energy })
                 }
@@ -100,5 +114,16 @@ impl Emitter<'_> {
 
             ::symplectic::emitted::chain_system!((#parameters) (#name #arguments), #bonds, #ends);
         }
+    }
+
+    /// The derivative of a function of one position.
+    fn slope(&mut self, value: Id) -> Id {
+        let graph = &mut self.system.graph;
+        let parts = gradient(graph, value, &[], Number::one(), Half::Q);
+        let values: Vec<_> = parts
+            .iter()
+            .map(|part| (Number::one(), part.value))
+            .collect();
+        graph.sum(values)
     }
 }

@@ -17,10 +17,8 @@ use crate::formula::structure::Split;
 const MOST_PARTS: usize = 2_000;
 
 impl Emitter<'_> {
-    /// The second derivatives, for Newton's iteration.
+    /// The second derivatives and how far from the diagonal they are, for Newton's iteration: methods of the trait.
     pub(super) fn jacobian(&mut self, split: Option<Split>) -> TokenStream {
-        let name = self.header.name.clone();
-        let [_, parameters, arguments] = self.generics();
         let scalar = self.scalar.clone();
         let over = self.vector(&quote!(#scalar));
         let energy = self.system.energy;
@@ -68,7 +66,7 @@ impl Emitter<'_> {
         let operations = Operations::new(&self.system.graph, &roots);
         let views = self.views(&["q", "p"], &[]);
         let nan =
-            quote!(jacobian.force_by_position.set(0, 0, #scalar::from_f64(f64::NAN)); return;);
+            quote!(jacobian.force_by_position.set(0, 0, #scalar::from_f64(f64::NAN)); return true;);
         let least = self.least(&nan);
         let tasks = parts.iter().map(|(matrix, row, part)| {
             let matrix = format_ident!("{matrix}");
@@ -84,15 +82,17 @@ impl Emitter<'_> {
         });
         let mut writer = Writer::new(&self.system, &operations, scalar.clone(), &self.prefix, nan);
         let statements = writer.write(tasks.collect());
+        let places = parts.iter().map(|(_, row, part)| [row, &part.target]);
+        let half_bandwidth = self.half_bandwidth(places);
         quote! {
             ::symplectic::emitted::if_alloc! {
-                #[allow(unused_variables, non_snake_case, clippy::all)]
-                impl<#scalar: Scalar, #parameters> ::symplectic::solver::Linearized<#over> for #name #arguments {
-                    fn derivatives(&self, time: #scalar, q: &#over, p: &#over, jacobian: &mut ::symplectic::solver::Jacobian<#scalar>) {
-                        #views #least #statements
-                    }
+                fn second_derivatives<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, jacobian: &mut ::symplectic::system::Jacobian<#scalar>) -> bool {
+                    #views #least #statements
+                    true
                 }
             }
+
+            #half_bandwidth
         }
     }
 

@@ -4,6 +4,7 @@
 //! the parts of a chain. The order of evaluation is that of [`operations`]; sums over indices are loops, so the code is as long for a
 //! thousand bodies as for three.
 
+mod band;
 mod block;
 mod chain;
 mod expression;
@@ -374,9 +375,9 @@ impl<'a> Emitter<'a> {
                 fn energy<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over) -> ::core::option::Option<#scalar> {
                     #energy
                 }
-            }
 
-            #jacobian
+                #jacobian
+            }
         }
     }
 
@@ -427,9 +428,9 @@ impl<'a> Emitter<'a> {
                 fn energy<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over) -> ::core::option::Option<#scalar> {
                     #energy
                 }
-            }
 
-            #jacobian
+                #jacobian
+            }
         }
     }
 }

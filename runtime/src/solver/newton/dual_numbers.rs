@@ -2,9 +2,9 @@
 
 use num_dual::{Dual64, DualNum};
 
-use super::jacobian::{Derivatives, Jacobian, groups, scatter};
+use super::jacobian::{Derivatives, groups, scatter};
 use crate::number::{Scalar, Vector};
-use crate::system::System;
+use crate::system::{Jacobian, System};
 
 macro_rules! forward {
     ($($function:ident)*) => {

@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use super::linear_solver::LinearSolver;
-use super::{Newton, memory::NewtonMemory};
+use super::linear_solver::{BandOrDense, LinearSolver};
+use super::{AnalyticOrDifferences, Newton, memory::NewtonMemory};
 use crate::error::Quantity;
 use crate::method::{
     Failure, Inside, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics, Stopping,
@@ -27,7 +27,7 @@ const PATIENCE: u32 = 16;
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
 /// use symplectic::nalgebra::Vector1;
 /// use symplectic::{Error, Integrator, State, separable};
-/// use symplectic::solver::{Dense, Differences, FixedPointThenNewton};
+/// use symplectic::solver::FixedPointThenNewton;
 ///
 /// # fn main() -> Result<(), Error> {
 /// // An oscillator that is stiff for a while: ω² = 1 + 10⁸ exp(−(t − 5)²).
@@ -36,14 +36,14 @@ const PATIENCE: u32 = 16;
 ///     |time, q, force| *force = -q * (1.0 + 1e8 * (-(time - 5.0) * (time - 5.0)).exp()),
 /// );
 /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
-/// let solver = FixedPointThenNewton::<Dense<Differences>>::new();
+/// let solver = <FixedPointThenNewton>::new();
 /// let mut integrator = Integrator::new(Midpoint, oscillator, start, 0.01)?.with_solver(solver);
 /// integrator.integrate_to(10.0)?;
 /// assert!(integrator.statistics().rejected > 0);
 /// # Ok(())
 /// # }
 /// ```
-pub struct FixedPointThenNewton<L>(Newton<L>);
+pub struct FixedPointThenNewton<L = BandOrDense<AnalyticOrDifferences>>(Newton<L>);
 
 impl<L> FixedPointThenNewton<L> {
     /// The solver.

@@ -5,11 +5,12 @@ use core::fmt::Debug;
 use core::marker::PhantomData;
 
 use super::every_stage::{AllStages, EveryStage, NOT_FINITE};
-use super::jacobian::{BandMatrix, Derivatives, Jacobian};
+use super::jacobian::Derivatives;
 use super::lu::{Complex, Elimination};
 use crate::method::Failure;
+use crate::number::words::words;
 use crate::number::{Scalar, Vector, Visit, scalar_words};
-use crate::system::{Class, System};
+use crate::system::{BandMatrix, Class, Jacobian, System};
 
 /// How the parts of the unknown of a linear system depend on each other: the factor `γ` in `(1 − γ J) x = r`.
 ///
@@ -57,7 +58,7 @@ impl Parts {
 
 /// Solves the linear systems of a [`Newton`](crate::solver::Newton) iteration for a system `S` over the vectors `V`.
 ///
-/// [`Dense`] and [`Banded`] hold matrices. One that holds none, such as a Krylov method, notes the point in
+/// [`BandOrDense`], [`Dense`] and [`Banded`] hold matrices. One that holds none, such as a Krylov method, notes the point in
 /// [`linearize`](Self::linearize), has nothing or a preconditioner to do in [`factor`](Self::factor), and applies the
 /// derivatives of the system where it solves: it needs to solve no more exactly than the iteration has to contract.
 pub trait LinearSolver<V: Vector, S: System<V>>: Copy + Debug + 'static {
@@ -119,6 +120,11 @@ pub trait LinearSolver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     }
 }
 
+/// Bands as wide as the [half bandwidth](System::half_bandwidth) of the system says, with derivatives from `D`; full matrices for a
+/// system that does not know it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BandOrDense<D>(PhantomData<D>);
+
 /// Full matrices, with derivatives from `D`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Dense<D>(PhantomData<D>);
@@ -129,10 +135,12 @@ pub struct Dense<D>(PhantomData<D>);
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Banded<const HALF: usize, D>(PhantomData<D>);
 
-/// The memory of [`Dense`] and [`Banded`].
+/// The memory of [`BandOrDense`], [`Dense`] and [`Banded`].
 #[derive(Clone, Debug)]
 pub struct Matrices<T, D> {
     derivatives: D,
+    separable: bool,
+    systems: Vec<Parts>,
     jacobian: Jacobian<T>,
     /// The matrix `J` of [`Coupling`].
     matrix: BandMatrix<T>,
@@ -151,20 +159,36 @@ enum Factors<T> {
 impl<T: Scalar, D> Matrices<T, D> {
     fn new(
         dimension: usize,
-        separable: bool,
         half_bandwidth: usize,
+        separable: bool,
         systems: &[Parts],
         derivatives: D,
     ) -> Self {
-        let jacobian = Jacobian::new(dimension, half_bandwidth);
-        let half = jacobian.force_by_position.half_bandwidth();
-        let matrix: BandMatrix<T> = if separable {
+        let mut matrices = Self {
+            derivatives,
+            separable,
+            systems: systems.to_vec(),
+            jacobian: Jacobian::new(dimension, 0),
+            matrix: BandMatrix::new(0, 0),
+            factors: Vec::new(),
+            all_stages: None,
+        };
+        matrices.allocate(half_bandwidth);
+        matrices
+    }
+
+    /// Makes room for derivatives of this half bandwidth.
+    fn allocate(&mut self, half_bandwidth: usize) {
+        let dimension = self.jacobian.force_by_position.size();
+        self.jacobian = Jacobian::new(dimension, half_bandwidth);
+        let half = self.jacobian.force_by_position.half_bandwidth();
+        self.matrix = if self.separable {
             BandMatrix::new(dimension, 2 * half)
         } else {
             BandMatrix::new(2 * dimension, 2 * half + 1)
         };
-        let (size, half) = (matrix.size(), matrix.half_bandwidth());
-        let factors = systems.iter().map(|parts| match parts {
+        let (size, half) = (self.matrix.size(), self.matrix.half_bandwidth());
+        let factors = self.systems.iter().map(|parts| match parts {
             Parts::One => Factors::Real(Elimination::new(size, half)),
             Parts::Two => Factors::Complex(Elimination::new(size, half)),
             Parts::Stages(count) => {
@@ -172,17 +196,23 @@ impl<T: Scalar, D> Matrices<T, D> {
                 Factors::Real(Elimination::new(size * count, half.saturating_sub(1)))
             }
         });
-        Self {
-            derivatives,
-            factors: factors.collect(),
-            matrix,
-            jacobian,
-            all_stages: None,
+        self.factors = factors.collect();
+        self.all_stages = None;
+    }
+
+    /// The same for another half bandwidth; nothing is done if it is the present one.
+    fn fit(&mut self, half_bandwidth: usize) {
+        let matrix = &self.jacobian.force_by_position;
+        if matrix.half_bandwidth() != half_bandwidth.min(matrix.size().saturating_sub(1)) {
+            self.allocate(half_bandwidth);
         }
     }
 
     /// The derivatives, and the factors made of them; those of all stages are made anew in every sweep.
     fn words(&mut self, visit: &mut Visit<'_>) {
+        let mut half_bandwidth = self.jacobian.force_by_position.half_bandwidth();
+        words!(visit: half_bandwidth);
+        self.fit(half_bandwidth);
         let Jacobian {
             velocity_by_position,
             velocity_by_momentum,
@@ -297,7 +327,7 @@ impl<T: Scalar, D> Matrices<T, D> {
 }
 
 macro_rules! matrices {
-    ([$($parameter:tt)*] $name:ty, $half_bandwidth:expr) => {
+    ([$($parameter:tt)*] $name:ty, $least:expr, $half_bandwidth:expr) => {
         impl<V, S, D, $($parameter)*> LinearSolver<V, S> for $name
         where
             V: Vector,
@@ -307,14 +337,9 @@ macro_rules! matrices {
             type Memory = Matrices<V::Scalar, D::Memory>;
 
             fn memory(prototype: &V, systems: &[Parts]) -> Self::Memory {
-                let dimension = prototype.dimension();
-                Matrices::new(
-                    dimension,
-                    S::Class::SEPARABLE,
-                    $half_bandwidth(dimension),
-                    systems,
-                    D::memory(prototype),
-                )
+                let separable = S::Class::SEPARABLE;
+                let derivatives = D::memory(prototype);
+                Matrices::new(prototype.dimension(), $least, separable, systems, derivatives)
             }
 
             fn words(memory: &mut Self::Memory, visit: &mut Visit<'_>) {
@@ -328,6 +353,7 @@ macro_rules! matrices {
                 q: &V,
                 p: &V,
             ) -> bool {
+                memory.fit($half_bandwidth(system));
                 memory.jacobian.clear();
                 let Matrices { derivatives, jacobian, .. } = memory;
                 D::evaluate(derivatives, system, time, q, p, jacobian);
@@ -380,6 +406,7 @@ macro_rules! matrices {
                 x: &mut [V::Scalar],
                 y: &mut [V::Scalar],
             ) -> Result<(), Failure> {
+                memory.fit($half_bandwidth(system));
                 let Matrices { derivatives, jacobian, all_stages, .. } = memory;
                 let (points, momenta) = (stages.count(), stages.p.len());
                 let all = all_stages.get_or_insert_with(|| {
@@ -403,5 +430,7 @@ macro_rules! matrices {
     };
 }
 
-matrices!([] Dense<D>, |dimension: usize| dimension);
-matrices!([const HALF: usize] Banded<HALF, D>, |_| HALF);
+// The half bandwidth that there is room for at first, and that of a system.
+matrices!([] BandOrDense<D>, 0, |system: &S| system.half_bandwidth());
+matrices!([] Dense<D>, usize::MAX, |_: &S| usize::MAX);
+matrices!([const HALF: usize] Banded<HALF, D>, HALF, |_: &S| HALF);

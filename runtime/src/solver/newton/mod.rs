@@ -18,8 +18,8 @@ use core::marker::PhantomData;
 pub use dual_numbers::{DualNumbers, SystemInDuals};
 pub use every_stage::EveryStage;
 pub use fallback::{FixedPointThenNewton, FixedPointThenNewtonMemory};
-pub use jacobian::{Analytic, BandMatrix, Derivatives, Differences, Jacobian, Linearized};
-pub use linear_solver::{Banded, Coupling, Dense, LinearSolver, Matrices, Parts};
+pub use jacobian::{AnalyticOrDifferences, Derivatives, Differences};
+pub use linear_solver::{BandOrDense, Banded, Coupling, Dense, LinearSolver, Matrices, Parts};
 pub use memory::NewtonMemory;
 
 use crate::method::{
@@ -32,7 +32,9 @@ use convergence::settle;
 use sweep::ByIncrements;
 
 /// The simplified Newton iteration, for stiff and strongly coupled systems; `L`, a [`LinearSolver`], solves its linear
-/// systems: [`Dense`] or [`Banded`], with derivatives that are [`Analytic`], of dual numbers, or [`Differences`].
+/// systems. [`by_newton`](crate::Integrator::by_newton) takes what the system knows of its second derivatives:
+/// [`BandOrDense`] matrices, [`AnalyticOrDifferences`]. Another choice is named: [`Dense`] or [`Banded`] matrices, of dual numbers or
+/// [`Differences`].
 ///
 /// The unknowns are the increments `h velocity_j` and `h force_j`, not the stages: in a stiff system the evaluation at a
 /// rounded stage is off by the rounding error times the stiffness, and a solution of the linear system is not. With the
@@ -75,7 +77,6 @@ use sweep::ByIncrements;
 /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
 /// use symplectic::nalgebra::Vector2;
 /// use symplectic::{Error, Integrator, State, separable};
-/// use symplectic::solver::{Dense, Differences, Newton};
 ///
 /// # fn main() -> Result<(), Error> {
 /// // A pendulum on a stiff spring: H = |p|²/2 + 10⁸ (|q| − 1)²/2 + q₂.
@@ -88,15 +89,14 @@ use sweep::ByIncrements;
 /// let mut fixed_point = Integrator::new(Gauss4, pendulum(), start(), 0.01)?;
 /// assert!(matches!(fixed_point.step(), Err(Error::NoConvergence { .. })));
 ///
-/// let newton = Newton::<Dense<Differences>>::new();
-/// let mut integrator = Integrator::new(Gauss4, pendulum(), start(), 0.01)?.with_solver(newton);
+/// let mut integrator = Integrator::new(Gauss4, pendulum(), start(), 0.01)?.by_newton();
 /// let end = integrator.integrate_to(10.0)?;
 /// assert!((end.q.norm() - 1.0).abs() < 1e-6);
 /// assert!(integrator.statistics().mean_iterations() < 10.0);
 /// # Ok(())
 /// # }
 /// ```
-pub struct Newton<L>(PhantomData<L>);
+pub struct Newton<L = BandOrDense<AnalyticOrDifferences>>(PhantomData<L>);
 
 impl<L> Newton<L> {
     /// The solver.

@@ -1,5 +1,9 @@
 //! Chains of particles that feel their neighbours.
 
+#[cfg(feature = "alloc")]
+mod derivatives;
+mod system_macro;
+
 use core::mem;
 
 use num_traits::Zero;
@@ -8,6 +12,8 @@ use crate::number::lanes::lane_of;
 use crate::number::rows::{Eight, Row, Single, splats};
 use crate::number::{F64x8, Lanes, Scalar, Vector, copy};
 use crate::solver::Automatic;
+#[cfg(feature = "alloc")]
+use crate::system::Jacobian;
 use crate::system::strands::{Part, parts};
 use crate::system::{
     Components, Layout, MOST_ROW_STAGES, OverEveryScalar, Separable, StageRows, System,
@@ -24,6 +30,17 @@ pub trait Bonds {
 
     /// The force `−W′` on a particle at `position` that is not from a bond; `None` where there is none.
     fn outer_force<T: Scalar>(&self, _time: T, _position: T) -> Option<T> {
+        None
+    }
+
+    /// The second derivative `V″` of the energy of a bond, where it is known: exact derivatives for
+    /// [Newton](crate::solver::Newton)'s iteration.
+    fn stiffness<T: Scalar>(&self, _time: T, _stretch: T) -> Option<T> {
+        None
+    }
+
+    /// The second derivative `W″` of the energy of a particle, where it is known.
+    fn outer_stiffness<T: Scalar>(&self, _time: T, _position: T) -> Option<T> {
         None
     }
 
@@ -45,6 +62,14 @@ impl<B: Bonds> Bonds for &B {
 
     fn outer_force<T: Scalar>(&self, time: T, position: T) -> Option<T> {
         (**self).outer_force(time, position)
+    }
+
+    fn stiffness<T: Scalar>(&self, time: T, stretch: T) -> Option<T> {
+        (**self).stiffness(time, stretch)
+    }
+
+    fn outer_stiffness<T: Scalar>(&self, time: T, position: T) -> Option<T> {
+        (**self).outer_stiffness(time, position)
     }
 
     fn bond_energy<T: Scalar>(&self, time: T, stretch: T) -> Option<T> {
@@ -582,72 +607,28 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
         }
         Some(energy)
     }
+
+    #[cfg(feature = "alloc")]
+    fn second_derivatives(
+        &self,
+        time: V::Scalar,
+        q: &V,
+        _p: &V,
+        jacobian: &mut Jacobian<V::Scalar>,
+    ) -> bool {
+        self.add_second_derivatives(time, q.as_slice(), jacobian)
+            .is_some()
+    }
+
+    /// The ends of a ring are neighbours too.
+    fn half_bandwidth(&self) -> usize {
+        match self.ends {
+            Ends::Walls | Ends::Free => 1,
+            Ends::Ring => usize::MAX,
+        }
+    }
 }
 
 impl<V: Vector, B: Bonds> OverEveryScalar<V> for Chain<B> {
     type Doubles = V::With<f64>;
-}
-
-/// A system that is a chain, for a type that says what its bonds are. They are copied if that is cheap: what is known of a copy stays in
-/// registers.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! chain_system {
-    (($($parameters:tt)*) ($name:ty), $bonds:expr, $ends:ident) => {
-        impl<V: $crate::Vector, $($parameters)*> $crate::System<V> for $name {
-            type Class = $crate::Separable;
-            type Solver = $crate::solver::Automatic;
-
-            const UNIT_MASSES: bool = true;
-
-            #[inline(always)]
-            fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
-                $crate::System::velocity(&$crate::system::Chain::$ends($bonds(self)), time, q, p, velocity);
-            }
-
-            #[inline(always)]
-            fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
-                $crate::System::force(&$crate::system::Chain::$ends($bonds(self)), time, q, p, force);
-            }
-
-            const LOCAL_FORCE: bool = true;
-
-            #[inline(always)]
-            fn local_force(&self, time: V::Scalar, components: &mut impl $crate::emitted::Components<V::Scalar>) {
-                $crate::System::<V>::local_force(&$crate::system::Chain::$ends($bonds(self)), time, components);
-            }
-
-            const ROW_FORCES: bool = true;
-
-            #[inline(always)]
-            fn row_forces(&self, rows: &mut impl $crate::emitted::StageRows) {
-                $crate::System::<V>::row_forces(&$crate::system::Chain::$ends($bonds(self)), rows);
-            }
-
-            #[inline]
-            fn kick_and_drift(
-                &self,
-                time: V::Scalar,
-                state: (&mut [V::Scalar], &mut [V::Scalar]),
-                layout: $crate::emitted::Layout,
-                kicks: &[V::Scalar],
-                drift: V::Scalar,
-            ) -> bool {
-                $crate::System::<V>::kick_and_drift(&$crate::system::Chain::$ends($bonds(self)), time, state, layout, kicks, drift)
-            }
-
-            #[inline]
-            fn layout(&self, q: &[V::Scalar], p: &[V::Scalar]) -> $crate::emitted::Layout {
-                $crate::System::<V>::layout(&$crate::system::Chain::$ends($bonds(self)), q, p)
-            }
-
-            fn energy(&self, time: V::Scalar, q: &V, p: &V) -> ::core::option::Option<V::Scalar> {
-                $crate::System::energy(&$crate::system::Chain::$ends($bonds(self)), time, q, p)
-            }
-        }
-
-        impl<V: $crate::Vector, $($parameters)*> $crate::system::OverEveryScalar<V> for $name {
-            type Doubles = V::With<f64>;
-        }
-    };
 }
