@@ -68,3 +68,24 @@ fn an_explicit_scene_has_no_solver_in_it() -> Result<(), Box<dyn Error>> {
     assert!(library(&explicit) < library(&implicit));
     Ok(())
 }
+
+/// Of a formula, too, a program contains what it asks for: no energy, second derivatives or solver beside an explicit method.
+#[test]
+fn an_explicit_formula_has_only_its_velocity_and_force_in_it() -> Result<(), Box<dyn Error>> {
+    let explicit = functions(env!("CARGO_BIN_EXE_explicit_formula"))?;
+    let newton = functions(env!("CARGO_BIN_EXE_newton_formula"))?;
+    let has = |names: &BTreeSet<String>, part: &str| names.iter().any(|name| name.contains(part));
+    for module in SOLVERS {
+        assert!(!has(&explicit, module), "{module}");
+    }
+    // In the other program the same look finds all of them.
+    assert!(has(&newton, "symplectic::solver::newton::"));
+    for function in ["energy", "second_derivatives", "half_bandwidth"] {
+        let of_formula = |name: &String| {
+            name.contains("HenonHeiles") && name.contains(&format!(">::{function}"))
+        };
+        assert!(!explicit.iter().any(of_formula), "{function}");
+        assert!(newton.iter().any(of_formula), "{function}");
+    }
+    Ok(())
+}

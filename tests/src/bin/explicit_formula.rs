@@ -1,0 +1,14 @@
+//! A separable formula with an explicit method: the program in which a test looks for what should not be there.
+
+#![allow(clippy::print_stdout, reason = "a program prints")]
+
+use symplectic::{Error, Integrator};
+use symplectic_tests::formulas::HenonHeiles;
+use symplectic_tests::methods::VelocityVerlet;
+use symplectic_tests::scenes::henon_heiles::start;
+
+fn main() -> Result<(), Error> {
+    let mut integrator = Integrator::new(VelocityVerlet, HenonHeiles, start::<f64>(), 0.125)?;
+    println!("{:?}", integrator.integrate_to(100.0)?);
+    Ok(())
+}
