@@ -3,22 +3,18 @@
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
 use symplectic::nalgebra::Vector1;
-use symplectic::{Error, Integrator, State, separable};
+use symplectic::{Error, Integrator, State};
 
 symplectic::tableau! {
     /// Lobatto IIIA–IIIB with three stages, order 4.
     Lobatto3 { basis: polynomial(3), nodes: lobatto(3), require: [symplectic, symmetric] }
 }
 
-fn main() -> Result<(), Error> {
-    let pendulum = separable::<Vector1<f64>, _, _>(
-        |_time, p, velocity| velocity[0] = p[0],
-        |_time, q, force| force[0] = -q[0].sin(),
-    )
-    .with_energy(|_time, q, p| p[0] * p[0] / 2.0 - q[0].cos());
+symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
 
+fn main() -> Result<(), Error> {
     let start = State::new(0.0, Vector1::new(2.0), Vector1::new(0.0));
-    let mut integrator = Integrator::new(Lobatto3, pendulum, start, 0.1)?;
+    let mut integrator = Integrator::new(Lobatto3, Pendulum, start, 0.1)?;
     println!("  time      angle    momentum     energy");
     for end in [0.0, 1.0, 10.0, 100.0, 1000.0, 10_000.0] {
         let State { time, q, p } = integrator.integrate_to(end)?.clone();

@@ -9,23 +9,11 @@
 
 use symplectic::nalgebra::SVector;
 use symplectic::solver::Solver;
-use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, State, Summation};
+use symplectic::{Error, Integrator, State, Summation};
 
 symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
 
-struct Oscillator;
-
-impl SeparableHamiltonian for Oscillator {
-    type Vector<T: Scalar> = SVector<T, 1>;
-
-    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
-        *velocity = *p;
-    }
-
-    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
-        *force = -q;
-    }
-}
+symplectic::hamiltonian! { Oscillator q: [x], p: [px]; H = (px^2 + x^2)/2 }
 
 /// A power of two, so that it has no rounding error.
 const STEP_SIZE: f64 = 0.25;

@@ -2,8 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
-use symplectic::nalgebra::Vector2;
-use symplectic::{State, acceleration};
+use symplectic::State;
 use symplectic_report::{Problem, Reference, Study};
 
 symplectic::tableau! {
@@ -22,19 +21,18 @@ symplectic::composition! {
     BlanesMoan { base: blanes-moan-2002-srkn14a }
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // A particle on a spring without a rest length that is weaker in one direction, in a quartic well.
-    let well = acceleration::<Vector2<f64>, _>(|_time, q, acceleration| {
-        *acceleration = -Vector2::new(q[0], 2.0 * q[1]) - q * q.norm_squared();
-    })
-    .with_energy(|_time, q, p| {
-        let square = q.norm_squared();
-        (p.norm_squared() + q[0] * q[0] + 2.0 * q[1] * q[1]) / 2.0 + square * square / 4.0
-    });
-    let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.5]);
-    let reference = Reference::computed(Gauss8, well, &start, 100.0, 0.1)?;
+symplectic::hamiltonian! {
+    /// A particle on a spring without a rest length that is weaker in one direction, in a quartic well.
+    Well
+    q: [2], p: [2];
+    H = (|p|^2 + q[0]^2 + 2 q[1]^2)/2 + |q|^4/4
+}
 
-    let problem = Problem::new("A well", well, start, reference, 1.0)
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.5]);
+    let reference = Reference::computed(Gauss8, Well, &start, 100.0, 0.1)?;
+
+    let problem = Problem::new("A well", Well, start, reference, 1.0)
         .described("H = (|p|² + q₁² + 2q₂²)/2 + |q|⁴/4")
         .method(Verlet)
         .method(BlanesMoan)
