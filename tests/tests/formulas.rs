@@ -261,6 +261,7 @@ fn formulas_are_the_same_in_lanes_and_their_jacobians_are_exact() {
     consistent(&formulas::HenonHeiles, 2);
     consistent(&formulas::DoublePendulum::default(), 2);
     consistent(&formulas::ChargedParticle, 3);
+    consistent(&formulas::RestrictedThreeBody::default(), 2);
     consistent(&formulas::DampedParticle, 2);
     consistent(&formulas::SpringPendulum { omega: 50.0 }, 2);
     consistent(&formulas::Nonseparable, 1);

@@ -1,6 +1,7 @@
 //! The scenes as formulas: from each, everything is derived.
 //!
 //! The same systems by hand are in [`scenes`](crate::scenes); that both give the same is tested, and how fast both are is measured.
+//! The restricted three-body problem is here only.
 
 symplectic::hamiltonian! {
     /// The harmonic oscillator.
