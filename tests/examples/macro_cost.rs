@@ -1,4 +1,4 @@
-//! What a use of `tableau!` adds to the build of a crate outside this workspace, without any profile of its own.
+//! What a use of `tableau!` or `hamiltonian!` adds to the build of a crate outside this workspace, without any profile of its own.
 //!
 //! `cargo run --release --example macro_cost`; needs cargo. The median of some builds after a change of the source, less
 //! that of an empty program.
@@ -20,20 +20,32 @@ const DEFINITIONS: [&str; 7] = [
     "basis: [1, t, t^2, exp(t), exp(2*t), exp(3*t), exp(-t), exp(-2*t)], nodes: gauss(8)",
 ];
 
+/// A module of formulas.
+const FORMULAS: &str = include_str!("../src/formulas/mod.rs");
+
 const REPETITIONS: usize = 7;
 
 fn main() -> Result<()> {
     let program = Program::new(env::temp_dir().join("symplectic-macro-cost"))?;
-    println!("| definition | debug | release |\n|---|---:|---:|");
+    println!("| added by | debug | release |\n|---|---:|---:|");
     let profiles: [&[&str]; 2] = [&[], &["--release"]];
     let empty = profiles.map(|profile| program.build("", profile));
     let [debug, release] = empty;
     let empty = [debug?, release?];
-    for definition in DEFINITIONS {
+    let tableaux = DEFINITIONS.map(|definition| {
         let code = format!("symplectic::tableau! {{ Method {{ {definition} }} }}");
-        print!("| `{definition}` |");
+        (format!("`{definition}`"), code, 1)
+    });
+    let count = FORMULAS.matches("hamiltonian! {").count() as u32;
+    let formulas = (
+        format!("each of {count} formulas"),
+        "#[allow(dead_code)]\npub mod formulas;".to_owned(),
+        count,
+    );
+    for (name, code, count) in tableaux.into_iter().chain([formulas]) {
+        print!("| {name} |");
         for (profile, empty) in profiles.iter().zip(empty) {
-            let added = program.build(&code, profile)?.saturating_sub(empty);
+            let added = program.build(&code, profile)?.saturating_sub(empty) / count;
             print!(" {:.2} s |", added.as_secs_f64());
         }
         println!();
@@ -53,6 +65,7 @@ impl Program {
             runtime.canonicalize()?
         );
         fs::write(directory.join("Cargo.toml"), manifest)?;
+        fs::write(directory.join("src/formulas.rs"), FORMULAS)?;
         // The versions that this workspace is built with.
         fs::copy(
             Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.lock"),
