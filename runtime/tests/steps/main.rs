@@ -13,6 +13,7 @@ mod events;
 mod generating_function;
 mod impacts;
 mod newton;
+mod newton_of_chains;
 mod proved;
 mod restart;
 mod run_time;
