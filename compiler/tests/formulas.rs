@@ -1,35 +1,30 @@
 //! Formulas: what is emitted for them, what is refused, and their derivatives.
 
+mod formula;
+
 use expect_test::expect_file;
 use f256::f256;
+use formula::Wide;
 use proc_macro2::TokenStream;
 use proptest::prelude::*;
 use quote::{format_ident, quote};
 use symplectic_compiler::emit::{Header, system};
 use symplectic_compiler::formula::derivative::gradient;
-use symplectic_compiler::formula::evaluate::{Evaluator, Point, Real};
-use symplectic_compiler::formula::function::Elementary;
-use symplectic_compiler::formula::graph::{Half, Number, integer};
-use symplectic_compiler::formula::{Kinetic, Structure, System};
+use symplectic_compiler::formula::evaluate::{Evaluator, Point};
+use symplectic_compiler::formula::graph::{Half, integer};
+use symplectic_compiler::formula::{Form, Kinetic, Structure, System};
 
 fn read(text: &str) -> (System, Structure) {
-    let mut read = System::read("formula", text).unwrap_or_else(|error| panic!("{error}"));
-    let structure = Structure::of(&mut read);
-    read.check(&structure, text)
-        .unwrap_or_else(|error| panic!("{error}"));
-    (read, structure)
+    formula::read(Form::Hamiltonian, text)
 }
 
 fn code(text: &str) -> String {
     let (read, structure) = read(text);
-    let header = Header {
-        attributes: TokenStream::new(),
-        visibility: quote!(pub),
-        name: format_ident!("{}", read.name),
-    };
-    let tokens = system(&read, &structure, &header);
-    let file = syn::parse2(tokens.clone()).unwrap_or_else(|error| panic!("{error}\n{tokens}"));
-    prettyplease::unparse(&file)
+    formula::code(&read, &structure)
+}
+
+fn refused(text: &str) -> String {
+    formula::refused(Form::Hamiltonian, text)
 }
 
 const DOUBLE_PENDULUM: &str = "DoublePendulum { g: 9.81 }
@@ -105,29 +100,6 @@ fn what_is_found_in_a_formula() {
     assert!(read(FPUT).1.chain.is_some());
     let unequal = FPUT.replace("p[i]^2 / 2", "p[i]^2");
     assert!(read(&unequal).1.chain.is_none());
-}
-
-/// The error of a definition, with the place under it.
-fn refused(text: &str) -> String {
-    let found = System::read("formula", text).and_then(|mut read| {
-        let structure = Structure::of(&mut read);
-        read.check(&structure, text)
-    });
-    let error = match found {
-        Err(error) => error,
-        Ok(()) => return format!("{text}\naccepted"),
-    };
-    let span = error
-        .place
-        .as_ref()
-        .map_or(0..0, |place| place.span.clone());
-    let blank = |text: &str| " ".repeat(text.chars().count());
-    let carets = "^".repeat(text[span.clone()].chars().count().max(1));
-    format!(
-        "{text}\n{}{carets} {}",
-        blank(&text[..span.start]),
-        error.kind
-    )
 }
 
 #[test]
@@ -272,63 +244,6 @@ fn long_formulas_are_read() {
             .split
             .is_ok()
     );
-}
-
-/// A number of 71 digits.
-#[derive(Clone, Debug)]
-struct Wide(f256);
-
-impl Real for Wide {
-    fn number(value: &Number) -> Self {
-        let parse = |n: &num_bigint::BigInt| n.to_string().parse::<f256>().expect("a number");
-        Wide(parse(value.numer()) / parse(value.denom()))
-    }
-
-    fn pi() -> Self {
-        Wide(f256::ONE.atan() * f256::from(4.0))
-    }
-
-    fn add(&self, other: &Self) -> Self {
-        Wide(self.0 + other.0)
-    }
-
-    fn multiply(&self, other: &Self) -> Self {
-        Wide(self.0 * other.0)
-    }
-
-    fn power(&self, exponent: &Number) -> Self {
-        if exponent.is_integer() {
-            let n: i64 = exponent.numer().try_into().expect("a small exponent");
-            let mut power = f256::ONE;
-            for _ in 0..n.unsigned_abs() {
-                power *= self.0;
-            }
-            return Wide(if n < 0 { f256::ONE / power } else { power });
-        }
-        Wide((self.0.ln() * Self::number(exponent).0).exp())
-    }
-
-    fn elementary(&self, function: Elementary) -> Self {
-        let x = self.0;
-        let half = f256::from(0.5);
-        Wide(match function {
-            Elementary::Exp => x.exp(),
-            Elementary::Ln => x.ln(),
-            Elementary::Sin => x.sin(),
-            Elementary::Cos => x.cos(),
-            Elementary::Tan => x.tan(),
-            Elementary::Asin => x.asin(),
-            Elementary::Acos => x.acos(),
-            Elementary::Atan => x.atan(),
-            Elementary::Sinh => (x.exp() - (-x).exp()) * half,
-            Elementary::Cosh => (x.exp() + (-x).exp()) * half,
-            Elementary::Tanh => (x.exp() - (-x).exp()) / (x.exp() + (-x).exp()),
-        })
-    }
-
-    fn atan2(&self, x: &Self) -> Self {
-        Wide(self.0.atan2(&x.0))
-    }
 }
 
 /// Random formulas of two coordinates, `depth` operations deep.

@@ -29,7 +29,7 @@ pub trait Real: Clone {
 pub struct Point<R> {
     /// The time.
     pub time: R,
-    /// Positions and momenta, each with its components.
+    /// Positions, and momenta or velocities, each with its components.
     pub halves: [Vec<Vec<R>>; 2],
     /// The parameters, by rows.
     pub parameters: Vec<Vec<Vec<R>>>,
@@ -61,6 +61,12 @@ impl<'a, R: Real> Evaluator<'a, R> {
             indices: HashMap::new(),
             budget: MOST_NODES,
         }
+    }
+
+    /// Fixes the index of a loop that the nodes stand in.
+    pub fn fix(&mut self, over: LoopId, index: usize) {
+        self.indices.insert(over, index);
+        self.forget(over);
     }
 
     /// The value of a node; `None` where a function of the user is needed, or an entry does not exist.
@@ -163,7 +169,7 @@ impl<'a, R: Real> Evaluator<'a, R> {
                 all.get(row)?.get(column)?.clone()
             }
             Node::Coordinate(coordinate) => {
-                let half = &self.point.halves[usize::from(coordinate.half == Half::P)];
+                let half = &self.point.halves[usize::from(coordinate.half != Half::Q)];
                 half.get(self.index(&coordinate.index)?)?
                     .get(coordinate.component)?
                     .clone()

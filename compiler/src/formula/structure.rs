@@ -97,7 +97,11 @@ enum Around {
 }
 
 /// The terms of a node that `whole` does not leave as they are, each with the node that it was a part of; `None` where there are too many.
-fn terms(graph: &mut Graph, root: Id, whole: impl Fn(&Graph, Id) -> bool) -> Option<Vec<(Id, Id)>> {
+pub(super) fn terms(
+    graph: &mut Graph,
+    root: Id,
+    whole: impl Fn(&Graph, Id) -> bool,
+) -> Option<Vec<(Id, Id)>> {
     let mut found = Vec::new();
     let mut open = vec![(root, Number::one(), Vec::<Around>::new())];
     let mut steps = 0;

@@ -10,6 +10,7 @@ mod expression;
 mod fields;
 mod invariants;
 mod jacobian;
+mod momentum;
 mod names;
 mod operations;
 
@@ -91,6 +92,7 @@ impl<'a> Emitter<'a> {
             (None, Ok(split)) => self.separable(split),
             (None, Err(_)) => self.general(),
         };
+        let momentum = self.momentum();
         let invariants = self.invariants();
         if self.system.graph.overflowed() {
             return quote!(::core::compile_error!("the derivatives have too many sums in one another"););
@@ -102,6 +104,8 @@ impl<'a> Emitter<'a> {
                 use ::symplectic::emitted::{One as _, Scalar, Zero as _};
 
                 #dynamics
+
+                #momentum
 
                 #invariants
             };
