@@ -32,6 +32,8 @@
 /// [`Analytic`](crate::solver::Analytic) gives to Newton's iteration. The page of the type shows H, the equations of motion and what was
 /// found.
 ///
+/// A system may also be given by its Lagrangian: [`lagrangian!`](macro@crate::lagrangian).
+///
 /// # Coordinates
 ///
 /// | written | coordinates | vectors |

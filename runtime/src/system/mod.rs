@@ -6,6 +6,7 @@ pub(crate) mod closures;
 pub(crate) mod hamiltonian;
 pub(crate) mod hamiltonian_macro;
 pub(crate) mod in_lanes;
+pub(crate) mod lagrangian_macro;
 pub(crate) mod linearity;
 pub(crate) mod local_force;
 pub(crate) mod over_vectors;
@@ -20,6 +21,7 @@ pub use closures::{
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
 pub use hamiltonian_macro::hamiltonian;
 pub use in_lanes::SystemLanes;
+pub use lagrangian_macro::lagrangian;
 #[doc(hidden)]
 pub use local_force::{Components, MOST_ROW_STAGES, StageRows};
 pub use over_vectors::{OverEveryScalar, System, SystemInLanes};
