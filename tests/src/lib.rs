@@ -6,6 +6,7 @@ pub mod at_run_time;
 pub mod counting;
 pub mod drift;
 pub mod formulas;
+pub mod lagrangians;
 pub mod linear_stability;
 pub mod measure;
 pub mod methods;
