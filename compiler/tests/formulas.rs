@@ -12,7 +12,8 @@ use symplectic_compiler::emit::{Header, system};
 use symplectic_compiler::formula::derivative::gradient;
 use symplectic_compiler::formula::evaluate::{Evaluator, Point};
 use symplectic_compiler::formula::graph::{Half, integer};
-use symplectic_compiler::formula::{Form, Kinetic, Structure, System};
+use symplectic_compiler::formula::hessian::MomentumHessian;
+use symplectic_compiler::formula::{Form, Kinetic, Structure, System, description};
 
 fn read(text: &str) -> (System, Structure) {
     formula::read(Form::Hamiltonian, text)
@@ -163,6 +164,75 @@ fn wrong_formulas_are_refused_at_their_place() {
         refused("P q: [x], p: [px]; H = px^2 + x^((((1/3)^400)^400)^400)"),
     ];
     expect_file!["data/formulas_refused.txt"].assert_eq(&(all.join("\n\n") + "\n"));
+}
+
+#[test]
+fn degenerate_and_polynomial_hamiltonians_are_found() {
+    let found = |h: &str| {
+        let (_, structure) = read(&format!("S {{ g }} q: [x, y], p: [px, py]; H = {h}"));
+        (structure.hessian, structure.degree)
+    };
+    let singular = MomentumHessian::Singular { rank: 1, size: 2 };
+    for (h, hessian, degree) in [
+        ("x px + y py", MomentumHessian::Zero, Some(2)),
+        ("x px + y^2 py^2", singular, Some(4)),
+        ("(px + py)^2/2 - x", singular, Some(2)),
+        ("(px cos(x) + py sin(x))^2/2", singular, None),
+        // Singular by identities that are seen exactly, and by one that is seen in doubles.
+        (
+            "px^2 cos(x)^2 + py^2 (1 - cos(x)^2) + px py sin(2 x)",
+            singular,
+            None,
+        ),
+        (
+            "px^2 cos(x)^2 + py^2 (1 - cos(x)^2) + 2 px py sin(x) cos(x)",
+            singular,
+            None,
+        ),
+        ("px py", MomentumHessian::Regular, Some(2)),
+        ("sqrt(1 + |p|^2) + x", MomentumHessian::Regular, None),
+        // A polynomial with coefficients that are not.
+        (
+            "|p|^2 exp(t) + sqrt(g) x^3",
+            MomentumHessian::Regular,
+            Some(3),
+        ),
+        // The fourth powers cancel.
+        (
+            "|p|^2 + (x + y)^4 - (x^2 + 2 x y + y^2)^2 + x y^2",
+            MomentumHessian::Regular,
+            Some(3),
+        ),
+        ("|p|^2 + (x + 1)^2 - x^2", MomentumHessian::Regular, Some(2)),
+        ("|p|^2 + x/(1 + y^2)", MomentumHessian::Regular, None),
+        ("|p|^2/(2 + g) + sqrt(x^2)", MomentumHessian::Regular, None),
+    ] {
+        assert_eq!(found(h), (hessian, degree), "{h}");
+    }
+    let fput = read(FPUT).1;
+    assert_eq!(
+        (fput.hessian, fput.degree),
+        (MomentumHessian::Regular, Some(4))
+    );
+    let bodies = |h: &str| read(&format!("S<N> q: [N; 2], p: [N; 2]; H = {h}"));
+    let (system, structure) = bodies("sum(i: p[i][0]^2 + p[i][1]) + sum(i < j: |q[i] - q[j]|^2)");
+    assert!(matches!(
+        structure.hessian,
+        MomentumHessian::Singular { .. }
+    ));
+    let facts = description::facts(&system, &structure).join("; ");
+    assert!(
+        facts.contains("degenerate: ∂²H/∂p² is singular at random points"),
+        "{facts}"
+    );
+    assert!(facts.contains("a polynomial of degree 2"), "{facts}");
+    let coupled = bodies("sum(i: p[i][0])^2 + sum(i < j: |p[i] - p[j]|^2)").1;
+    assert!(matches!(coupled.hessian, MomentumHessian::Singular { .. }));
+    let planets = read(PLANETS).1;
+    assert_eq!(
+        (planets.hessian, planets.degree),
+        (MomentumHessian::Regular, None)
+    );
 }
 
 #[test]

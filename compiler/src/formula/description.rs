@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::derivative::gradient;
 use super::display::{Notation, number_text};
 use super::graph::{Base, Coordinate, Half, Id, Index, Loop, LoopId, LoopRange, Number, integer};
+use super::hessian::MomentumHessian;
 use super::structure::{Kinetic, Structure};
 use super::syntax::Length;
 use super::system::{Layout, Regularity, Shape, System};
@@ -15,6 +16,9 @@ use super::system::{Layout, Regularity, Shape, System};
 const MOST_LINES: usize = 2_000;
 /// Longest page.
 const MOST_CHARACTERS: usize = 8_000;
+
+/// Longest display on a page.
+const MOST_KATEX: usize = 2_000;
 
 /// The two halves of the equations of motion: what is differentiated by, what changes, and the sign.
 const HALVES: [(Half, Half, i64); 2] = [(Half::P, Half::Q, 1), (Half::Q, Half::P, -1)];
@@ -102,7 +106,31 @@ pub fn page(system: &System, structure: &Structure) -> String {
         text = "The formula is too long to be shown.".to_owned();
     }
     let facts = facts(system, structure).join("; ");
-    format!("\n\n```text\n{text}\n```\n\nFound in the formula: {facts}.\n")
+    let display = katex(system);
+    format!("\n\n```text\n{text}\n```\n\n{display}Found in the formula: {facts}.\n")
+}
+
+/// H and the equations of motion for KaTeX in Markdown; nothing if they are long.
+fn katex(system: &System) -> String {
+    let energy = system.formula(system.energy, Notation::Latex);
+    let mut lines = vec![format!("H = {energy}")];
+    lines.extend(system.equations_of_motion(Notation::Latex));
+    let mut display = String::new();
+    for line in lines {
+        display.push_str("$$");
+        for letter in line.chars() {
+            // What Markdown would take for its own.
+            if "\\_*'<>[]".contains(letter) {
+                display.push('\\');
+            }
+            display.push(letter);
+        }
+        display.push_str("$$\n");
+    }
+    match display.len() <= MOST_KATEX {
+        true => display + "\n",
+        false => String::new(),
+    }
 }
 
 /// Everything about a system, for people.
@@ -215,6 +243,13 @@ pub fn json(system: &System, structure: &Structure) -> Value {
         "kinetic_energy": kinetic,
         "time_dependent": structure.time_dependent,
         "chain": structure.chain.is_some(),
+        "polynomial_degree": structure.degree,
+        "momentum_hessian": match structure.hessian {
+            MomentumHessian::Zero => Some("zero"),
+            MomentumHessian::Singular { .. } => Some("singular"),
+            MomentumHessian::Regular => Some("regular"),
+            MomentumHessian::Unknown => None,
+        },
         "cyclic": cyclic,
         "conserved": conserved,
     });
@@ -279,6 +314,23 @@ pub fn facts(system: &System, structure: &Structure) -> Vec<String> {
             facts.push("the mass matrix is regular at random points".to_owned());
         }
         None => {}
+    }
+    match structure.hessian {
+        MomentumHessian::Zero => {
+            facts.push("degenerate: linear in the momenta, so ∂²H/∂p² is zero".to_owned());
+        }
+        MomentumHessian::Singular { rank, size } => facts.push(match system.layout.length() {
+            Length::Fixed(_) => format!(
+                "degenerate: ∂²H/∂p² is singular, of rank {rank} for {size} momenta, at random points"
+            ),
+            _ => "degenerate: ∂²H/∂p² is singular at random points".to_owned(),
+        }),
+        MomentumHessian::Regular | MomentumHessian::Unknown => {}
+    }
+    if let Some(degree) = structure.degree {
+        facts.push(format!(
+            "a polynomial of degree {degree} in positions and momenta"
+        ));
     }
     if structure.chain.is_some() {
         facts.push("a chain of neighbours".to_owned());

@@ -19,10 +19,12 @@
 //! | from L to H | [`legendre`] |
 //! | whether a formula vanishes | [`modular`] |
 //! | class, kinetic energy, symmetries | [`structure`] |
+//! | the degree of a polynomial, a singular `∂²H/∂p²` | [`degree`], [`hessian`] |
 //! | as text, LaTeX and JSON | [`description`], [`display`] |
 //! | as Rust | [`emit::system`](crate::emit::system()) |
 
 mod check;
+pub mod degree;
 pub mod derivative;
 pub mod description;
 pub mod display;
@@ -31,6 +33,7 @@ mod error;
 pub mod evaluate;
 pub mod function;
 pub mod graph;
+pub mod hessian;
 pub mod legendre;
 pub mod modular;
 pub mod parse;

@@ -43,6 +43,16 @@ impl Points {
         }
     }
 
+    /// The points with exact numbers.
+    pub fn exact(&self) -> &[Point<Modular>] {
+        &self.exact
+    }
+
+    /// The points in doubles.
+    pub fn doubles(&self) -> &[Point<f64>] {
+        &self.doubles
+    }
+
     /// Whether a node, in a loop or in none, is zero at all points; in doubles, up to rounding of a number of the size of `scale`.
     pub fn vanishes(&self, graph: &Graph, id: Id, scale: Id, within: Option<LoopId>) -> bool {
         if let Some(value) = graph.value(id) {
@@ -118,6 +128,16 @@ impl Modular {
 
     fn map(self, function: impl FnOnce(u64) -> u64) -> Self {
         Modular(self.0.map(function))
+    }
+
+    /// Whether it is known, and not zero.
+    pub fn is_not_zero(self) -> bool {
+        self.0.is_some_and(|x| x != 0)
+    }
+
+    /// 0 for zero, and 1 for any other number; `None` where it is not known.
+    pub fn size(self) -> Option<f64> {
+        self.0.map(|x| if x == 0 { 0.0 } else { 1.0 })
     }
 
     fn inverse(self) -> Self {

@@ -127,6 +127,12 @@ impl Layout {
 }
 
 impl System {
+    /// Where a node, or the node that it is a multiple of, was read first.
+    pub fn place_of(&self, id: Id) -> Option<&Span> {
+        let inner = self.graph.scaled(id).1;
+        self.places.get(&inner).or_else(|| self.places.get(&id))
+    }
+
     /// What a coordinate with a number is called.
     pub fn name_of(&self, coordinate: &Coordinate) -> String {
         let index = usize::try_from(coordinate.index.offset).unwrap_or(0);

@@ -40,7 +40,7 @@ pub(super) fn transform(
         .as_ref()
         .map_or(0..0, |written| written.span.clone());
     if let Some(part) = not_quadratic(&mut system.graph, formula) {
-        let place = system.places.get(&part).unwrap_or(&whole);
+        let place = system.place_of(part).unwrap_or(&whole);
         return Err(input.error(place, FormulaError::NotQuadratic.into()));
     }
     let Some(masses) = Masses::of(&mut system, formula) else {
@@ -137,8 +137,8 @@ struct Constraint {
     velocity: usize,
     /// Its block, as rows of all velocities.
     block: Vec<usize>,
-    /// The velocities.
-    names: Vec<Coordinate>,
+    /// All velocities.
+    velocities: Vec<Coordinate>,
     /// What is zero.
     residual: Id,
     /// Whether the velocity is in L at all.
@@ -148,7 +148,7 @@ struct Constraint {
 impl Constraint {
     fn error(&self, system: &System) -> FormulaError {
         let name = |k: usize, half| {
-            let coordinate = self.names[k].of(half);
+            let coordinate = self.velocities[k].of(half);
             system.coordinate_name(&coordinate, Notation::Text)
         };
         let residual = system.formula(self.residual, Notation::Text);
@@ -192,7 +192,7 @@ impl Masses {
         let constraint = |block: &[usize], k: usize, residual: Id| Constraint {
             velocity: k,
             block: block.to_vec(),
-            names: self.velocities.clone(),
+            velocities: self.velocities.clone(),
             residual,
             appears: self.appears[k],
         };

@@ -18,12 +18,14 @@
 //!
 //! Factors that follow one another are multiplied: `2 pa pb cos(d)`.
 
+mod form;
 mod statements;
 mod tokens;
 
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
 
+pub use self::form::form;
 use self::tokens::{Token, tokenize};
 use super::error::FormulaError;
 use super::function::Function;
@@ -65,35 +67,6 @@ pub fn parse(input: Input<'_>, form: Form) -> Result<Definition, Error> {
         in_bars: Vec::new(),
     };
     parser.definition()
-}
-
-/// What a text gives: L, if a statement begins with `L =` or `v:`, else H.
-pub fn form(input: Input<'_>) -> Form {
-    let Ok(tokens) = tokenize(input) else {
-        return Form::Hamiltonian;
-    };
-    let mut depth = 0_usize;
-    for (k, (token, _)) in tokens.iter().enumerate() {
-        match token {
-            Token::Symbol('(' | '[' | '{') => depth += 1,
-            Token::Symbol(')' | ']' | '}') => depth = depth.saturating_sub(1),
-            Token::Name(name) if depth == 0 => {
-                let sign = match name.as_str() {
-                    "L" => '=',
-                    "v" => ':',
-                    _ => continue,
-                };
-                let follows = tokens.get(k + 1).map(|(token, _)| token);
-                let before = k.checked_sub(1).map(|k| &tokens[k].0);
-                let abbreviation = before == Some(&Token::Name("let".to_owned()));
-                if follows == Some(&Token::Symbol(sign)) && !abbreviation {
-                    return Form::Lagrangian;
-                }
-            }
-            _ => {}
-        }
-    }
-    Form::Hamiltonian
 }
 
 struct Parser<'a> {
