@@ -190,6 +190,13 @@ fn degenerate_and_polynomial_hamiltonians_are_found() {
             None,
         ),
         ("px py", MomentumHessian::Regular, Some(2)),
+        // In any units.
+        ("px^2/2e-27 + py^2/2", MomentumHessian::Regular, Some(2)),
+        (
+            "1e27 px^2/2 + 1e13 px py + py^2",
+            MomentumHessian::Regular,
+            Some(2),
+        ),
         ("sqrt(1 + |p|^2) + x", MomentumHessian::Regular, None),
         // A polynomial with coefficients that are not.
         (

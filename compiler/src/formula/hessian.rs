@@ -12,7 +12,7 @@ use super::system::System;
 /// Most momenta whose second derivatives are looked at.
 const MOST_MOMENTA: usize = 60;
 
-/// A pivot below this, relative to the largest entry, is zero.
+/// A pivot below this, relative to its row and column, is zero.
 const ROUNDING: f64 = 1e-11;
 
 /// What is known of `∂²H/∂p²`.
@@ -91,25 +91,45 @@ fn largest_rank<R: Real>(
     found.max()
 }
 
-/// The rank of a matrix; `None` where an entry is not known.
+/// The rank of a matrix; `None` where an entry is not known. Sizes are relative to those of rows and columns, so that units do not matter.
 fn rank<R: Real>(mut matrix: Vec<Vec<R>>, size: impl Fn(&R) -> Option<f64>) -> Option<usize> {
-    let mut smallest = None;
-    for rank in 0..matrix.len() {
-        let mut pivot = (0.0, rank, rank);
+    let count = matrix.len();
+    let mut sizes = Vec::with_capacity(count);
+    for row in &matrix {
+        let row: Option<Vec<f64>> = row.iter().map(&size).collect();
+        sizes.push(row?);
+    }
+    let largest = |found: &mut dyn Iterator<Item = f64>| found.fold(0.0, f64::max);
+    let or_one = |size: f64| if size > 0.0 { size } else { 1.0 };
+    let mut rows: Vec<f64> = sizes
+        .iter()
+        .map(|row| or_one(largest(&mut row.iter().copied())))
+        .collect();
+    let column = |k: usize| {
+        let mut relative = sizes.iter().zip(&rows).map(|(row, scale)| row[k] / scale);
+        or_one(largest(&mut relative))
+    };
+    let mut columns: Vec<f64> = (0..count).map(column).collect();
+    for rank in 0..count {
+        let mut pivot = (ROUNDING, None);
         for (row, entries) in matrix.iter().enumerate().skip(rank) {
             for (column, entry) in entries.iter().enumerate().skip(rank) {
-                let entry = size(entry).filter(|size| size.is_finite())?;
+                let entry = size(entry)? / (rows[row] * columns[column]);
+                if !entry.is_finite() {
+                    return None;
+                }
                 if entry > pivot.0 {
-                    pivot = (entry, row, column);
+                    pivot = (entry, Some((row, column)));
                 }
             }
         }
-        let (largest, row, column) = pivot;
-        if largest <= *smallest.get_or_insert(ROUNDING * largest) {
+        let Some((row, column)) = pivot.1 else {
             return Some(rank);
-        }
+        };
         matrix.swap(rank, row);
+        rows.swap(rank, row);
         matrix.iter_mut().for_each(|row| row.swap(rank, column));
+        columns.swap(rank, column);
         let (above, below) = matrix.split_at_mut(rank + 1);
         let pivot = &above[rank];
         let inverse = pivot[rank].power(&integer(-1));
@@ -122,5 +142,5 @@ fn rank<R: Real>(mut matrix: Vec<Vec<R>>, size: impl Fn(&R) -> Option<f64>) -> O
             }
         }
     }
-    Some(matrix.len())
+    Some(count)
 }
