@@ -1,35 +1,31 @@
 //! Formulas: what is emitted for them, what is refused, and their derivatives.
 
+mod formula;
+
 use expect_test::expect_file;
 use f256::f256;
+use formula::Wide;
 use proc_macro2::TokenStream;
 use proptest::prelude::*;
 use quote::{format_ident, quote};
 use symplectic_compiler::emit::{Header, system};
 use symplectic_compiler::formula::derivative::gradient;
-use symplectic_compiler::formula::evaluate::{Evaluator, Point, Real};
-use symplectic_compiler::formula::function::Elementary;
-use symplectic_compiler::formula::graph::{Half, Number, integer};
-use symplectic_compiler::formula::{Kinetic, Structure, System};
+use symplectic_compiler::formula::evaluate::{Evaluator, Point};
+use symplectic_compiler::formula::graph::{Half, integer};
+use symplectic_compiler::formula::hessian::MomentumHessian;
+use symplectic_compiler::formula::{Form, Kinetic, Structure, System, description};
 
 fn read(text: &str) -> (System, Structure) {
-    let mut read = System::read("formula", text).unwrap_or_else(|error| panic!("{error}"));
-    let structure = Structure::of(&mut read);
-    read.check(&structure, text)
-        .unwrap_or_else(|error| panic!("{error}"));
-    (read, structure)
+    formula::read(Form::Hamiltonian, text)
 }
 
 fn code(text: &str) -> String {
     let (read, structure) = read(text);
-    let header = Header {
-        attributes: TokenStream::new(),
-        visibility: quote!(pub),
-        name: format_ident!("{}", read.name),
-    };
-    let tokens = system(&read, &structure, &header);
-    let file = syn::parse2(tokens.clone()).unwrap_or_else(|error| panic!("{error}\n{tokens}"));
-    prettyplease::unparse(&file)
+    formula::code(&read, &structure)
+}
+
+fn refused(text: &str) -> String {
+    formula::refused(Form::Hamiltonian, text)
 }
 
 const DOUBLE_PENDULUM: &str = "DoublePendulum { g: 9.81 }
@@ -107,29 +103,6 @@ fn what_is_found_in_a_formula() {
     assert!(read(&unequal).1.chain.is_none());
 }
 
-/// The error of a definition, with the place under it.
-fn refused(text: &str) -> String {
-    let found = System::read("formula", text).and_then(|mut read| {
-        let structure = Structure::of(&mut read);
-        read.check(&structure, text)
-    });
-    let error = match found {
-        Err(error) => error,
-        Ok(()) => return format!("{text}\naccepted"),
-    };
-    let span = error
-        .place
-        .as_ref()
-        .map_or(0..0, |place| place.span.clone());
-    let blank = |text: &str| " ".repeat(text.chars().count());
-    let carets = "^".repeat(text[span.clone()].chars().count().max(1));
-    format!(
-        "{text}\n{}{carets} {}",
-        blank(&text[..span.start]),
-        error.kind
-    )
-}
-
 #[test]
 fn wrong_formulas_are_refused_at_their_place() {
     let pendulum = |h: &str| refused(&format!("P {{ g: 9.81, m: [3] }} q: [a], p: [pa]; H = {h}"));
@@ -191,6 +164,82 @@ fn wrong_formulas_are_refused_at_their_place() {
         refused("P q: [x], p: [px]; H = px^2 + x^((((1/3)^400)^400)^400)"),
     ];
     expect_file!["data/formulas_refused.txt"].assert_eq(&(all.join("\n\n") + "\n"));
+}
+
+#[test]
+fn degenerate_and_polynomial_hamiltonians_are_found() {
+    let found = |h: &str| {
+        let (_, structure) = read(&format!("S {{ g }} q: [x, y], p: [px, py]; H = {h}"));
+        (structure.hessian, structure.degree)
+    };
+    let singular = MomentumHessian::Singular { rank: 1, size: 2 };
+    for (h, hessian, degree) in [
+        ("x px + y py", MomentumHessian::Zero, Some(2)),
+        ("x px + y^2 py^2", singular, Some(4)),
+        ("(px + py)^2/2 - x", singular, Some(2)),
+        ("(px cos(x) + py sin(x))^2/2", singular, None),
+        // Singular by identities that are seen exactly, and by one that is seen in doubles.
+        (
+            "px^2 cos(x)^2 + py^2 (1 - cos(x)^2) + px py sin(2 x)",
+            singular,
+            None,
+        ),
+        (
+            "px^2 cos(x)^2 + py^2 (1 - cos(x)^2) + 2 px py sin(x) cos(x)",
+            singular,
+            None,
+        ),
+        ("px py", MomentumHessian::Regular, Some(2)),
+        // In any units.
+        ("px^2/2e-27 + py^2/2", MomentumHessian::Regular, Some(2)),
+        (
+            "1e27 px^2/2 + 1e13 px py + py^2",
+            MomentumHessian::Regular,
+            Some(2),
+        ),
+        ("sqrt(1 + |p|^2) + x", MomentumHessian::Regular, None),
+        // A polynomial with coefficients that are not.
+        (
+            "|p|^2 exp(t) + sqrt(g) x^3",
+            MomentumHessian::Regular,
+            Some(3),
+        ),
+        // The fourth powers cancel.
+        (
+            "|p|^2 + (x + y)^4 - (x^2 + 2 x y + y^2)^2 + x y^2",
+            MomentumHessian::Regular,
+            Some(3),
+        ),
+        ("|p|^2 + (x + 1)^2 - x^2", MomentumHessian::Regular, Some(2)),
+        ("|p|^2 + x/(1 + y^2)", MomentumHessian::Regular, None),
+        ("|p|^2/(2 + g) + sqrt(x^2)", MomentumHessian::Regular, None),
+    ] {
+        assert_eq!(found(h), (hessian, degree), "{h}");
+    }
+    let fput = read(FPUT).1;
+    assert_eq!(
+        (fput.hessian, fput.degree),
+        (MomentumHessian::Regular, Some(4))
+    );
+    let bodies = |h: &str| read(&format!("S<N> q: [N; 2], p: [N; 2]; H = {h}"));
+    let (system, structure) = bodies("sum(i: p[i][0]^2 + p[i][1]) + sum(i < j: |q[i] - q[j]|^2)");
+    assert!(matches!(
+        structure.hessian,
+        MomentumHessian::Singular { .. }
+    ));
+    let facts = description::facts(&system, &structure).join("; ");
+    assert!(
+        facts.contains("degenerate: ∂²H/∂p² is singular at random points"),
+        "{facts}"
+    );
+    assert!(facts.contains("a polynomial of degree 2"), "{facts}");
+    let coupled = bodies("sum(i: p[i][0])^2 + sum(i < j: |p[i] - p[j]|^2)").1;
+    assert!(matches!(coupled.hessian, MomentumHessian::Singular { .. }));
+    let planets = read(PLANETS).1;
+    assert_eq!(
+        (planets.hessian, planets.degree),
+        (MomentumHessian::Regular, None)
+    );
 }
 
 #[test]
@@ -272,63 +321,6 @@ fn long_formulas_are_read() {
             .split
             .is_ok()
     );
-}
-
-/// A number of 71 digits.
-#[derive(Clone, Debug)]
-struct Wide(f256);
-
-impl Real for Wide {
-    fn number(value: &Number) -> Self {
-        let parse = |n: &num_bigint::BigInt| n.to_string().parse::<f256>().expect("a number");
-        Wide(parse(value.numer()) / parse(value.denom()))
-    }
-
-    fn pi() -> Self {
-        Wide(f256::ONE.atan() * f256::from(4.0))
-    }
-
-    fn add(&self, other: &Self) -> Self {
-        Wide(self.0 + other.0)
-    }
-
-    fn multiply(&self, other: &Self) -> Self {
-        Wide(self.0 * other.0)
-    }
-
-    fn power(&self, exponent: &Number) -> Self {
-        if exponent.is_integer() {
-            let n: i64 = exponent.numer().try_into().expect("a small exponent");
-            let mut power = f256::ONE;
-            for _ in 0..n.unsigned_abs() {
-                power *= self.0;
-            }
-            return Wide(if n < 0 { f256::ONE / power } else { power });
-        }
-        Wide((self.0.ln() * Self::number(exponent).0).exp())
-    }
-
-    fn elementary(&self, function: Elementary) -> Self {
-        let x = self.0;
-        let half = f256::from(0.5);
-        Wide(match function {
-            Elementary::Exp => x.exp(),
-            Elementary::Ln => x.ln(),
-            Elementary::Sin => x.sin(),
-            Elementary::Cos => x.cos(),
-            Elementary::Tan => x.tan(),
-            Elementary::Asin => x.asin(),
-            Elementary::Acos => x.acos(),
-            Elementary::Atan => x.atan(),
-            Elementary::Sinh => (x.exp() - (-x).exp()) * half,
-            Elementary::Cosh => (x.exp() + (-x).exp()) * half,
-            Elementary::Tanh => (x.exp() - (-x).exp()) / (x.exp() + (-x).exp()),
-        })
-    }
-
-    fn atan2(&self, x: &Self) -> Self {
-        Wide(self.0.atan2(&x.0))
-    }
 }
 
 /// Random formulas of two coordinates, `depth` operations deep.

@@ -1,16 +1,17 @@
-//! From the formula of a Hamiltonian to code.
+//! From the formula of a Hamiltonian or a Lagrangian to code.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::ToTokens;
 use symplectic_compiler::emit::{Header, system};
-use symplectic_compiler::formula::{Structure, System};
-use syn::parse::{Parse, ParseStream};
+use symplectic_compiler::formula::{Form, Structure, System};
+use syn::parse::ParseStream;
 use syn::{Attribute, Visibility};
 
 use crate::source::Source;
 
-/// What is written in `hamiltonian! { … }`.
+/// What is written in `hamiltonian! { … }` or `lagrangian! { … }`.
 pub struct Definition {
+    form: Form,
     attributes: Vec<Attribute>,
     visibility: Visibility,
     name: Ident,
@@ -18,18 +19,26 @@ pub struct Definition {
     text: TokenStream,
 }
 
-impl Parse for Definition {
-    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        const SHAPE: &str =
-            "expected a system: `Pendulum { g: 9.81 } q: [a], p: [pa]; H = pa^2/2 - g cos(a)`";
+impl Definition {
+    /// Reads the name; the rest is for the compiler.
+    pub fn parse(input: ParseStream<'_>, form: Form) -> syn::Result<Self> {
+        let shape = match form {
+            Form::Hamiltonian => {
+                "expected a system: `Pendulum { g: 9.81 } q: [a], p: [pa]; H = pa^2/2 - g cos(a)`"
+            }
+            Form::Lagrangian => {
+                "expected a system: `Pendulum { g: 9.81 } q: [a], v: [va]; L = va^2/2 + g cos(a)`"
+            }
+        };
         let attributes = input.call(Attribute::parse_outer)?;
         let visibility = input.parse()?;
         let name: Ident = input
             .parse()
-            .map_err(|error| syn::Error::new(error.span(), SHAPE))?;
+            .map_err(|error| syn::Error::new(error.span(), shape))?;
         let mut text = name.to_token_stream();
         text.extend(input.parse::<TokenStream>()?);
         Ok(Definition {
+            form,
             attributes,
             visibility,
             name,
@@ -42,7 +51,8 @@ impl Parse for Definition {
 pub fn expand(definition: Definition) -> syn::Result<TokenStream> {
     let source = Source::new(definition.text);
     let located = |error| source.locate(&error);
-    let mut read = System::read("hamiltonian!", &source.text).map_err(located)?;
+    let form = definition.form;
+    let mut read = System::read_as(form, form.macro_name(), &source.text).map_err(located)?;
     let structure = Structure::of(&mut read);
     read.check(&structure, &source.text).map_err(located)?;
     let attributes = &definition.attributes;

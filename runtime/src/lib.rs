@@ -19,7 +19,7 @@
 //!
 //! | What | Where |
 //! |---|---|
-//! | The system: a formula, closures or a trait | [`hamiltonian!`]; [`separable`], [`hamiltonian()`], [`acceleration`]; [`SeparableHamiltonian`], [`Hamiltonian`]; [`system`] |
+//! | The system: a formula, closures or a trait | [`hamiltonian!`], [`lagrangian!`]; [`separable`], [`hamiltonian()`], [`acceleration`]; [`SeparableHamiltonian`], [`Hamiltonian`]; [`system`] |
 //! | Numbers and vectors | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors), [`simd`] |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`RunTimeTableau`] |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
@@ -97,7 +97,7 @@ pub use output::{Event, Events, Invariant, Moment, Progress};
 pub use state::State;
 pub use system::{
     Class, General, Hamiltonian, Separable, SeparableHamiltonian, System, acceleration,
-    hamiltonian, separable,
+    hamiltonian, lagrangian, separable,
 };
 
 /// Code that needs vectors on the heap.

@@ -7,6 +7,7 @@ pub mod counted;
 pub mod counting;
 pub mod drift;
 pub mod formulas;
+pub mod lagrangians;
 pub mod linear_stability;
 pub mod measure;
 pub mod methods;

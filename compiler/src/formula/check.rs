@@ -54,11 +54,7 @@ impl System {
 
     fn require(&self, structure: &Structure, name: &Name, input: Input<'_>) -> Result<(), Error> {
         let fail = |property: &'static str, reason: String, id: Option<Id>| {
-            let place = id.and_then(|id| {
-                self.places
-                    .get(&self.graph.scaled(id).1)
-                    .or_else(|| self.places.get(&id))
-            });
+            let place = id.and_then(|id| self.place_of(id));
             let span = place.unwrap_or(&name.span);
             Err(input.error(span, FormulaError::Property { property, reason }.into()))
         };

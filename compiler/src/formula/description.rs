@@ -1,4 +1,4 @@
-//! A system in words: H, the equations of motion, and what was found.
+//! A system in words: L, H, the equations of motion, and what was found.
 
 use num_traits::One;
 
@@ -7,14 +7,18 @@ use serde_json::{Value, json};
 use super::derivative::gradient;
 use super::display::{Notation, number_text};
 use super::graph::{Base, Coordinate, Half, Id, Index, Loop, LoopId, LoopRange, Number, integer};
+use super::hessian::MomentumHessian;
 use super::structure::{Kinetic, Structure};
 use super::syntax::Length;
-use super::system::{Layout, Shape, System};
+use super::system::{Layout, Regularity, Shape, System};
 
 /// Most second derivatives that are shown.
 const MOST_LINES: usize = 2_000;
 /// Longest page.
 const MOST_CHARACTERS: usize = 8_000;
+
+/// Longest display on a page.
+const MOST_KATEX: usize = 2_000;
 
 /// The two halves of the equations of motion: what is differentiated by, what changes, and the sign.
 const HALVES: [(Half, Half, i64); 2] = [(Half::P, Half::Q, 1), (Half::Q, Half::P, -1)];
@@ -29,6 +33,30 @@ impl System {
             lines.extend(copy.equations(dotted, &parts, notation));
         }
         lines
+    }
+
+    /// The Lagrangian that H was derived from.
+    pub fn lagrangian_formula(&self, notation: Notation) -> Option<String> {
+        let lagrangian = self.lagrangian.as_ref()?;
+        Some(self.formula(lagrangian.formula, notation))
+    }
+
+    /// The momenta `p = ∂L/∂v` of a Lagrangian, a line for each part.
+    pub fn momentum_equations(&self, notation: Notation) -> Vec<String> {
+        let Some(lagrangian) = &self.lagrangian else {
+            return Vec::new();
+        };
+        let mut copy = self.clone();
+        let parts = gradient(
+            &mut copy.graph,
+            lagrangian.formula,
+            &[],
+            Number::one(),
+            Half::V,
+        );
+        copy.lines(&parts, notation, |target| {
+            copy.coordinate_name(&target.of(Half::P), notation)
+        })
     }
 
     /// The second derivatives of H, a line for each part of one that is not zero.
@@ -70,11 +98,39 @@ pub fn page(system: &System, structure: &Structure) -> String {
     let energy = system.formula(system.energy, Notation::Text);
     let equations = system.equations_of_motion(Notation::Text).join("\n");
     let mut text = format!("H = {energy}\n\n{equations}");
+    if let Some(lagrangian) = system.lagrangian_formula(Notation::Text) {
+        let momenta = system.momentum_equations(Notation::Text).join("\n");
+        text = format!("L = {lagrangian}\n\n{momenta}\n\n{text}");
+    }
     if text.len() > MOST_CHARACTERS {
         text = "The formula is too long to be shown.".to_owned();
     }
     let facts = facts(system, structure).join("; ");
-    format!("\n\n```text\n{text}\n```\n\nFound in the formula: {facts}.\n")
+    let display = katex(system);
+    format!("\n\n```text\n{text}\n```\n\n{display}Found in the formula: {facts}.\n")
+}
+
+/// H and the equations of motion for KaTeX in Markdown; nothing if they are long.
+fn katex(system: &System) -> String {
+    let energy = system.formula(system.energy, Notation::Latex);
+    let mut lines = vec![format!("H = {energy}")];
+    lines.extend(system.equations_of_motion(Notation::Latex));
+    let mut display = String::new();
+    for line in lines {
+        display.push_str("$$");
+        for letter in line.chars() {
+            // What Markdown would take for its own.
+            if "\\_*'<>[]".contains(letter) {
+                display.push('\\');
+            }
+            display.push(letter);
+        }
+        display.push_str("$$\n");
+    }
+    match display.len() <= MOST_KATEX {
+        true => display + "\n",
+        false => String::new(),
+    }
 }
 
 /// Everything about a system, for people.
@@ -97,6 +153,10 @@ pub fn text(system: &System, structure: &Structure) -> String {
     if !parameters.is_empty() {
         section("parameters", &parameters);
     }
+    if let Some(lagrangian) = system.lagrangian_formula(Notation::Text) {
+        section("Lagrangian", &[format!("L = {lagrangian}")]);
+        section("momenta", &system.momentum_equations(Notation::Text));
+    }
     section(
         "Hamiltonian",
         &[format!(
@@ -118,10 +178,15 @@ pub fn text(system: &System, structure: &Structure) -> String {
 
 /// The equations of a system for LaTeX: an `aligned` environment.
 pub fn latex(system: &System) -> String {
-    let mut lines = vec![format!(
+    let mut lines = Vec::new();
+    if let Some(lagrangian) = system.lagrangian_formula(Notation::Latex) {
+        lines.push(format!("L = {lagrangian}"));
+        lines.extend(system.momentum_equations(Notation::Latex));
+    }
+    lines.push(format!(
         "H = {}",
         system.formula(system.energy, Notation::Latex)
-    )];
+    ));
     lines.extend(system.equations_of_motion(Notation::Latex));
     lines.extend(system.second_derivatives(Notation::Latex));
     let lines: Vec<String> = lines
@@ -165,7 +230,7 @@ pub fn json(system: &System, structure: &Structure) -> Value {
         .map(|(name, _)| *name)
         .collect();
     let both = |lines: fn(&System, Notation) -> Vec<String>| json!({ "text": lines(system, Notation::Text), "latex": lines(system, Notation::Latex) });
-    json!({
+    let mut all = json!({
         "name": system.name,
         "parameters": parameters,
         "hamiltonian": {
@@ -178,9 +243,28 @@ pub fn json(system: &System, structure: &Structure) -> Value {
         "kinetic_energy": kinetic,
         "time_dependent": structure.time_dependent,
         "chain": structure.chain.is_some(),
+        "polynomial_degree": structure.degree,
+        "momentum_hessian": match structure.hessian {
+            MomentumHessian::Zero => Some("zero"),
+            MomentumHessian::Singular { .. } => Some("singular"),
+            MomentumHessian::Regular => Some("regular"),
+            MomentumHessian::Unknown => None,
+        },
         "cyclic": cyclic,
         "conserved": conserved,
-    })
+    });
+    if let Some(lagrangian) = &system.lagrangian {
+        all["lagrangian"] = json!({
+            "text": system.lagrangian_formula(Notation::Text),
+            "latex": system.lagrangian_formula(Notation::Latex),
+        });
+        all["momenta"] = both(System::momentum_equations);
+        all["regular_mass_matrix"] = json!(match lagrangian.regularity {
+            Regularity::Proved => "proved",
+            Regularity::AtRandomPoints => "at random points",
+        });
+    }
+    all
 }
 
 /// The value of a parameter, or the shape that it has.
@@ -222,6 +306,32 @@ pub fn facts(system: &System, structure: &Structure) -> Vec<String> {
         }
         .to_owned(),
     );
+    match system.lagrangian.as_ref().map(|known| known.regularity) {
+        Some(Regularity::Proved) => {
+            facts.push("the mass matrix is proved regular".to_owned());
+        }
+        Some(Regularity::AtRandomPoints) => {
+            facts.push("the mass matrix is regular at random points".to_owned());
+        }
+        None => {}
+    }
+    match structure.hessian {
+        MomentumHessian::Zero => {
+            facts.push("degenerate: linear in the momenta, so ∂²H/∂p² is zero".to_owned());
+        }
+        MomentumHessian::Singular { rank, size } => facts.push(match system.layout.length() {
+            Length::Fixed(_) => format!(
+                "degenerate: ∂²H/∂p² is singular, of rank {rank} for {size} momenta, at random points"
+            ),
+            _ => "degenerate: ∂²H/∂p² is singular at random points".to_owned(),
+        }),
+        MomentumHessian::Regular | MomentumHessian::Unknown => {}
+    }
+    if let Some(degree) = structure.degree {
+        facts.push(format!(
+            "a polynomial of degree {degree} in positions and momenta"
+        ));
+    }
     if structure.chain.is_some() {
         facts.push("a chain of neighbours".to_owned());
     }

@@ -50,20 +50,30 @@ impl System {
 
     /// A derivative, one line for each part: `q'[i] = …`, or `+=` where several are added.
     pub fn equations(&self, dotted: Half, parts: &[Scatter], notation: Notation) -> Vec<String> {
-        // Whether each line is the whole of a derivative.
-        let single = parts.iter().all(|part| part.loops.is_empty());
-        let alone = single || each_once(self, parts);
-        let lines = parts.iter().map(|part| {
-            let mut target = part.target.clone();
-            target.half = dotted;
-            let name = self.coordinate_name(&target, notation);
-            let name = match notation {
+        self.lines(parts, notation, |target| {
+            let name = self.coordinate_name(&target.of(dotted), notation);
+            match notation {
                 Notation::Text => match name.split_once('[') {
                     Some((head, rest)) => format!("{head}'[{rest}"),
                     None => format!("{name}'"),
                 },
                 Notation::Latex => format!("\\dot{{{name}}}"),
-            };
+            }
+        })
+    }
+
+    /// A derivative, one line for each part; `name` says what is on the left.
+    pub(super) fn lines(
+        &self,
+        parts: &[Scatter],
+        notation: Notation,
+        name: impl Fn(&Coordinate) -> String,
+    ) -> Vec<String> {
+        // Whether each line is the whole of a derivative.
+        let single = parts.iter().all(|part| part.loops.is_empty());
+        let alone = single || each_once(self, parts);
+        let lines = parts.iter().map(|part| {
+            let name = name(&part.target);
             let sign = match (alone, notation) {
                 (true, _) => "=",
                 (false, Notation::Text) => "+=",
@@ -115,19 +125,10 @@ impl System {
         if coordinate.index == STRETCH {
             return "d".to_owned();
         }
-        let half = match coordinate.half {
-            Half::Q => "q",
-            Half::P => "p",
-        };
+        let half = coordinate.half.letter();
         let index = index_text(&coordinate.index);
         match (&self.layout, notation) {
-            (Layout::Named(_), _) => {
-                let name = self.layout.name(
-                    coordinate.half,
-                    usize::try_from(coordinate.index.offset).unwrap_or(0),
-                );
-                symbol(&name, notation)
-            }
+            (Layout::Named(_), _) => symbol(&self.name_of(coordinate), notation),
             (Layout::Numbered(_, None), Notation::Text) => format!("{half}[{index}]"),
             (Layout::Numbered(_, None), Notation::Latex) => format!("{half}_{{{index}}}"),
             (Layout::Numbered(_, Some(_)), Notation::Text) => {

@@ -26,6 +26,43 @@ pub enum FormulaError {
         /// What it is.
         part: String,
     },
+    /// A part of the other form: H in a Lagrangian, or L in a Hamiltonian.
+    #[error(
+        "`{found}` does not belong here: write `{coordinates}` and `{function} = …`, or take `{other}`"
+    )]
+    OtherForm {
+        /// What was written.
+        found: String,
+        /// The letter of the function.
+        function: &'static str,
+        /// How coordinates are declared.
+        coordinates: &'static str,
+        /// The macro for what was written.
+        other: &'static str,
+    },
+    /// A momentum in a Lagrangian.
+    #[error(
+        "`{name}` is a momentum: L is a function of positions and velocities, and p = ∂L/∂v follows from it"
+    )]
+    MomentumInLagrangian {
+        /// The name.
+        name: String,
+    },
+    /// A Lagrangian that is not quadratic in the velocities.
+    #[error(
+        "this term is not quadratic in the velocities: only L = v·M v/2 + A·v − U, with functions M, A and U of q and t, is taken so far"
+    )]
+    NotQuadratic,
+    /// A mass matrix without an inverse.
+    #[error(
+        "{reason}: {constraint} is a primary constraint; only Lagrangians with a regular mass matrix are taken so far"
+    )]
+    Singular {
+        /// What is singular.
+        reason: String,
+        /// The relation of positions and momenta that follows.
+        constraint: String,
+    },
     /// A coordinate without influence.
     #[error("H does not depend on {coordinate}")]
     Unused {

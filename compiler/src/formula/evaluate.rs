@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::derivative::Scatter;
 use super::function::Elementary;
-use super::graph::{Base, Graph, Half, Id, Index, LoopId, LoopRange, Node, Number};
+use super::graph::{Base, Coordinate, Graph, Half, Id, Index, LoopId, LoopRange, Node, Number};
 
 /// Numbers that formulas can be evaluated with.
 pub trait Real: Clone {
@@ -29,7 +29,7 @@ pub trait Real: Clone {
 pub struct Point<R> {
     /// The time.
     pub time: R,
-    /// Positions and momenta, each with its components.
+    /// Positions, and momenta or velocities, each with its components.
     pub halves: [Vec<Vec<R>>; 2],
     /// The parameters, by rows.
     pub parameters: Vec<Vec<Vec<R>>>,
@@ -63,6 +63,12 @@ impl<'a, R: Real> Evaluator<'a, R> {
         }
     }
 
+    /// Fixes the index of a loop that the nodes stand in.
+    pub fn fix(&mut self, over: LoopId, index: usize) {
+        self.indices.insert(over, index);
+        self.forget(over);
+    }
+
     /// The value of a node; `None` where a function of the user is needed, or an entry does not exist.
     pub fn value(&mut self, id: Id) -> Option<R> {
         let order = self.graph.below([id]);
@@ -79,23 +85,51 @@ impl<'a, R: Real> Evaluator<'a, R> {
             .map(|all| vec![zero.clone(); all.len()])
             .collect();
         for part in parts {
-            self.scatter(part, 0, &mut sum)?;
+            self.scatter(part, 0, &mut |this, value| {
+                let index = this.index(&part.target.index)?;
+                let entry = sum.get_mut(index)?.get_mut(part.target.component)?;
+                *entry = entry.add(&value);
+                Some(())
+            })?;
         }
         Some(sum)
     }
 
-    fn scatter(&mut self, part: &Scatter, depth: usize, sum: &mut [Vec<R>]) -> Option<()> {
+    /// The matrix of second derivatives of which these are the parts, each after the coordinate of its row; components of a body are
+    /// next to each other.
+    pub fn matrix(&mut self, parts: &[(Coordinate, Scatter)]) -> Option<Vec<Vec<R>>> {
+        let components = self.point.halves[0].first().map_or(1, Vec::len);
+        let size = self.point.halves[0].len() * components;
+        let zero = R::number(&super::graph::integer(0));
+        let mut matrix = vec![vec![zero; size]; size];
+        for (row, part) in parts {
+            self.scatter(part, 0, &mut |this, value| {
+                let place = |target: &Coordinate| {
+                    Some(this.index(&target.index)? * components + target.component)
+                };
+                let entry = matrix.get_mut(place(row)?)?.get_mut(place(&part.target)?)?;
+                *entry = entry.add(&value);
+                Some(())
+            })?;
+        }
+        Some(matrix)
+    }
+
+    /// Computes a part of a derivative for all indices of its loops.
+    fn scatter(
+        &mut self,
+        part: &Scatter,
+        depth: usize,
+        add: &mut dyn FnMut(&Self, R) -> Option<()>,
+    ) -> Option<()> {
         let Some(&over) = part.loops.get(depth) else {
             let value = self.value(part.value)?;
-            let index = self.index(&part.target.index)?;
-            let entry = sum.get_mut(index)?.get_mut(part.target.component)?;
-            *entry = entry.add(&value);
-            return Some(());
+            return add(self, value);
         };
         for index in self.range(over)? {
             self.indices.insert(over, index);
             self.forget(over);
-            self.scatter(part, depth + 1, sum)?;
+            self.scatter(part, depth + 1, add)?;
         }
         self.indices.remove(&over);
         self.forget(over);
@@ -163,7 +197,7 @@ impl<'a, R: Real> Evaluator<'a, R> {
                 all.get(row)?.get(column)?.clone()
             }
             Node::Coordinate(coordinate) => {
-                let half = &self.point.halves[usize::from(coordinate.half == Half::P)];
+                let half = &self.point.halves[usize::from(coordinate.half != Half::Q)];
                 half.get(self.index(&coordinate.index)?)?
                     .get(coordinate.component)?
                     .clone()

@@ -20,13 +20,26 @@ pub type Number = BigRational;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Id(u32);
 
-/// Positions or momenta.
+/// Positions, momenta or velocities.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Half {
     /// Positions.
     Q,
     /// Momenta.
     P,
+    /// Velocities, in a Lagrangian.
+    V,
+}
+
+impl Half {
+    /// The letter of the vector.
+    pub fn letter(self) -> &'static str {
+        match self {
+            Half::Q => "q",
+            Half::P => "p",
+            Half::V => "v",
+        }
+    }
 }
 
 /// A loop over one index, or over the pairs of a list.
@@ -107,6 +120,16 @@ pub struct Coordinate {
     pub component: usize,
 }
 
+impl Coordinate {
+    /// The one of another half with the same index.
+    pub fn of(&self, half: Half) -> Self {
+        Coordinate {
+            half,
+            ..self.clone()
+        }
+    }
+}
+
 /// What a node is.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Node {
@@ -141,6 +164,8 @@ pub struct Dependence {
     pub q: bool,
     /// On momenta.
     pub p: bool,
+    /// On velocities.
+    pub v: bool,
     /// On the time.
     pub time: bool,
     /// The loops in which its value changes, as bits.
@@ -148,9 +173,11 @@ pub struct Dependence {
 }
 
 impl Dependence {
-    fn join(&mut self, other: Self) {
+    /// Adds what something else depends on.
+    pub fn join(&mut self, other: Self) {
         self.q |= other.q;
         self.p |= other.p;
+        self.v |= other.v;
         self.time |= other.time;
         self.loops |= other.loops;
     }
@@ -160,12 +187,13 @@ impl Dependence {
         match half {
             Half::Q => self.q,
             Half::P => self.p,
+            Half::V => self.v,
         }
     }
 
     /// Whether it is a function of parameters only.
     pub fn is_fixed(self) -> bool {
-        !(self.q || self.p || self.time)
+        !(self.q || self.p || self.v || self.time)
     }
 
     /// Whether it changes in a loop.
@@ -239,6 +267,7 @@ impl Graph {
             Node::Coordinate(coordinate) => {
                 depends.q = coordinate.half == Half::Q;
                 depends.p = coordinate.half == Half::P;
+                depends.v = coordinate.half == Half::V;
                 depends.loops = bits(&coordinate.index);
             }
             Node::Parameter(_, indices) => {
@@ -635,14 +664,24 @@ impl Graph {
         self.loops.len()
     }
 
+    /// All nodes, in the order in which they appeared.
+    pub fn ids(&self) -> impl Iterator<Item = Id> + use<> {
+        (0..self.nodes.len() as u32).map(Id)
+    }
+
     /// How many nodes there are.
     pub fn size(&self) -> usize {
         self.nodes.len()
     }
 
     /// Makes a node anew with other parts.
-    pub fn rebuild(&mut self, id: Id, mut part: impl FnMut(Id) -> Id) -> Id {
-        match self.node(id).clone() {
+    pub fn rebuild(&mut self, id: Id, part: impl FnMut(Id) -> Id) -> Id {
+        self.make(self.node(id).clone(), part)
+    }
+
+    /// Makes a node of another graph with the same loops, or of this one, with other parts.
+    pub fn make(&mut self, node: Node, mut part: impl FnMut(Id) -> Id) -> Id {
+        match node {
             Node::Sum(terms, constant) => {
                 let constant = (constant, self.integer(1));
                 let terms: Vec<_> = terms
@@ -666,7 +705,16 @@ impl Graph {
             | Node::Pi
             | Node::Time
             | Node::Parameter(..)
-            | Node::Coordinate(_) => id,
+            | Node::Coordinate(_) => self.add(node),
+        }
+    }
+
+    /// A graph with the same loops and no nodes.
+    pub fn with_loops_of(other: &Self) -> Self {
+        Graph {
+            loops: other.loops.clone(),
+            overflowed: other.overflowed,
+            ..Graph::default()
         }
     }
 }

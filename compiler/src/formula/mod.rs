@@ -1,4 +1,4 @@
-//! Hamiltonians as formulas: read, differentiated, and looked at.
+//! Hamiltonians and Lagrangians as formulas: read, differentiated, and looked at.
 //!
 //! ```
 //! use symplectic_compiler::formula::{System, Structure, Kinetic};
@@ -16,11 +16,15 @@
 //! | names, shapes and indices | [`elaborate`] |
 //! | formulas as a graph | [`graph`] |
 //! | derivatives | [`derivative`] |
+//! | from L to H | [`legendre`] |
+//! | whether a formula vanishes | [`modular`] |
 //! | class, kinetic energy, symmetries | [`structure`] |
+//! | the degree of a polynomial, a singular `∂²H/∂p²` | [`degree`], [`hessian`] |
 //! | as text, LaTeX and JSON | [`description`], [`display`] |
 //! | as Rust | [`emit::system`](crate::emit::system()) |
 
 mod check;
+pub mod degree;
 pub mod derivative;
 pub mod description;
 pub mod display;
@@ -30,27 +34,52 @@ mod error;
 pub mod evaluate;
 pub mod function;
 pub mod graph;
+pub mod hessian;
+pub mod legendre;
+pub mod modular;
 pub mod parse;
+mod rewrite;
 pub mod structure;
 pub mod syntax;
 mod system;
+mod trigonometry;
 
 pub use check::PROPERTIES;
 pub use error::FormulaError;
 pub use structure::{Kinetic, Structure};
-pub use system::{Bonds, Invariant, Layout, Parameter, Shape, System};
+pub use syntax::Form;
+pub use system::{Bonds, Invariant, Lagrangian, Layout, Parameter, Regularity, Shape, System};
 
 use crate::error::Error;
 use crate::expression::Input;
 
 impl System {
-    /// Reads the definition of a system; `name` says where the text is from.
+    /// Reads the definition of a system by its Hamiltonian; `name` says where the text is from.
     ///
     /// # Errors
     /// Anything that is wrong with it, at its place.
     pub fn read(name: &str, text: &str) -> Result<Self, Error> {
+        Self::read_as(Form::Hamiltonian, name, text)
+    }
+
+    /// Reads the definition of a system by its Hamiltonian or its Lagrangian; `name` says where the text is from.
+    ///
+    /// # Errors
+    /// Anything that is wrong with it, at its place.
+    pub fn read_as(form: Form, name: &str, text: &str) -> Result<Self, Error> {
         let input = Input { name, text };
-        let definition = parse::parse(input)?;
-        elaborate::elaborate(input, &definition)
+        let definition = parse::parse(input, form)?;
+        let system = elaborate::elaborate(input, &definition)?;
+        match form {
+            Form::Hamiltonian => Ok(system),
+            Form::Lagrangian => legendre::transform(system, &definition, input),
+        }
+    }
+}
+
+impl Form {
+    /// What a text gives: L, if it has `L = …` or `v: […]`, else H.
+    pub fn of(text: &str) -> Self {
+        parse::form(Input { name: "", text })
     }
 }

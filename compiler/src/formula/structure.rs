@@ -5,9 +5,11 @@
 
 use num_traits::{One, Zero};
 
+use super::degree::degree;
 use super::derivative::{Scatter, directional, gradient};
 use super::elaborate::STRETCH;
 use super::graph::{Base, Coordinate, Graph, Half, Id, Index, LoopId, LoopRange, Node, Number};
+use super::hessian::MomentumHessian;
 use super::syntax::Length;
 use super::system::{Layout, System};
 
@@ -28,6 +30,10 @@ pub struct Structure {
     pub rotations: Vec<[usize; 2]>,
     /// The potentials of a chain, if H is one.
     pub chain: Option<ChainParts>,
+    /// What is known of `∂²H/∂p²`.
+    pub hessian: MomentumHessian,
+    /// The degree of H in positions and momenta, if it is a polynomial.
+    pub degree: Option<usize>,
 }
 
 /// `H = T(t, p) + U(t, q)`
@@ -82,6 +88,8 @@ impl Structure {
             translations: translations(system),
             rotations: rotations(system),
             chain,
+            hessian: MomentumHessian::of(system),
+            degree: degree(system),
         }
     }
 }
@@ -97,7 +105,11 @@ enum Around {
 }
 
 /// The terms of a node that `whole` does not leave as they are, each with the node that it was a part of; `None` where there are too many.
-fn terms(graph: &mut Graph, root: Id, whole: impl Fn(&Graph, Id) -> bool) -> Option<Vec<(Id, Id)>> {
+pub(super) fn terms(
+    graph: &mut Graph,
+    root: Id,
+    whole: impl Fn(&Graph, Id) -> bool,
+) -> Option<Vec<(Id, Id)>> {
     let mut found = Vec::new();
     let mut open = vec![(root, Number::one(), Vec::<Around>::new())];
     let mut steps = 0;

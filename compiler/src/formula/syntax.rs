@@ -16,16 +16,69 @@ pub struct Name {
     pub span: Span,
 }
 
+/// What a definition gives: H of positions and momenta, or L of positions and velocities.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// `H = …`
+    Hamiltonian,
+    /// `L = …`
+    Lagrangian,
+}
+
+impl Form {
+    /// The letter of the function.
+    pub fn function(self) -> &'static str {
+        match self {
+            Form::Hamiltonian => "H",
+            Form::Lagrangian => "L",
+        }
+    }
+
+    /// The letter of what it depends on besides the positions.
+    pub fn second(self) -> &'static str {
+        match self {
+            Form::Hamiltonian => "p",
+            Form::Lagrangian => "v",
+        }
+    }
+
+    /// What that letter means.
+    pub fn second_meaning(self) -> &'static str {
+        match self {
+            Form::Hamiltonian => "momenta",
+            Form::Lagrangian => "velocities",
+        }
+    }
+
+    /// The macro that takes it.
+    pub fn macro_name(self) -> &'static str {
+        match self {
+            Form::Hamiltonian => "hamiltonian!",
+            Form::Lagrangian => "lagrangian!",
+        }
+    }
+
+    /// How coordinates are declared.
+    pub fn coordinates(self) -> &'static str {
+        match self {
+            Form::Hamiltonian => "q: [a, b], p: [pa, pb];",
+            Form::Lagrangian => "q: [a, b], v: [va, vb];",
+        }
+    }
+}
+
 /// A whole definition.
 #[derive(Debug, Clone)]
 pub struct Definition {
+    /// What it gives.
+    pub form: Form,
     /// The name of the system.
     pub name: Name,
     /// Lengths that the type of the system is generic in.
     pub lengths: Vec<Name>,
     /// Its parameters.
     pub parameters: Vec<Parameter>,
-    /// The positions and the momenta.
+    /// The positions, and the momenta or velocities.
     pub coordinates: [Option<Coordinates>; 2],
     /// How a chain ends.
     pub ends: Option<(Ends, Span)>,
@@ -33,8 +86,8 @@ pub struct Definition {
     pub functions: Vec<[Name; 3]>,
     /// Abbreviations, in order.
     pub abbreviations: Vec<Abbreviation>,
-    /// The Hamiltonian.
-    pub energy: Option<Expression>,
+    /// The Hamiltonian or the Lagrangian.
+    pub function: Option<Expression>,
     /// What is said to be conserved.
     pub invariants: Vec<(Name, Expression)>,
     /// What the system has to be.
@@ -85,7 +138,7 @@ pub struct Abbreviation {
     pub value: Expression,
 }
 
-/// Positions or momenta.
+/// Positions, momenta or velocities.
 #[derive(Debug, Clone)]
 pub struct Coordinates {
     /// What they are.
@@ -94,7 +147,7 @@ pub struct Coordinates {
     pub span: Span,
 }
 
-/// What positions or momenta are.
+/// What positions, momenta or velocities are.
 #[derive(Debug, Clone)]
 pub enum CoordinatesKind {
     /// Each with a name of its own.

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::graph::{Graph, Half, Id, Number};
+use super::graph::{Coordinate, Graph, Half, Id, Number};
 use super::syntax::{Ends, Length, Name, Span};
 
 /// A Hamiltonian system that was read from a formula.
@@ -26,6 +26,8 @@ pub struct System {
     pub graph: Graph,
     /// H
     pub energy: Id,
+    /// The Lagrangian that H was derived from.
+    pub lagrangian: Option<Lagrangian>,
     /// What is said to be conserved.
     pub invariants: Vec<Invariant>,
     /// What it has to be.
@@ -36,6 +38,26 @@ pub struct System {
     pub least: usize,
     /// Where nodes were read first.
     pub places: HashMap<Id, Span>,
+}
+
+/// A Lagrangian `L = v·M v/2 + A·v − U` with a regular matrix M.
+#[derive(Debug, Clone)]
+pub struct Lagrangian {
+    /// L
+    pub formula: Id,
+    /// The names of the velocities, where coordinates have names.
+    pub velocities: Vec<String>,
+    /// How it is known that M is regular.
+    pub regularity: Regularity,
+}
+
+/// How it is known that a matrix is regular.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Regularity {
+    /// It consists of numbers, and its determinant is not zero.
+    Proved,
+    /// Its determinant is not zero at random points.
+    AtRandomPoints,
 }
 
 /// A parameter.
@@ -95,10 +117,28 @@ impl Layout {
 
     /// What a coordinate is called.
     pub fn name(&self, half: Half, index: usize) -> String {
-        let k = usize::from(half == Half::P);
-        match self {
-            Layout::Named(names) => names[k][index].clone(),
-            Layout::Numbered(..) => format!("{}[{index}]", ["q", "p"][k]),
+        match (self, half) {
+            (Layout::Named([names, _]), Half::Q) | (Layout::Named([_, names]), Half::P) => {
+                names[index].clone()
+            }
+            (_, half) => format!("{}[{index}]", half.letter()),
+        }
+    }
+}
+
+impl System {
+    /// Where a node, or the node that it is a multiple of, was read first.
+    pub fn place_of(&self, id: Id) -> Option<&Span> {
+        let inner = self.graph.scaled(id).1;
+        self.places.get(&inner).or_else(|| self.places.get(&id))
+    }
+
+    /// What a coordinate with a number is called.
+    pub fn name_of(&self, coordinate: &Coordinate) -> String {
+        let index = usize::try_from(coordinate.index.offset).unwrap_or(0);
+        match (&self.lagrangian, &self.layout, coordinate.half) {
+            (Some(lagrangian), Layout::Named(_), Half::V) => lagrangian.velocities[index].clone(),
+            _ => self.layout.name(coordinate.half, index),
         }
     }
 }

@@ -9,6 +9,12 @@ pa' = (cos(a − b) (sin(a − b) ((pa² + 2 pb² − 2 pa pb cos(a − b))/(sin
 pb' = −g sin(b) − (cos(a − b) (sin(a − b) ((pa² + 2 pb² − 2 pa pb cos(a − b))/(sin(a − b)² + 1)²)) − sin(a − b) (pa pb/(sin(a − b)² + 1)))
 ```
 
+$$H = \\tfrac{1}{2}\\,\\frac{\\left({\\mathrm{pa}}^{2} + 2\\,{\\mathrm{pb}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right)\\right)}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)} - g\\,\\left(2\\,\\cos\\left(a\\right) + \\cos\\left(b\\right)\\right)$$
+$$\\dot{a} = \\frac{\\mathrm{pa}}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)} - \\frac{\\mathrm{pb}\\,\\cos\\left(a - b\\right)}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)}$$
+$$\\dot{b} = 2\\,\\frac{\\mathrm{pb}}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)} - \\frac{\\mathrm{pa}\\,\\cos\\left(a - b\\right)}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)}$$
+$$\\dot{\\mathrm{pa}} = \\left(\\cos\\left(a - b\\right)\\,\\left(\\sin\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} + 2\\,{\\mathrm{pb}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right)\\right)}{{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)}^{2}}\\right)\\right) - \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)}\\right)\\right) - 2\\,g\\,\\sin\\left(a\\right)$$
+$$\\dot{\\mathrm{pb}} = -g\\,\\sin\\left(b\\right) - \\left(\\cos\\left(a - b\\right)\\,\\left(\\sin\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} + 2\\,{\\mathrm{pb}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right)\\right)}{{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)}^{2}}\\right)\\right) - \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)}\\right)\\right)$$
+
 Found in the formula: not separable; independent of time, so H is conserved.
 */
 #[allow(non_snake_case)]

@@ -33,6 +33,8 @@
 /// [band](crate::Hamiltonian::half_bandwidth) where only neighbours interact. The page of the type shows H, the equations of motion
 /// and what was found.
 ///
+/// A system may also be given by its Lagrangian: [`lagrangian!`](macro@crate::lagrangian).
+///
 /// # Coordinates
 ///
 /// | written | coordinates | vectors |

@@ -21,4 +21,14 @@ symplectic::hamiltonian! {
     H = px^2/2 + |x|
 }
 
+symplectic::lagrangian! {
+    Degenerate q: [x, y], v: [vx, vy];
+    L = vy^2/2 - x y
+}
+
+symplectic::lagrangian! {
+    Relativistic { m, c } q: [3], v: [3];
+    L = -m c^2 sqrt(1 - |v|^2/c^2) - |q|^2
+}
+
 fn main() {}

@@ -122,9 +122,9 @@ impl Slopes {
 
     /// The velocity for `P`, the force for `Q`.
     fn slope(&self, half: Half, point: &Point<Precise>) -> Vec<Wide> {
-        let (parts, sign) = match half {
-            Half::Q => (&self.gradients[0], -Wide::one()),
-            Half::P => (&self.gradients[1], Wide::one()),
+        let (parts, sign) = match half == Half::P {
+            true => (&self.gradients[1], Wide::one()),
+            false => (&self.gradients[0], -Wide::one()),
         };
         let sum = Evaluator::new(&self.system.graph, point).sum(parts);
         let sum = sum.expect("values");

@@ -5,18 +5,18 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use symplectic_compiler::export::read_text;
-use symplectic_compiler::formula::{Structure, System, description};
+use symplectic_compiler::formula::{Form, Structure, System, description};
 use symplectic_compiler::{Error, ErrorKind};
 
 use crate::output;
 
-/// Derive the equations of motion of a Hamiltonian from its formula.
+/// Derive the equations of motion from the formula of a Hamiltonian or a Lagrangian.
 ///
-/// The formula is written as in `hamiltonian!`. Shown are the equations of motion, the second derivatives, and what was found:
+/// The formula is written as in `hamiltonian!` or `lagrangian!`. Shown are the equations of motion, the second derivatives, and what was found:
 /// whether H is separable, how the kinetic energy depends on the momenta, what is conserved.
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// A file with the formula, or a TOML file with the key `hamiltonian`.
+    /// A file with the formula, or a TOML file with the key `hamiltonian` or `lagrangian`.
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// The form of the output.
@@ -39,14 +39,15 @@ enum Format {
 pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let name = arguments.file.display().to_string();
     let mut text = read_text(&arguments.file)?;
+    let mut form = Form::of(&text);
     if arguments
         .file
         .extension()
         .is_some_and(|extension| extension == "toml")
     {
-        text = hamiltonian(&name, &text)?;
+        (form, text) = formula(&name, &text)?;
     }
-    let mut system = System::read(&name, &text)?;
+    let mut system = System::read_as(form, &name, &text)?;
     let structure = Structure::of(&mut system);
     system.check(&structure, &text)?;
     output::print(&match arguments.format {
@@ -57,15 +58,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
 }
 
 /// The formula in a TOML file.
-fn hamiltonian(name: &str, text: &str) -> Result<String, Error> {
+fn formula(name: &str, text: &str) -> Result<(Form, String), Error> {
     let refused = |message: String| Error::from(ErrorKind::Document { message });
     let table: toml::Table = text
         .parse()
         .map_err(|error| refused(format!("{name}: {error}")))?;
-    match table.get("hamiltonian").and_then(toml::Value::as_str) {
-        Some(formula) => Ok(formula.to_owned()),
-        None => Err(refused(format!(
-            "{name} has no key `hamiltonian` with a formula in quotes"
+    let value = |key: &str| table.get(key).and_then(toml::Value::as_str);
+    match (value("hamiltonian"), value("lagrangian")) {
+        (Some(formula), None) => Ok((Form::Hamiltonian, formula.to_owned())),
+        (None, Some(formula)) => Ok((Form::Lagrangian, formula.to_owned())),
+        (None, None) => Err(refused(format!(
+            "{name} has no key `hamiltonian` or `lagrangian` with a formula in quotes"
+        ))),
+        (Some(_), Some(_)) => Err(refused(format!(
+            "{name} has both keys `hamiltonian` and `lagrangian`: a system has one of them"
         ))),
     }
 }

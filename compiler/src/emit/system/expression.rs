@@ -319,6 +319,7 @@ impl Writer<'_> {
         let half = match coordinate.half {
             Half::Q => quote!(q),
             Half::P => quote!(p),
+            Half::V => quote!(v),
         };
         entry(&self.system.layout, &half, coordinate)
     }

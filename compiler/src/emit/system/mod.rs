@@ -11,6 +11,7 @@ mod expression;
 mod fields;
 mod invariants;
 mod jacobian;
+mod momentum;
 mod names;
 mod operations;
 
@@ -92,6 +93,7 @@ impl<'a> Emitter<'a> {
             (None, Ok(split)) => self.separable(split),
             (None, Err(_)) => self.general(),
         };
+        let momentum = self.momentum();
         let invariants = self.invariants();
         if self.system.graph.overflowed() {
             return quote!(::core::compile_error!("the derivatives have too many sums in one another"););
@@ -103,6 +105,8 @@ impl<'a> Emitter<'a> {
                 use ::symplectic::emitted::{One as _, Scalar, Zero as _};
 
                 #dynamics
+
+                #momentum
 
                 #invariants
             };

@@ -151,11 +151,7 @@ impl<'a> Operations<'a> {
         }
         let mut depends = Dependence::default();
         for operand in operation.operands() {
-            let inner = self.depends(operand);
-            depends.q |= inner.q;
-            depends.p |= inner.p;
-            depends.time |= inner.time;
-            depends.loops |= inner.loops;
+            depends.join(self.depends(operand));
         }
         if let Operation::Total(id, _) = operation {
             depends.loops &= !(1 << id.0);

@@ -1,22 +1,28 @@
 //! Coordinates and parameters.
 
 use super::super::error::FormulaError;
-use super::super::syntax::{CoordinatesKind, Definition, Length, Name, ParameterKind};
+use super::super::syntax::{CoordinatesKind, Definition, Form, Length, Name, ParameterKind};
 use super::super::system::{Layout, Parameter, Shape};
 use crate::error::{Error, ErrorKind};
 use crate::expression::Input;
 
-pub(super) fn layout(input: Input<'_>, definition: &Definition) -> Result<Layout, Error> {
+/// The layout of the coordinates, and the names of velocities.
+pub(super) fn layout(
+    input: Input<'_>,
+    definition: &Definition,
+) -> Result<(Layout, Vec<String>), Error> {
     let [q, p] = &definition.coordinates;
+    let form = definition.form;
+    let second = form.second_meaning();
     let missing = |part, example| {
         let kind = FormulaError::Missing { part, example };
         Err(input.error(&definition.name.span, kind.into()))
     };
     let Some(q) = q else {
-        return missing("positions", "q: [a, b], p: [pa, pb];");
+        return missing("positions", form.coordinates());
     };
     let Some(p) = p else {
-        return missing("momenta", "q: [a, b], p: [pa, pb];");
+        return missing(second, form.coordinates());
     };
     let (place, found) = match (&q.kind, &p.kind) {
         (CoordinatesKind::Named(q), CoordinatesKind::Named(momenta)) => {
@@ -25,43 +31,94 @@ pub(super) fn layout(input: Input<'_>, definition: &Definition) -> Result<Layout
                 if names.iter().any(|known| known.text == name.text) {
                     let kind = FormulaError::Taken {
                         name: name.text.clone(),
-                        meaning: "a coordinate or momentum".to_owned(),
+                        meaning: coordinate(form).to_owned(),
                     };
                     return Err(input.error(&name.span, kind.into()));
                 }
                 names.push(name);
             }
             if q.len() == momenta.len() {
-                let text = |names: &[Name]| names.iter().map(|name| name.text.clone()).collect();
-                return Ok(Layout::Named([text(q), text(momenta)]));
+                let text = |names: &[Name]| -> Vec<String> {
+                    names.iter().map(|name| name.text.clone()).collect()
+                };
+                let (positions, names) = (text(q), text(momenta));
+                return Ok(match form {
+                    Form::Hamiltonian => (Layout::Named([positions, names]), Vec::new()),
+                    Form::Lagrangian => {
+                        let momenta = momentum_names(definition, &positions, &names);
+                        (Layout::Named([positions, momenta]), names)
+                    }
+                });
             }
             (
                 &p.span,
-                format!("{} momenta for {} positions", momenta.len(), q.len()),
+                format!("{} {second} for {} positions", momenta.len(), q.len()),
             )
         }
         (CoordinatesKind::Numbered(length, components), CoordinatesKind::Numbered(n, k)) => {
             if (length, components) == (n, k) {
-                return Ok(Layout::Numbered(length.clone(), *components));
+                return Ok((Layout::Numbered(length.clone(), *components), Vec::new()));
             }
             (
                 &p.span,
-                "momenta of another shape than the positions".to_owned(),
+                format!("{second} of another shape than the positions"),
             )
         }
         _ => (
             &p.span,
-            "momenta of another kind than the positions".to_owned(),
+            format!("{second} of another kind than the positions"),
         ),
     };
-    let expected = "one momentum for each position".to_owned();
+    let single = match form {
+        Form::Hamiltonian => "momentum",
+        Form::Lagrangian => "velocity",
+    };
+    let expected = format!("one {single} for each position");
     Err(input.error(place, ErrorKind::Type { found, expected }))
+}
+
+/// What a name of a coordinate is, in a message.
+pub(super) fn coordinate(form: Form) -> &'static str {
+    match form {
+        Form::Hamiltonian => "a coordinate or momentum",
+        Form::Lagrangian => "a coordinate or velocity",
+    }
+}
+
+/// The names of the momenta in a Lagrangian system: `pa` for `a`, or `p_a`, `p__a`, … where that has a meaning.
+fn momentum_names(
+    definition: &Definition,
+    positions: &[String],
+    velocities: &[String],
+) -> Vec<String> {
+    let declared = definition
+        .parameters
+        .iter()
+        .map(|parameter| &parameter.name)
+        .chain(&definition.lengths)
+        .chain(definition.abbreviations.iter().map(|known| &known.name))
+        .chain(definition.functions.iter().flatten())
+        .map(|name| &name.text);
+    let mut taken: Vec<&String> = declared.chain(positions).chain(velocities).collect();
+    let pi = "pi".to_owned();
+    taken.push(&pi);
+    let name = |position: &String| {
+        let mut momentum = format!("p{position}");
+        let mut between = "_".to_owned();
+        while taken.contains(&&momentum) {
+            momentum = format!("p{between}{position}");
+            between.push('_');
+        }
+        momentum
+    };
+    positions.iter().map(name).collect()
 }
 
 pub(super) fn parameters(
     input: Input<'_>,
     definition: &Definition,
     layout: &Layout,
+    velocities: &[String],
 ) -> Result<Vec<Parameter>, Error> {
     let mut parameters: Vec<Parameter> = Vec::new();
     let taken = |name: &Name, meaning: &str| {
@@ -83,10 +140,12 @@ pub(super) fn parameters(
         {
             return taken(name, "a length");
         }
-        if let Layout::Named(names) = layout
-            && names.iter().flatten().any(|known| *known == name.text)
+        if layout
+            .names()
+            .chain(velocities)
+            .any(|known| *known == name.text)
         {
-            return taken(name, "a coordinate or momentum");
+            return taken(name, coordinate(definition.form));
         }
         let shape = match &parameter.kind {
             ParameterKind::Number(value) => Shape::Number(value.clone()),

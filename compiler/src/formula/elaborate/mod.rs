@@ -8,12 +8,12 @@ mod values;
 
 use std::collections::HashMap;
 
-use self::declarations::{layout, parameters};
+use self::declarations::{coordinate, layout, parameters};
 pub use self::totals::STRETCH;
 use super::error::FormulaError;
 use super::graph::{Base, Coordinate, Graph, Half, Id, Index, LoopId, Node};
-use super::syntax::{CoordinatesKind, Definition, Length, Span};
-use super::system::{Bonds, Invariant, Layout, Parameter, Shape, System};
+use super::syntax::{CoordinatesKind, Definition, Form, Length, Span};
+use super::system::{Bonds, Invariant, Lagrangian, Layout, Parameter, Regularity, Shape, System};
 use crate::error::Error;
 use crate::expression::Input;
 
@@ -42,17 +42,19 @@ enum Value {
     Abbreviation(usize),
 }
 
-/// Elaborates a definition.
+/// Elaborates a definition; the energy of a Lagrangian system is not known yet, and its place holds L.
 ///
 /// # Errors
 /// Unknown names, wrong shapes, indices outside, functions that are not smooth, each at its place.
 pub fn elaborate(input: Input<'_>, definition: &Definition) -> Result<System, Error> {
-    let layout = layout(input, definition)?;
-    let parameters = parameters(input, definition, &layout)?;
+    let (layout, velocities) = layout(input, definition)?;
+    let parameters = parameters(input, definition, &layout, &velocities)?;
     let elaborator = Elaborator {
         input,
         definition,
         layout,
+        velocities,
+        momenta_hidden: definition.form == Form::Lagrangian,
         parameters,
         graph: Graph::default(),
         names: HashMap::new(),
@@ -71,6 +73,10 @@ struct Elaborator<'a> {
     input: Input<'a>,
     definition: &'a Definition,
     layout: Layout,
+    /// The names of velocities.
+    velocities: Vec<String>,
+    /// Whether momenta are not known here.
+    momenta_hidden: bool,
     parameters: Vec<Parameter>,
     graph: Graph,
     /// What names mean.
@@ -94,7 +100,8 @@ impl Elaborator<'_> {
     fn run(mut self) -> Result<System, Error> {
         let definition = self.definition;
         if let Layout::Named(names) = self.layout.clone() {
-            for (half, names) in [Half::Q, Half::P].into_iter().zip(&names) {
+            let names = names.iter().chain([&self.velocities]);
+            for (half, names) in [Half::Q, Half::P, Half::V].into_iter().zip(names) {
                 for (k, name) in names.iter().enumerate() {
                     let coordinate = Coordinate {
                         half,
@@ -120,6 +127,9 @@ impl Elaborator<'_> {
         for (half, name) in [(Half::Q, "q"), (Half::P, "p")] {
             self.names.insert(name.to_owned(), Value::Half(half));
         }
+        if definition.form == Form::Lagrangian {
+            self.names.insert("v".to_owned(), Value::Half(Half::V));
+        }
         for (k, abbreviation) in definition.abbreviations.iter().enumerate() {
             let name = &abbreviation.name;
             if self.names.contains_key(&name.text) {
@@ -131,22 +141,26 @@ impl Elaborator<'_> {
             };
             self.names.insert(name.text.clone(), value);
         }
-        let Some(written) = &definition.energy else {
-            let kind = FormulaError::Missing {
-                part: "Hamiltonian",
-                example: "H = p^2/2 - cos(q)",
+        let Some(written) = &definition.function else {
+            let (part, example) = match definition.form {
+                Form::Hamiltonian => ("Hamiltonian", "H = p^2/2 - cos(q)"),
+                Form::Lagrangian => ("Lagrangian", "L = v^2/2 + cos(q)"),
             };
+            let kind = FormulaError::Missing { part, example };
             return Err(self.input.error(&definition.name.span, kind.into()));
         };
         let energy = self.scalar(written)?;
+        self.momenta_hidden = false;
         let mut invariants: Vec<Invariant> = Vec::new();
         for (name, written) in &definition.invariants {
             let constructor = name.text == "new";
-            if constructor || invariants.iter().any(|known| known.name == name.text) {
-                let meaning = if constructor {
-                    "what makes a system"
-                } else {
-                    "an invariant"
+            let velocities =
+                definition.form == Form::Lagrangian && name.text == "momentum_of_velocity";
+            if constructor || velocities || invariants.iter().any(|known| known.name == name.text) {
+                let meaning = match (constructor, velocities) {
+                    (true, _) => "what makes a system",
+                    (_, true) => "the function for p = ∂L/∂v",
+                    _ => "an invariant",
                 };
                 let kind = FormulaError::Taken {
                     name: name.text.clone(),
@@ -158,6 +172,13 @@ impl Elaborator<'_> {
                 Value::Scalar(id) => (vec![id], true),
                 value => (self.components(value, written)?, false),
             };
+            if parts.iter().any(|&part| self.graph.depends(part).v) {
+                let kind = FormulaError::Unsupported {
+                    what: "a velocity in a conserved quantity".to_owned(),
+                    instead: "write it with the momenta: `p`, or `pa` for the coordinate `a`",
+                };
+                return self.error(written, kind);
+            }
             invariants.push(Invariant {
                 name: name.text.clone(),
                 span: name.span.clone(),
@@ -166,7 +187,17 @@ impl Elaborator<'_> {
                 proved: false,
             });
         }
-        self.all_appear(energy)?;
+        let lagrangian = match definition.form {
+            Form::Hamiltonian => {
+                self.all_appear(energy)?;
+                None
+            }
+            Form::Lagrangian => Some(Lagrangian {
+                formula: energy,
+                velocities: self.velocities,
+                regularity: Regularity::AtRandomPoints,
+            }),
+        };
         Ok(System {
             source: self.input.name.to_owned(),
             name: definition.name.text.clone(),
@@ -185,6 +216,7 @@ impl Elaborator<'_> {
                 .collect(),
             graph: self.graph,
             energy,
+            lagrangian,
             invariants,
             required: definition.required.clone(),
             bonds: self.bonds,
@@ -198,6 +230,7 @@ impl Elaborator<'_> {
         match self.names.get(name) {
             Some(Value::Half(Half::Q)) => "the positions".to_owned(),
             Some(Value::Half(Half::P)) => "the momenta".to_owned(),
+            Some(Value::Half(Half::V)) => "the velocities".to_owned(),
             Some(Value::Parameter(_)) => "a parameter".to_owned(),
             Some(Value::Index(_)) => "an index or a length".to_owned(),
             _ if self
@@ -207,8 +240,13 @@ impl Elaborator<'_> {
             {
                 "a parameter".to_owned()
             }
-            _ if self.layout.names().any(|known| known == name) => {
-                "a coordinate or momentum".to_owned()
+            _ if self
+                .layout
+                .names()
+                .chain(&self.velocities)
+                .any(|known| known == name) =>
+            {
+                coordinate(self.definition.form).to_owned()
             }
             _ => "an abbreviation".to_owned(),
         }

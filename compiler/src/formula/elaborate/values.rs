@@ -5,7 +5,7 @@ use super::{Elaborator, MOST_COMPONENTS, MOST_NODES, Value};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::function::ELEMENTARY;
-use crate::formula::graph::{Coordinate, Half, Id, Index};
+use crate::formula::graph::{Coordinate, Half, Id, Index, Node};
 use crate::formula::parse::VECTOR_FUNCTIONS;
 use crate::formula::syntax::{Expression, Kind, Length, Name};
 use crate::formula::system::{Layout, Shape};
@@ -47,6 +47,7 @@ impl Elaborator<'_> {
             Value::Matrix(rows) => format!("a matrix of {} rows", rows.len()),
             Value::Half(Half::Q) => "the array of all positions".to_owned(),
             Value::Half(Half::P) => "the array of all momenta".to_owned(),
+            Value::Half(Half::V) => "the array of all velocities".to_owned(),
             Value::Parameter(k) => format!("the whole parameter `{}`", self.parameters[*k].name),
             Value::Index(_) => "an index".to_owned(),
             Value::Abbreviation(_) => "an abbreviation with arguments".to_owned(),
@@ -163,8 +164,23 @@ impl Elaborator<'_> {
         })
     }
 
+    fn is_momentum(&self, value: &Value) -> bool {
+        match value {
+            Value::Half(half) => *half == Half::P,
+            Value::Scalar(id) => matches!(
+                self.graph.node(*id),
+                Node::Coordinate(coordinate) if coordinate.half == Half::P
+            ),
+            _ => false,
+        }
+    }
+
     pub(super) fn name(&mut self, name: &str, at: &Expression) -> Result<Value, Error> {
         if let Some(value) = self.names.get(name) {
+            if self.momenta_hidden && self.is_momentum(value) {
+                let name = name.to_owned();
+                return self.error(at, FormulaError::MomentumInLagrangian { name });
+            }
             return Ok(value.clone());
         }
         match name {
@@ -172,10 +188,12 @@ impl Elaborator<'_> {
             "t" => return Ok(Value::Scalar(self.graph.time())),
             _ => {}
         }
-        let mut known: Vec<&str> = self
+        let visible = self
             .names
-            .keys()
-            .map(String::as_str)
+            .iter()
+            .filter(|(_, value)| !(self.momenta_hidden && self.is_momentum(value)));
+        let mut known: Vec<&str> = visible
+            .map(|(name, _)| name.as_str())
             .chain(["pi", "t"])
             .collect();
         known.sort_unstable();

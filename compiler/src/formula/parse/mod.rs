@@ -3,11 +3,11 @@
 //! ```text
 //! system     = name [ "<" lengths ">" ] [ "{" parameters "}" ] { statement }
 //! parameter  = name [ ":" ( number | "[" shape "]" | "pairs" ) ]
-//! statement  = "q" ":" coordinates "," "p" ":" coordinates ";"    coordinates = "[" names | length [ ";" number ] "]"
+//! statement  = "q" ":" coordinates "," ( "p" | "v" ) ":" coordinates ";"    coordinates = "[" names | length [ ";" number ] "]"
 //!            | "bonds" ":" ( "walls" | "free" | "ring" ) ";"
 //!            | "extern" "fn" name "with" name "," name ";"
 //!            | "let" name [ "(" names ")" ] "=" expression ";"
-//!            | "H" "=" expression
+//!            | ( "H" | "L" ) "=" expression
 //!            | "invariants" ":" "{" name "=" expression { "," … } "}"
 //!            | "require" ":" "[" names "]"
 //! expression = term { ("+" | "-") term }      term = factor { [ "*" | "/" ] factor }      factor = { "-" } atom [ "^" factor ]
@@ -18,23 +18,25 @@
 //!
 //! Factors that follow one another are multiplied: `2 pa pb cos(d)`.
 
+mod form;
 mod statements;
 mod tokens;
 
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
 
+pub use self::form::form;
 use self::tokens::{Token, tokenize};
 use super::error::FormulaError;
 use super::function::Function;
-use super::syntax::{Definition, Expression, Kind, Name, Over, Span};
+use super::syntax::{Definition, Expression, Form, Kind, Name, Over, Span};
 use crate::error::{Error, ErrorKind};
 use crate::expression::Input;
 
 /// The deepest nesting of parentheses.
 const MAX_DEPTH: usize = 64;
 /// Words that are not names.
-pub const KEYWORDS: [&str; 12] = [
+const KEYWORDS: [&str; 12] = [
     "H",
     "q",
     "p",
@@ -53,10 +55,11 @@ pub const KEYWORDS: [&str; 12] = [
 ///
 /// # Errors
 /// Anything that does not follow the grammar, at its place.
-pub fn parse(input: Input<'_>) -> Result<Definition, Error> {
+pub fn parse(input: Input<'_>, form: Form) -> Result<Definition, Error> {
     let tokens = tokenize(input)?;
     let mut parser = Parser {
         input,
+        form,
         tokens,
         next: 0,
         depth: 0,
@@ -68,6 +71,7 @@ pub fn parse(input: Input<'_>) -> Result<Definition, Error> {
 
 struct Parser<'a> {
     input: Input<'a>,
+    form: Form,
     tokens: Vec<(Token, Span)>,
     next: usize,
     depth: usize,
@@ -157,6 +161,10 @@ impl Parser<'_> {
         Ok(Name { text, span })
     }
 
+    fn is_keyword(&self, word: &str) -> bool {
+        KEYWORDS.contains(&word) || word == self.form.function() || word == self.form.second()
+    }
+
     /// A name of the user's choice.
     fn new_name(&mut self, expected: &str) -> Result<Name, Error> {
         let name = self.name(expected)?;
@@ -166,6 +174,8 @@ impl Parser<'_> {
             "q" => "the positions",
             "p" => "the momenta",
             "H" => "the Hamiltonian",
+            "v" if self.form == Form::Lagrangian => "the velocities",
+            "L" if self.form == Form::Lagrangian => "the Lagrangian",
             word if KEYWORDS.contains(&word) => "a word of the language",
             word if is_function(word) => "a function",
             _ => return Ok(name),
@@ -237,7 +247,7 @@ impl Parser<'_> {
             Token::Symbol('|') => self.in_bars.last() != Some(&true),
             Token::Name(name) => {
                 let other = match self.ahead(1) {
-                    Token::Symbol(':' | '=') => KEYWORDS.contains(&name.as_str()),
+                    Token::Symbol(':' | '=') => self.is_keyword(name),
                     _ => false,
                 };
                 !other
@@ -245,6 +255,7 @@ impl Parser<'_> {
                         name.as_str(),
                         "in" | "let" | "extern" | "fn" | "invariants" | "require" | "H"
                     )
+                    && name != self.form.function()
             }
             _ => false,
         }

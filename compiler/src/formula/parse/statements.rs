@@ -7,13 +7,14 @@ use super::{Parser, constant};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::syntax::{
-    Abbreviation, Coordinates, CoordinatesKind, Definition, Ends, Length, Name, Parameter,
+    Abbreviation, Coordinates, CoordinatesKind, Definition, Ends, Form, Length, Name, Parameter,
     ParameterKind,
 };
 
 impl Parser<'_> {
     pub(super) fn definition(&mut self) -> Result<Definition, Error> {
         let mut definition = Definition {
+            form: self.form,
             name: self.name("the name of the system")?,
             lengths: Vec::new(),
             parameters: Vec::new(),
@@ -21,7 +22,7 @@ impl Parser<'_> {
             ends: None,
             functions: Vec::new(),
             abbreviations: Vec::new(),
-            energy: None,
+            function: None,
             invariants: Vec::new(),
             required: Vec::new(),
         };
@@ -170,18 +171,19 @@ impl Parser<'_> {
                 .error(&span, FormulaError::Twice { part }.into()))
         };
         let Token::Name(word) = self.peek().clone() else {
-            return Err(self.unexpected(STATEMENT));
+            return Err(self.unexpected(statement(self.form)));
         };
         self.next += 1;
         match word.as_str() {
-            "q" | "p" => {
-                let half = usize::from(word == "p");
-                self.expect(':', "`:` and the coordinates: `q: [a, b], p: [pa, pb];`")?;
+            word if word == "q" || word == self.form.second() => {
+                let half = usize::from(word != "q");
+                let example = self.form.coordinates();
+                self.expect(':', &format!("`:` and the coordinates: `{example}`"))?;
                 if definition.coordinates[half].is_some() {
                     return twice(self, &format!("`{word}`"));
                 }
                 definition.coordinates[half] = Some(self.coordinates(definition)?);
-                // `q: […], p: […];`
+                // `q: […], p: […];`, or `v: […];`
                 if !self.accept(',') && !self.accept(';') {
                     return Err(self.unexpected("`,` or `;`"));
                 }
@@ -246,12 +248,12 @@ impl Parser<'_> {
                     value,
                 });
             }
-            "H" => {
-                self.expect('=', "`=` and the Hamiltonian")?;
-                if definition.energy.is_some() {
-                    return twice(self, "H");
+            word if word == self.form.function() => {
+                self.expect('=', "`=` and the formula")?;
+                if definition.function.is_some() {
+                    return twice(self, word);
                 }
-                definition.energy = Some(self.expression()?);
+                definition.function = Some(self.expression()?);
                 let ends = matches!(self.peek(), Token::End | Token::Name(_));
                 if !self.accept(';') && !ends {
                     return Err(self.unexpected("an operator or `;`"));
@@ -287,9 +289,21 @@ impl Parser<'_> {
                 self.close(&open, ['[', ']'])?;
                 self.accept(';');
             }
+            "H" | "L" | "p" | "v" if self.is('=') || self.is(':') => {
+                let kind = FormulaError::OtherForm {
+                    found: word,
+                    function: self.form.function(),
+                    coordinates: self.form.coordinates(),
+                    other: match self.form {
+                        Form::Hamiltonian => Form::Lagrangian.macro_name(),
+                        Form::Lagrangian => Form::Hamiltonian.macro_name(),
+                    },
+                };
+                return Err(self.input.error(&span, kind.into()));
+            }
             _ => {
                 self.next -= 1;
-                return Err(self.unexpected(STATEMENT));
+                return Err(self.unexpected(statement(self.form)));
             }
         }
         Ok(())
@@ -335,4 +349,13 @@ impl Parser<'_> {
 }
 
 /// What a statement may begin with.
-const STATEMENT: &str = "`q: […], p: […];`, `let …;`, `H = …`, `bonds: …;`, `extern fn …;`, `invariants: {…}` or `require: […]`";
+fn statement(form: Form) -> &'static str {
+    match form {
+        Form::Hamiltonian => {
+            "`q: […], p: […];`, `let …;`, `H = …`, `bonds: …;`, `extern fn …;`, `invariants: {…}` or `require: […]`"
+        }
+        Form::Lagrangian => {
+            "`q: […], v: […];`, `let …;`, `L = …`, `bonds: …;`, `extern fn …;`, `invariants: {…}` or `require: […]`"
+        }
+    }
+}
