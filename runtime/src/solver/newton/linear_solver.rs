@@ -6,8 +6,8 @@ use core::marker::PhantomData;
 
 use super::every_stage::{AllStages, EveryStage, NOT_FINITE};
 use super::jacobian::{BandMatrix, Derivatives, Jacobian};
-use super::lu::{Complex, Elimination};
 use crate::method::Failure;
+use crate::number::elimination::{Complex, Elimination};
 use crate::number::{Scalar, Vector, Visit, scalar_words};
 use crate::system::{Class, System};
 
