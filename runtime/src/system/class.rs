@@ -1,14 +1,22 @@
 //! The kinds of Hamiltonian that a method has a plan for.
 
+#[cfg(feature = "alloc")]
+use core::marker::PhantomData;
+
+#[cfg(feature = "alloc")]
+use crate::method::ConstrainedPlan;
 use crate::method::{Method, Plan};
 
 mod sealed {
     pub trait Sealed {}
     impl Sealed for super::General {}
     impl Sealed for super::Separable {}
+    #[cfg(feature = "alloc")]
+    impl<C> Sealed for super::Constrained<C> {}
 }
 
-/// What the derivatives of a [`Hamiltonian`](crate::Hamiltonian) depend on: [`General`] or [`Separable`].
+/// What the derivatives of a [`Hamiltonian`](crate::Hamiltonian) depend on: [`General`] or [`Separable`]; with holonomic
+/// constraints [`Constrained`].
 ///
 /// It picks the [`Plan`] of a [`Method`], while compiling. Sealed.
 pub trait Class: sealed::Sealed + Sized + 'static {
@@ -17,6 +25,17 @@ pub trait Class: sealed::Sealed + Sized + 'static {
     /// Whether the velocity depends on the momentum only, and the force on the position only.
     const SEPARABLE: bool;
 }
+
+/// A class without constraints: [`General`] or [`Separable`]. Every method that is proved for general Hamiltonians is proved for it.
+///
+/// Code that is generic over the system and takes one such method says `S::Class: Unconstrained`.
+pub trait Unconstrained {}
+
+impl Unconstrained for General {}
+
+impl Unconstrained for Separable {}
+
+impl Unconstrained for () {}
 
 /// Velocity and force may depend on position and momentum both.
 #[derive(Clone, Copy, Debug)]
@@ -34,4 +53,23 @@ impl Class for General {
 impl Class for Separable {
     type Plan<M: Method> = M::Separable;
     const SEPARABLE: bool = true;
+}
+
+/// `H` of class `C`, [`Separable`] or [`General`], with holonomic constraints `φ(q) = 0`:
+///
+/// ```text
+/// q' = ∂H/∂p      p' = −∂H/∂q − Gᵀλ      φ(q) = 0      G = ∂φ/∂q
+/// ```
+///
+/// The constraints are in [`Hamiltonian::constraint_values`](crate::Hamiltonian::constraint_values). Methods that are `constrained`
+/// step such systems: Lobatto IIIA–IIIB, which with two stages is RATTLE, other pairs whose stages are at both ends of the step, and
+/// compositions of them. For any other method [`Integrator::new`](crate::Integrator::new) does not compile.
+#[cfg(feature = "alloc")]
+#[derive(Clone, Copy, Debug)]
+pub struct Constrained<C>(PhantomData<C>);
+
+#[cfg(feature = "alloc")]
+impl<C: Class + Unconstrained> Class for Constrained<C> {
+    type Plan<M: Method> = ConstrainedPlan<M, C>;
+    const SEPARABLE: bool = C::SEPARABLE;
 }

@@ -1,6 +1,8 @@
 //! The systems that are integrated: a Hamiltonian, written once for every scalar.
 
 use crate::number::{F64x2, F64x4, F64x8, Scalar, Vector};
+#[cfg(feature = "alloc")]
+use crate::system::Gradients;
 use crate::system::{Class, Separable};
 
 /// A Hamiltonian system, given by the right-hand sides of Hamilton's equations
@@ -138,6 +140,71 @@ pub trait Hamiltonian {
     /// H at `(time, q, p)`, where the system knows it. No method needs it.
     fn energy<T: Scalar>(&self, _time: T, _q: &Self::Vector<T>, _p: &Self::Vector<T>) -> Option<T> {
         None
+    }
+
+    /// The number m of holonomic constraints `φ(q) = 0` of a system of class [`Constrained`](crate::Constrained).
+    ///
+    /// ```
+    /// use symplectic::nalgebra::SVector;
+    /// use symplectic::system::Gradients;
+    /// use symplectic::{Constrained, Error, Hamiltonian, Integrator, Scalar, Separable, State};
+    ///
+    /// symplectic::tableau! {
+    ///     /// Lobatto IIIA–IIIB with two stages: RATTLE.
+    ///     Rattle { basis: polynomial(2), nodes: lobatto(2), require: [constrained, order == 2] }
+    /// }
+    ///
+    /// /// A pendulum of length 1 in the plane: H = |p|²/2 + 9.81 y, |q|² − 1 = 0.
+    /// struct Pendulum;
+    ///
+    /// impl Hamiltonian for Pendulum {
+    ///     type Class = Constrained<Separable>;
+    ///     type Vector<T: Scalar> = SVector<T, 2>;
+    ///
+    ///     const UNIT_MASSES: bool = true;
+    ///
+    ///     fn velocity<T: Scalar>(&self, _: T, _: &SVector<T, 2>, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+    ///         *velocity = *p;
+    ///     }
+    ///
+    ///     fn force<T: Scalar>(&self, _: T, _: &SVector<T, 2>, _: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    ///         *force = SVector::from([T::zero(), T::from_f64(-9.81)]);
+    ///     }
+    ///
+    ///     fn constraints(&self) -> usize {
+    ///         1
+    ///     }
+    ///
+    ///     fn constraint_values<T: Scalar>(&self, q: &SVector<T, 2>, values: &mut [T]) {
+    ///         values[0] = q.dot(q) - T::one();
+    ///     }
+    ///
+    ///     fn constraint_gradients<T: Scalar>(&self, q: &SVector<T, 2>, gradients: &mut Gradients<T>) {
+    ///         gradients.set(0, 0, T::from_f64(2.0) * q[0]);
+    ///         gradients.set(0, 1, T::from_f64(2.0) * q[1]);
+    ///     }
+    /// }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
+    /// let mut run = Integrator::new(Rattle, Pendulum, start, 0.01)?;
+    /// let end = run.integrate_to(10.0)?;
+    /// assert!((end.q.norm() - 1.0).abs() < 1e-14 && end.q.dot(&end.p).abs() < 1e-14);
+    /// # Ok(())
+    /// # }
+    /// ```
+    fn constraints(&self) -> usize {
+        0
+    }
+
+    /// Writes `φ(q)`, a number for each [constraint](Self::constraints).
+    fn constraint_values<T: Scalar>(&self, _q: &Self::Vector<T>, _values: &mut [T]) {}
+
+    /// Sets the entries of the [`Gradients`] `G = ∂φ/∂q`, always the same ones in the same order.
+    ///
+    /// They are compared with differences of `φ` when an integrator is made.
+    #[cfg(feature = "alloc")]
+    fn constraint_gradients<T: Scalar>(&self, _q: &Self::Vector<T>, _gradients: &mut Gradients<T>) {
     }
 }
 

@@ -3,6 +3,8 @@
 use crate::method::Solver;
 use crate::number::{F64x2, F64x4, F64x8, Vector};
 use crate::solver::Automatic;
+#[cfg(feature = "alloc")]
+use crate::system::Gradients;
 use crate::system::{Class, Components, Hamiltonian, Layout, StageRows};
 
 /// A Hamiltonian system over one type of vectors: what an [`Integrator`](crate::Integrator) steps.
@@ -68,6 +70,18 @@ pub trait System<V: Vector>: Sized {
     fn energy(&self, _time: V::Scalar, _q: &V, _p: &V) -> Option<V::Scalar> {
         None
     }
+
+    /// The number of constraints: see [`Hamiltonian::constraints`].
+    fn constraints(&self) -> usize {
+        0
+    }
+
+    /// Writes the constraints: see [`Hamiltonian::constraint_values`].
+    fn constraint_values(&self, _q: &V, _values: &mut [V::Scalar]) {}
+
+    /// Sets their gradients: see [`Hamiltonian::constraint_gradients`].
+    #[cfg(feature = "alloc")]
+    fn constraint_gradients(&self, _q: &V, _gradients: &mut Gradients<V::Scalar>) {}
 
     // What follows is how a `Chain` is made fast, for no other system.
 
@@ -140,6 +154,21 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
 
     fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
         Hamiltonian::energy::<V::Scalar>(self, time, q, p)
+    }
+
+    fn constraints(&self) -> usize {
+        Hamiltonian::constraints(self)
+    }
+
+    #[inline(always)]
+    fn constraint_values(&self, q: &V, values: &mut [V::Scalar]) {
+        Hamiltonian::constraint_values::<V::Scalar>(self, q, values);
+    }
+
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    fn constraint_gradients(&self, q: &V, gradients: &mut Gradients<V::Scalar>) {
+        Hamiltonian::constraint_gradients::<V::Scalar>(self, q, gradients);
     }
 }
 

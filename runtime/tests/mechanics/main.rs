@@ -1,0 +1,5 @@
+//! Systems with holonomic constraints.
+
+mod holonomic;
+mod start;
+mod systems;
