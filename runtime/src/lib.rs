@@ -100,7 +100,7 @@ pub use state::State;
 #[cfg(feature = "alloc")]
 pub use system::Constrained;
 pub use system::{
-    Class, General, Hamiltonian, Separable, SeparableHamiltonian, System, acceleration,
+    Class, Damped, General, Hamiltonian, Separable, SeparableHamiltonian, System, acceleration,
     hamiltonian, separable,
 };
 

@@ -284,10 +284,13 @@ fn proved(tableau: &Tableau, name: &Ident, constrained: bool) -> TokenStream {
         return quote!(impl<C: #bound> ::symplectic::emitted::ProvedFor<C> for #name {});
     }
     // The second keeps the compiler from concluding the class from the method.
-    quote! {
-        impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::Separable> for #name {}
-        impl ::symplectic::emitted::ProvedFor<()> for #name {}
+    let mut classes = vec![quote!(::symplectic::emitted::Separable), quote!(())];
+    let orders = tableau.orders();
+    // With friction, kicks depend on momenta: an order for quadratic kinetic energy only does not hold.
+    if orders.separable.order >= orders.nystrom.order {
+        classes.push(quote!(::symplectic::emitted::Damped));
     }
+    quote!(#(impl ::symplectic::emitted::ProvedFor<#classes> for #name {})*)
 }
 
 /// The tableau and what is proved about it, for the page of the type.

@@ -6,6 +6,7 @@ pub(crate) mod composition;
 pub(crate) mod constrained;
 pub(crate) mod constrained_tableau;
 pub(crate) mod coupled;
+pub(crate) mod damped;
 pub(crate) mod diagnosis;
 pub(crate) mod explicit;
 pub(crate) mod interpolation;
@@ -32,6 +33,7 @@ pub use constrained::{
 };
 pub use constrained_tableau::{ConstrainedStep, ConstrainedTableau};
 pub use coupled::Coupled;
+pub use damped::DampedPlan;
 pub use explicit::Explicit;
 pub use interpolation::{Inside, Interpolation};
 pub use kick_drift::{Drift, Force, KickDrift};
@@ -206,6 +208,34 @@ pub trait Plan {
         N: Solver<V, S>,
         K: KickDrift,
     {
+    }
+
+    /// Takes `step` of a splitting by other `moves` than kicks and drifts as they are, and shows its evaluations to `witness`. Code that
+    /// asks another plan for it does not compile.
+    #[inline(always)]
+    fn take_by<R, V, S, K, W>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _evaluations: &mut Evaluations<V>,
+        _kept: WarmStart,
+        _outcome: Outcome<'_, V>,
+        _moves: &mut K,
+        _witness: &mut W,
+    ) -> StepStatistics
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        K: KickDrift,
+        W: EvaluationObserver,
+    {
+        const {
+            assert!(
+                size_of::<V>() == usize::MAX,
+                "a system of class `Damped` is stepped by splittings, such as `velocity-verlet` or `forest-ruth-1990`; for this method make the friction part of `force`, with `type Class = General`"
+            );
+        }
+        StepStatistics::default()
     }
 
     /// Takes a step that failed once more and shows its evaluations to `witness`, if they are not in `memory`.

@@ -142,6 +142,49 @@ pub trait Hamiltonian {
         None
     }
 
+    /// The rate γ of the friction `−γp` of a component of the momentum, per unit of time, in a system of class
+    /// [`Damped`](crate::Damped).
+    ///
+    /// ```
+    /// use symplectic::nalgebra::SVector;
+    /// use symplectic::{Damped, Error, Hamiltonian, Integrator, Scalar, State};
+    ///
+    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+    ///
+    /// /// An oscillator with friction: q'' = −q − q'/5.
+    /// struct Oscillator;
+    ///
+    /// impl Hamiltonian for Oscillator {
+    ///     type Class = Damped;
+    ///     type Vector<T: Scalar> = SVector<T, 1>;
+    ///
+    ///     fn velocity<T: Scalar>(&self, _: T, _: &SVector<T, 1>, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+    ///         *velocity = *p;
+    ///     }
+    ///
+    ///     fn force<T: Scalar>(&self, _: T, q: &SVector<T, 1>, _: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+    ///         *force = -q;
+    ///     }
+    ///
+    ///     fn friction(&self, _component: usize) -> f64 {
+    ///         0.2
+    ///     }
+    /// }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let start = State::from_arrays(0.0, [1.0], [0.0]);
+    /// let mut run = Integrator::new(StoermerVerlet, Oscillator, start, 0.01)?;
+    /// let end = run.integrate_to(10.0)?;
+    /// let (rate, frequency) = (0.1_f64, 0.99_f64.sqrt());
+    /// let exact = (-rate * 10.0).exp() * ((frequency * 10.0).cos() + rate / frequency * (frequency * 10.0).sin());
+    /// assert!((end.q[0] - exact).abs() < 1e-4);
+    /// # Ok(())
+    /// # }
+    /// ```
+    fn friction(&self, _component: usize) -> f64 {
+        0.0
+    }
+
     /// The number m of holonomic constraints `φ(q) = 0` of a system of class [`Constrained`](crate::Constrained).
     ///
     /// ```

@@ -71,6 +71,11 @@ pub trait System<V: Vector>: Sized {
         None
     }
 
+    /// The rate of the friction: see [`Hamiltonian::friction`].
+    fn friction(&self, _component: usize) -> f64 {
+        0.0
+    }
+
     /// The number of constraints: see [`Hamiltonian::constraints`].
     fn constraints(&self) -> usize {
         0
@@ -154,6 +159,11 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
 
     fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
         Hamiltonian::energy::<V::Scalar>(self, time, q, p)
+    }
+
+    #[inline(always)]
+    fn friction(&self, component: usize) -> f64 {
+        Hamiltonian::friction(self, component)
     }
 
     fn constraints(&self) -> usize {

@@ -1,5 +1,6 @@
-//! Systems with holonomic constraints.
+//! Systems with constraints, and with friction.
 
+mod friction;
 mod holonomic;
 mod start;
 mod systems;
