@@ -31,6 +31,7 @@ fn derive_prints_the_tableau_of_the_readme() {
           stiffly_accurate    yes  proved
           first_same_as_last  yes  proved   Q_s = q1 is Q_1 of the next step
           positive_weights    yes  proved
+          constrained         yes  proved   det (A Ã) ≈ 0.0208333
 
         order
           general    4, proved; not 5: q[q^4] has the weight 5/24 instead of 1/5, a difference of 1/120; error constant 0.034929…
@@ -80,6 +81,7 @@ fn irrational_and_long_entries_are_readable() {
           stiffly_accurate    no   refuted  b_1 − a_31 = 0.00978944401531…
           first_same_as_last  no   refuted  a_11 = 5/36
           positive_weights    yes  proved
+          constrained         no   refuted  a_11 = 5/36
 
         order
           general    6, proved; not 7: q[q^6] has the weight 57/400 instead of 1/7, a difference of -1/2800; error constant 0.002278…
@@ -126,6 +128,7 @@ fn irrational_and_long_entries_are_readable() {
           stiffly_accurate    yes  proved
           first_same_as_last  no   refuted  a_11 = 0.196815477224…
           positive_weights    yes  proved
+          constrained         no   refuted  a_11 = 0.196815477224…
 
         order
           general    5, proved; not 6: q[q^5] has the weight 101/600 instead of 1/6, a difference of 1/600; error constant 0.009249…
@@ -169,6 +172,7 @@ fn irrational_and_long_entries_are_readable() {
           stiffly_accurate    no   refuted  b_1 − a_41 = -0.00355514968580…
           first_same_as_last  no   refuted  a_11 = 0.0869637112844…
           positive_weights    yes  proved
+          constrained         no   refuted  a_11 = 0.0869637112844…
 
         order
           general    8, proved; not 9: q[q^8] has the weight 1633/14700 instead of 1/9, a difference of -1/44100; error constant 0.000172…
@@ -241,6 +245,7 @@ fn toml_is_readable() {
         stiffly_accurate   = { holds = true, evidence = "proved" }
         first_same_as_last = { holds = true, evidence = "proved", witness = "Q_s = q1 is Q_1 of the next step" }
         positive_weights   = { holds = true, evidence = "proved" }
+        constrained        = { holds = true, evidence = "proved", witness = "det (A Ã) ≈ 0.500000" }
 
         [order]
         general = { order = 2, evidence = "proved", refuted_by = "q[q,q]", value = "1/2", wanted = "1/3", residual = "1/6", error_constant = "0.358430219460" }

@@ -28,6 +28,7 @@ fn derive_takes_kicks_and_drifts() {
           stiffly_accurate       no   refuted  b_3 − a_33 = 1
           first_same_as_last     no   refuted  b_3 − a_33 = 1
           positive_weights       no   refuted  b_2 = -2/3
+          constrained            no   refuted  b_3 − a_33 = 1
           symplectic(separable)  yes  proved
 
         order

@@ -80,6 +80,13 @@ fn every_property_is_proved_of_one_method_and_refuted_of_another() {
             "newton-cotes(9)",
             "b_3 = -464/14175",
         ),
+        ("constrained", "lobatto(4)", "gauss(2)", "a_11 = 1/4"),
+        (
+            "constrained",
+            "newton-cotes(5)",
+            "radau-left(2)",
+            "b_1 − a_21 = -1/12",
+        ),
     ];
     for (name, holds, fails, witness) in cases {
         let basis = |nodes: &str| {

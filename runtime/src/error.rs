@@ -290,6 +290,97 @@ pub enum Error {
         found: usize,
     },
 
+    /// A system of class `Constrained` without a constraint, or with more constraints than positions.
+    #[error(
+        "the system has {constraints} constraints on {dimension} components of the position; write `constraints`, and at most as many \
+         as there are components"
+    )]
+    ConstraintCount {
+        /// Number of constraints.
+        constraints: usize,
+        /// Dimension of the position.
+        dimension: usize,
+    },
+
+    /// An entry of a gradient was set for a constraint or a component that there is not.
+    #[error(
+        "the gradient of constraint {constraint} by component {component} was set, and there are {constraints} constraints and \
+         {dimension} components, counted from 0"
+    )]
+    GradientPlace {
+        /// The constraint, from 0.
+        constraint: usize,
+        /// The component, from 0.
+        component: usize,
+        /// Number of constraints.
+        constraints: usize,
+        /// Dimension of the position.
+        dimension: usize,
+    },
+
+    /// The gradient of a constraint is not its derivative.
+    #[error(
+        "the gradient of constraint {constraint} is not its derivative: in one direction {stated:e} where differences of the constraint give \
+         {found:e}; correct `constraint_gradients`"
+    )]
+    GradientMismatch {
+        /// The constraint, from 0.
+        constraint: usize,
+        /// Size of the derivative in a direction, as stated.
+        stated: f64,
+        /// Size of the derivative by differences.
+        found: f64,
+    },
+
+    /// The gradients of the constraints were set in other places, or in another order, than before.
+    #[error(
+        "at time {time} the gradients of the constraints were set in other places than at first; set the same entries in the same order, \
+         also where they are zero"
+    )]
+    MovingGradients {
+        /// Time at the start of the step.
+        time: f64,
+    },
+
+    /// The start is not on the constraints.
+    #[error(
+        "the state is not on the constraints: constraint {constraint} is {value:e} and changes at the rate {rate:e}, where both must \
+         be 0; `consistent(&system, state)` gives a state that is"
+    )]
+    InconsistentStart {
+        /// The constraint, from 0: the one that is farthest from 0.
+        constraint: usize,
+        /// |φ| of it.
+        value: f64,
+        /// |G ∂H/∂p| of it.
+        rate: f64,
+    },
+
+    /// No state on the constraints was found near a state.
+    #[error(
+        "no state on the constraints was found near this one: they are still {value:e}, and change at the rate {rate:e}; begin nearer"
+    )]
+    NoConsistentState {
+        /// The largest |φ|.
+        value: f64,
+        /// The largest |G ∂H/∂p|.
+        rate: f64,
+    },
+
+    /// The gradient of a constraint vanishes or depends on those of the constraints before it: there are no unique multipliers.
+    #[error(
+        "at time {time} constraint {constraint} depends on those before it, or its gradient vanishes (pivot {pivot:e}); leave it out, \
+         or keep away from this configuration"
+    )]
+    DependentConstraints {
+        /// Time at the start of the step.
+        time: f64,
+        /// The constraint, from 0.
+        constraint: usize,
+        /// What is left of its row of `G M⁻¹ Gᵀ`, relative to its diagonal entry.
+        pivot: f64,
+    },
+
     /// The step is so small that it does not change the time.
     #[error(
         "a step of size {step_size} does not change the time {time}, which has 53 bits; take a larger step, or \
@@ -321,6 +412,8 @@ pub enum Quantity {
     Derivative,
     /// H.
     Energy,
+    /// A holonomic constraint φ.
+    Constraint,
 }
 
 impl fmt::Display for Quantity {
@@ -333,6 +426,7 @@ impl fmt::Display for Quantity {
             Self::Force => "force",
             Self::Derivative => "derivative of the velocity or the force",
             Self::Energy => "energy",
+            Self::Constraint => "constraint",
         })
     }
 }

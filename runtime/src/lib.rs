@@ -89,14 +89,18 @@ pub use integrator::{Checkpoint, CheckpointError};
 pub use integrator::{Integrator, Retry, Statistics};
 #[cfg(feature = "alloc")]
 pub use method::{AtRunTime, RunTimeCoefficients, RunTimeTableau, TableauError};
+#[cfg(feature = "alloc")]
+pub use method::{ConstraintForce, consistent, constraint_force};
 pub use method::{LowerOrder, Method, Orders, ProvedFor, composition, splitting, tableau};
 pub use nalgebra;
 pub use num_traits;
 pub use number::{Compensated, Plain, Scalar, Summation, Vector};
 pub use output::{Event, Events, Invariant, Moment, Progress};
 pub use state::State;
+#[cfg(feature = "alloc")]
+pub use system::Constrained;
 pub use system::{
-    Class, General, Hamiltonian, Separable, SeparableHamiltonian, System, acceleration,
+    Class, Damped, General, Hamiltonian, Separable, SeparableHamiltonian, System, acceleration,
     hamiltonian, lagrangian, separable,
 };
 
@@ -155,6 +159,8 @@ mod book {
     struct LongRuns;
     #[doc = include_str!("../../docs/src/guide/events.md")]
     struct Events;
+    #[doc = include_str!("../../docs/src/guide/constraints.md")]
+    struct Constraints;
     #[doc = include_str!("../../docs/src/guide/newton.md")]
     struct Newton;
     #[doc = include_str!("../../docs/src/guide/speed.md")]

@@ -12,7 +12,7 @@ use symplectic::nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 use symplectic::solver::{
     Dense, Differences, FixedPoint, FixedPointThenNewton, SimdFixedPoint, SimdJacobi, Solver,
 };
-use symplectic::system::SystemInLanes;
+use symplectic::system::{SystemInLanes, Unconstrained};
 use symplectic::{
     Checkpoint, Compensated, Error, General, Integrator, Method, Plain, ProvedFor, Separable,
     State, Statistics, Summation, System,
@@ -263,7 +263,7 @@ fn check(cell: Cell<'_>, made: Made<'_, '_>) -> Result<Point, Error> {
 const SIZE: f64 = 0.05;
 const DURATION: f64 = 2.0;
 
-fn exact<S: System<Vector2<f64>>>(system: S) -> Result<Point, Error> {
+fn exact<S: System<Vector2<f64>, Class: Unconstrained>>(system: S) -> Result<Point, Error> {
     let mut fine = Integrator::new(Gauss8, system, start(), DURATION / 64.0)?;
     Ok(fine.take_steps(64)?.clone())
 }

@@ -2,6 +2,7 @@
 
 use symplectic::nalgebra::{Vector1, Vector2};
 use symplectic::solver::FixedPoint;
+use symplectic::system::Unconstrained;
 use symplectic::{
     Error, General, Integrator, Method, ProvedFor, Quantity, State, Summation, System, separable,
 };
@@ -122,7 +123,7 @@ fn different_methods_follow_one_another() -> Result<(), Error> {
             force[0] = -q[0] * (p[0] * p[0] + 1.0);
         }
     }
-    fn by_hand<S: System<V> + Copy, V: symplectic::Vector>(
+    fn by_hand<S: System<V, Class: Unconstrained> + Copy, V: symplectic::Vector>(
         system: S,
         start: &State<V>,
         h: f64,

@@ -3,6 +3,7 @@
 
 use std::error::Error;
 
+use symplectic::system::Unconstrained;
 use symplectic::{Integrator, State, System, Vector};
 use symplectic_tests::methods::Gauss8;
 use symplectic_tests::references::{ALL, Collocation, Record, find, records};
@@ -79,7 +80,7 @@ fn error<V, S>(
 ) -> Result<f64, Box<dyn Error>>
 where
     V: Vector<Scalar = f64>,
-    S: System<V>,
+    S: System<V, Class: Unconstrained>,
 {
     let recorded = recorded.ok_or("not recorded")?;
     let mut integrator = Integrator::new(Gauss8, system, start, step_size)?;

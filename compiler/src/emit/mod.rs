@@ -7,6 +7,7 @@
 //! stage is a line of its own: no product with zero, equal stages computed once, stages
 //! in order where they are explicit, no evaluation that the previous step has made already.
 
+mod constrained;
 mod dense_output;
 mod facts;
 mod literal;
@@ -23,6 +24,7 @@ use quote::{format_ident, quote};
 
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
+use crate::derive::substeps;
 use crate::error::ErrorKind;
 use crate::pair::Staircase;
 use crate::schedule::Class;
@@ -83,8 +85,11 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
         (Class::Separable, &separable_plan),
     ];
     let orders = orders(tableau);
-    let proved = proved(tableau, name);
-    let plans = plan::plans(tableau, &numbers, names)?;
+    let (methods, substeps) = substeps(&provenance.definition)?;
+    let parts = (&methods[..], &substeps[..]);
+    let plans = plan::plans(tableau, &numbers, parts, names);
+    let constrained = constrained::code(tableau, &numbers, parts);
+    let proved = proved(tableau, name, constrained.is_some());
     let [general, separable] = [&plans[0].name, &plans[1].name];
     let code = plans.iter().map(|plan| &plan.code);
     Ok(quote! {
@@ -107,6 +112,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
                 const DEFINITION: &'static str = #definition;
                 #coefficients
                 #orders
+                #constrained
                 type General = #general;
                 type Separable = #separable;
             }
@@ -267,17 +273,24 @@ fn orders(tableau: &Tableau) -> TokenStream {
     }
 }
 
-/// The classes of systems on which the method is no worse than on narrower ones.
-fn proved(tableau: &Tableau, name: &Ident) -> TokenStream {
-    if tableau.keeps_its_order_in_general() {
-        quote!(impl<C> ::symplectic::emitted::ProvedFor<C> for #name {})
-    } else {
-        // The second keeps the compiler from concluding the class from the method.
-        quote! {
-            impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::Separable> for #name {}
-            impl ::symplectic::emitted::ProvedFor<()> for #name {}
-        }
+/// The classes of systems on which the method is no worse than on narrower ones; those with constraints too where it is `constrained`.
+fn proved(tableau: &Tableau, name: &Ident, constrained: bool) -> TokenStream {
+    let general = tableau.keeps_its_order_in_general();
+    if general && constrained {
+        return quote!(impl<C> ::symplectic::emitted::ProvedFor<C> for #name {});
     }
+    if general {
+        let bound = quote!(::symplectic::emitted::Unconstrained);
+        return quote!(impl<C: #bound> ::symplectic::emitted::ProvedFor<C> for #name {});
+    }
+    // The second keeps the compiler from concluding the class from the method.
+    let mut classes = vec![quote!(::symplectic::emitted::Separable), quote!(())];
+    let orders = tableau.orders();
+    // With friction, kicks depend on momenta: an order for quadratic kinetic energy only does not hold.
+    if orders.separable.order >= orders.nystrom.order {
+        classes.push(quote!(::symplectic::emitted::Damped));
+    }
+    quote!(#(impl ::symplectic::emitted::ProvedFor<#classes> for #name {})*)
 }
 
 /// The tableau and what is proved about it, for the page of the type.

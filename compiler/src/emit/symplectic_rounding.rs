@@ -101,11 +101,15 @@ impl Relative {
 }
 
 /// A coefficient and the weight that it is relative to.
-type Fraction<'n> = (&'n Number<'n>, &'n Number<'n>);
+pub(super) type Fraction<'n> = (&'n Number<'n>, &'n Number<'n>);
 
 /// Two quotients the sum of which is 1, rounded so that it stays 1; `None` where it is not. If they are the `same`, they
 /// are 1/2, which no enclosure tells.
-fn complements(mu: Fraction<'_>, mu_tilde: Fraction<'_>, same: bool) -> Option<(Rounded, Rounded)> {
+pub(super) fn complements(
+    mu: Fraction<'_>,
+    mu_tilde: Fraction<'_>,
+    same: bool,
+) -> Option<(Rounded, Rounded)> {
     let enclosure = quotient(mu, 0)?;
     if !enclosure
         .add(&quotient(mu_tilde, 0)?)

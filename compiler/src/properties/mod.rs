@@ -4,6 +4,7 @@
 //! they were derived.
 
 mod consistent;
+mod constrained;
 mod end_stages;
 mod equal_matrices;
 mod explicit;
@@ -15,6 +16,7 @@ mod symplectic;
 use std::borrow::Cow;
 use std::fmt;
 
+pub(crate) use self::constrained::multiplier_matrix;
 pub use self::separable::SeparableProperties;
 pub(crate) use self::symmetric::Symmetry;
 use crate::algebra::{Number, StageAlgebra, Zero};
@@ -126,6 +128,9 @@ properties! {
     first_same_as_last: end_stages::first_same_as_last;
     /// `b_i > 0` and `b̃_i > 0`.
     positive_weights: positive_weights::decide;
+    /// Steps systems with holonomic constraints: `b_i = b̃_i ≠ 0`, symplectic, `a_1j = 0`, `a_sj = b_j` and
+    /// `det (A Ã) ≠ 0` for the rows 2..s and the columns 1..s−1 (MW 3.5.6).
+    constrained: constrained::decide;
 }
 
 impl Properties {

@@ -23,6 +23,7 @@ properties
   stiffly_accurate    no   refuted  b_1 − a_21 = -0.0386751345948…
   first_same_as_last  no   refuted  a_11 = 1/4
   positive_weights    yes  proved
+  constrained         no   refuted  a_11 = 1/4
 ```*/
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Gauss2;
@@ -102,7 +103,9 @@ const _: () = {
         type General = ::symplectic::emitted::Coupled<Gauss2General>;
         type Separable = ::symplectic::emitted::Coupled<Gauss2Separable>;
     }
-    impl<C> ::symplectic::emitted::ProvedFor<C> for Gauss2 {}
+    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::Separable> for Gauss2 {}
+    impl ::symplectic::emitted::ProvedFor<()> for Gauss2 {}
+    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::General> for Gauss2 {}
     pub struct Gauss2General;
     #[allow(unused_variables)]
     impl ::symplectic::emitted::StagePlan for Gauss2General {

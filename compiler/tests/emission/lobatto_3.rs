@@ -22,6 +22,7 @@ properties
   stiffly_accurate    yes  proved
   first_same_as_last  yes  proved   Q_s = q1 is Q_1 of the next step
   positive_weights    yes  proved
+  constrained         yes  proved   det (A Ã) ≈ 0.0208333
 ```*/
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lobatto3;
@@ -182,10 +183,88 @@ const _: () = {
             separable: 4,
             nystrom: 4,
         };
+        const CONSTRAINED: &'static [::symplectic::emitted::ConstrainedStep] = {
+            const TABLEAU1: ::symplectic::emitted::ConstrainedTableau = ::symplectic::emitted::ConstrainedTableau {
+                positions: &[
+                    &[
+                        ::symplectic::emitted::Coefficient::exact(0.0),
+                        ::symplectic::emitted::Coefficient::exact(0.0),
+                        ::symplectic::emitted::Coefficient::exact(0.0),
+                    ],
+                    &[
+                        ::symplectic::emitted::Coefficient::exact(1.25),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact((-0.25)),
+                    ],
+                    &[
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                    ],
+                ],
+                momenta: &[
+                    &[
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact((-0.25)),
+                        ::symplectic::emitted::Coefficient::exact(0.0),
+                    ],
+                    &[
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(0.5),
+                        ::symplectic::emitted::Coefficient::exact(0.0),
+                    ],
+                    &[
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.25),
+                        ::symplectic::emitted::Coefficient::exact(0.0),
+                    ],
+                ],
+                weights: &[
+                    ::symplectic::emitted::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                    ::symplectic::emitted::Coefficient::new(
+                        0.6666666666666666,
+                        3.700743415417188e-17,
+                        0.6666667,
+                    ),
+                    ::symplectic::emitted::Coefficient::new(
+                        0.16666666666666666,
+                        9.25185853854297e-18,
+                        0.16666667,
+                    ),
+                ],
+                nodes: &[
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(1.0),
+                ],
+                momentum_nodes: &[
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(1.0),
+                ],
+                multipliers: &[&[16.0, (-2.0)], &[(-8.0), 4.0]],
+            };
+            &[
+                ::symplectic::emitted::ConstrainedStep::new(
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(1.0),
+                    &TABLEAU1,
+                ),
+            ]
+        };
         type General = ::symplectic::emitted::Coupled<Lobatto3General>;
         type Separable = ::symplectic::emitted::Coupled<Lobatto3Separable>;
     }
-    impl<C> ::symplectic::emitted::ProvedFor<C> for Lobatto3 {}
+    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::Separable>
+    for Lobatto3 {}
+    impl ::symplectic::emitted::ProvedFor<()> for Lobatto3 {}
+    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::General> for Lobatto3 {}
+    impl<C> ::symplectic::emitted::ProvedFor<::symplectic::emitted::Constrained<C>>
+    for Lobatto3 {}
     pub struct Lobatto3General;
     #[allow(unused_variables)]
     impl ::symplectic::emitted::StagePlan for Lobatto3General {

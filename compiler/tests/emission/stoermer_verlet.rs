@@ -21,6 +21,7 @@ properties
   stiffly_accurate    yes  proved
   first_same_as_last  yes  proved   Q_s = q1 is Q_1 of the next step
   positive_weights    yes  proved
+  constrained         yes  proved   det (A Ã) ≈ 0.500000
 ```*/
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StoermerVerlet;
@@ -92,10 +93,60 @@ const _: () = {
             separable: 2,
             nystrom: 2,
         };
+        const CONSTRAINED: &'static [::symplectic::emitted::ConstrainedStep] = {
+            const TABLEAU1: ::symplectic::emitted::ConstrainedTableau = ::symplectic::emitted::ConstrainedTableau {
+                positions: &[
+                    &[
+                        ::symplectic::emitted::Coefficient::exact(0.0),
+                        ::symplectic::emitted::Coefficient::exact(0.0),
+                    ],
+                    &[
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                    ],
+                ],
+                momenta: &[
+                    &[
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(0.0),
+                    ],
+                    &[
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(0.0),
+                    ],
+                ],
+                weights: &[
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                ],
+                nodes: &[
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(1.0),
+                ],
+                momentum_nodes: &[
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                ],
+                multipliers: &[&[2.0]],
+            };
+            &[
+                ::symplectic::emitted::ConstrainedStep::new(
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(1.0),
+                    &TABLEAU1,
+                ),
+            ]
+        };
         type General = ::symplectic::emitted::Coupled<StoermerVerletGeneral>;
         type Separable = ::symplectic::emitted::Splitting<StoermerVerletSeparable>;
     }
-    impl<C> ::symplectic::emitted::ProvedFor<C> for StoermerVerlet {}
+    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::Separable>
+    for StoermerVerlet {}
+    impl ::symplectic::emitted::ProvedFor<()> for StoermerVerlet {}
+    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::General>
+    for StoermerVerlet {}
+    impl<C> ::symplectic::emitted::ProvedFor<::symplectic::emitted::Constrained<C>>
+    for StoermerVerlet {}
     pub struct StoermerVerletGeneral;
     #[allow(unused_variables)]
     impl ::symplectic::emitted::StagePlan for StoermerVerletGeneral {

@@ -6,7 +6,7 @@ use std::vec::Vec;
 use nalgebra::Vector1;
 
 use super::*;
-use symplectic::{State, acceleration};
+use symplectic::{Separable, State, System, acceleration};
 
 symplectic::tableau! {
     Verlet { basis: polynomial(2), nodes: lobatto(2) }
@@ -151,7 +151,7 @@ fn settings() -> Settings {
 }
 
 /// The oscillator from (1, 0) to the time 10.
-fn oscillator() -> Problem<Vector1<f64>, impl symplectic::System<Vector1<f64>> + Clone> {
+fn oscillator() -> Problem<Vector1<f64>, impl System<Vector1<f64>, Class = Separable> + Clone> {
     let system = acceleration::<Vector1<f64>, _>(|_, q, acceleration| *acceleration = -q)
         .with_energy(|_, q, p| (q[0] * q[0] + p[0] * p[0]) / 2.0);
     let start = State::from_arrays(0.0, [1.0], [0.0]);

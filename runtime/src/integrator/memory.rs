@@ -159,7 +159,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
 
     /// Forgets what steps have left behind.
     pub(super) fn forget(&mut self) {
-        self.memory = T::of_method(&self.memory, &self.state.q);
+        self.memory.forget(&self.state.q);
         self.kept = WarmStart::default();
     }
 

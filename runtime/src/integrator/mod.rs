@@ -226,9 +226,15 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
         check_masses(&system, &state)?;
         check_quadratic_kinetic::<M, V, S>(&system, &state)?;
+        <PlanOf<M, S, V> as Plan>::check(&system, state.time, &state.q, &state.p)?;
         let clock = Clock::new(state.time, step_size);
+        let linear_velocity = has_linear_velocity::<V, S, N>(&system, &state);
+        let mut course: StepMemory<V, MemoryOf<M, S, V, N>> =
+            StepMemory::new(linear_velocity, state);
+        let State { time, q, p } = &course.state;
+        <PlanOf<M, S, V> as Plan>::prepare::<V, S, N>(&mut course.memory, &system, *time, q, p);
         Ok(Self {
-            course: StepMemory::new(has_linear_velocity::<V, S, N>(&system, &state), state),
+            course,
             system,
             clock,
             step_size,
@@ -431,6 +437,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             &state.p,
             self.course.state.q.dimension(),
         )?;
+        <PlanOf<M, S, V> as Plan>::check(&self.system, state.time, &state.q, &state.p)?;
         self.course.set_state(state);
         self.restart_clock();
         Ok(())
@@ -444,6 +451,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             &state.p,
             self.course.state.q.dimension(),
         )?;
+        <PlanOf<M, S, V> as Plan>::check(&self.system, state.time, &state.q, &state.p)?;
         self.course.copy_state(state);
         self.restart_clock();
         Ok(())
@@ -537,6 +545,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     pub fn energy(&self) -> Option<V::Scalar> {
         let State { time, q, p } = &self.course.state;
         self.system.energy(V::Scalar::from_f64(*time), q, p)
+    }
+
+    /// Writes p' at a state: see [`Plan::momentum_rate`].
+    pub(crate) fn momentum_rate(&self, time: f64, q: &V, p: &V, rate: &mut V) {
+        <PlanOf<M, S, V> as Plan>::momentum_rate(&self.system, time, q, p, rate);
     }
 
     /// The last step, if its stages are still there.

@@ -2,20 +2,33 @@
 
 use core::marker::PhantomData;
 
+use super::memory::StepMemory;
 use super::validation::has_linear_velocity;
+use super::{MemoryOf, PlanOf};
 use crate::integrator::Integrator;
-use crate::method::{Method, Solver};
+use crate::method::{Method, Plan, Solver};
 use crate::number::{Summation, Vector};
 #[cfg(feature = "alloc")]
 use crate::solver::Newton;
+use crate::state::State;
 use crate::system::System;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// The same integrator with another [`Solver`] for coupled stages: from here on, with the counts so far.
     pub fn with_solver<O: Solver<V, S>>(self, _solver: O) -> Integrator<M, S, V, R, O> {
         let linear_velocity = has_linear_velocity::<V, S, O>(&self.system, &self.course.state);
+        let mut course: StepMemory<V, MemoryOf<M, S, V, O>> =
+            self.course.with_memory(linear_velocity);
+        let State { time, q, p } = &course.state;
+        <PlanOf<M, S, V> as Plan>::prepare::<V, S, O>(
+            &mut course.memory,
+            &self.system,
+            *time,
+            q,
+            p,
+        );
         Integrator {
-            course: (self.course).with_memory(linear_velocity),
+            course,
             system: self.system,
             clock: self.clock,
             step_size: self.step_size,

@@ -140,6 +140,14 @@ impl Attempt {
                 step_size,
                 step,
             },
+            Some(Failure::DependentConstraints { constraint, pivot }) => {
+                Error::DependentConstraints {
+                    time,
+                    constraint,
+                    pivot,
+                }
+            }
+            Some(Failure::MovingGradients) => Error::MovingGradients { time },
             Some(Failure::NonFinite { what, stage }) => Error::NonFinite {
                 time,
                 step_size,

@@ -2,7 +2,11 @@
 
 pub(crate) mod change;
 pub(crate) mod composition;
+#[cfg(feature = "alloc")]
+pub(crate) mod constrained;
+pub(crate) mod constrained_tableau;
 pub(crate) mod coupled;
+pub(crate) mod damped;
 pub(crate) mod diagnosis;
 pub(crate) mod explicit;
 pub(crate) mod interpolation;
@@ -23,7 +27,13 @@ pub(crate) mod work;
 
 pub use change::{HalfChange, StageChange};
 pub use composition::{Composition, CompositionMemory, Substep, Substeps};
+#[cfg(feature = "alloc")]
+pub use constrained::{
+    ConstrainedPlan, ConstrainedStages, ConstraintForce, consistent, constraint_force,
+};
+pub use constrained_tableau::{ConstrainedStep, ConstrainedTableau};
 pub use coupled::Coupled;
+pub use damped::DampedPlan;
 pub use explicit::Explicit;
 pub use interpolation::{Inside, Interpolation};
 pub use kick_drift::{Drift, Force, KickDrift};
@@ -47,7 +57,8 @@ pub use work::{Failure, StepStatistics};
 
 use core::fmt::Debug;
 
-use crate::number::{Coefficients, Summation, Vector};
+use crate::error::Error;
+use crate::number::{Coefficients, Scalar, Summation, Vector};
 use crate::system::{Class, General, Separable, System};
 
 /// A symplectic partitioned Runge–Kutta method: a type without a value, emitted from a proved tableau.
@@ -67,6 +78,9 @@ pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static 
     const ORDERS: Orders;
     /// Whether it is refused for separable systems whose kinetic energy is not quadratic: where its order is lower there.
     const NEEDS_QUADRATIC_KINETIC: bool = Self::ORDERS.nystrom > Self::ORDERS.separable;
+
+    /// How it steps systems with holonomic constraints, where it can: by one step, or those of a composition.
+    const CONSTRAINED: &'static [ConstrainedStep] = &[];
 
     /// The same method, for every system: also where its order is lower or it is not symplectic.
     ///
@@ -113,6 +127,35 @@ pub trait Plan {
 
     /// The evaluations of a step that is [taken in place](Self::take_in_place); `None` where steps cannot be.
     const EVALUATIONS_IN_PLACE: Option<u32> = None;
+
+    /// Makes room in `memory` for what depends on the system.
+    #[inline(always)]
+    fn prepare<V, S, N>(
+        _memory: &mut Self::Memory<V, S, N>,
+        _system: &S,
+        _time: f64,
+        _q: &V,
+        _p: &V,
+    ) where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+    }
+
+    /// Checks that steps can begin at a state.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InconsistentStart`] and others, where there are constraints.
+    #[inline(always)]
+    fn check<V, S>(_system: &S, _time: f64, _q: &V, _p: &V) -> Result<(), Error>
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        Ok(())
+    }
 
     /// Takes `step` and writes its result into `outcome`; returns what that took.
     ///
@@ -167,6 +210,34 @@ pub trait Plan {
     {
     }
 
+    /// Takes `step` of a splitting by other `moves` than kicks and drifts as they are, and shows its evaluations to `witness`. Code that
+    /// asks another plan for it does not compile.
+    #[inline(always)]
+    fn take_by<R, V, S, K, W>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _evaluations: &mut Evaluations<V>,
+        _kept: WarmStart,
+        _outcome: Outcome<'_, V>,
+        _moves: &mut K,
+        _witness: &mut W,
+    ) -> StepStatistics
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        K: KickDrift,
+        W: EvaluationObserver,
+    {
+        const {
+            assert!(
+                size_of::<V>() == usize::MAX,
+                "a system of class `Damped` is stepped by splittings, such as `velocity-verlet` or `forest-ruth-1990`; for this method make the friction part of `force`, with `type Class = General`"
+            );
+        }
+        StepStatistics::default()
+    }
+
     /// Takes a step that failed once more and shows its evaluations to `witness`, if they are not in `memory`.
     fn observe<R, V, S, N, W>(
         step: &Step<'_, V>,
@@ -180,6 +251,16 @@ pub trait Plan {
         S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
         W: EvaluationObserver;
+
+    /// Writes p' at a state into `rate`: the force, and that of constraints.
+    #[inline]
+    fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        system.force(V::Scalar::from_f64(time), q, p, rate);
+    }
 
     /// What values inside a step are computed from.
     const INTERPOLATION: Interpolation;

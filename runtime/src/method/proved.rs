@@ -2,6 +2,7 @@
 
 use crate::method::Method;
 use crate::number::Coefficients;
+use crate::system::Unconstrained;
 
 /// The order and the symplecticity of a method on the systems of class `C` are not lower than on a narrower class.
 ///
@@ -32,10 +33,11 @@ use crate::number::Coefficients;
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` loses its order or its symplecticity on systems of class `{C}`",
-    label = "proved for separable Hamiltonians only",
+    label = "not proved for this class",
     note = "if H = T(p) + U(q), write the system with `separable(…)` or implement `SeparableHamiltonian`; a function that returns one says `impl System<V, Class = Separable>`",
     note = "otherwise take a method for general Hamiltonians, such as `basis: polynomial(s), nodes: gauss(s)` or `lobatto(s)`",
-    note = "to go on knowingly, write `.accept_lower_order()` after the method"
+    note = "for holonomic constraints take a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, or a composition of such",
+    note = "to go on knowingly with a lower order, write `.accept_lower_order()` after the method"
 )]
 pub trait ProvedFor<C> {}
 
@@ -66,4 +68,5 @@ impl<M: Method> Method for LowerOrder<M> {
     type Separable = M::Separable;
 }
 
-impl<M: Method, C> ProvedFor<C> for LowerOrder<M> {}
+// With constraints no method has a lower order that could be accepted: it has steps for them or not.
+impl<M: Method, C: Unconstrained> ProvedFor<C> for LowerOrder<M> {}

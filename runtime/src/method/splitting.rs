@@ -68,7 +68,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         memory: &mut Evaluations<V>,
         kept: WarmStart,
         _stopping: Stopping,
-        mut outcome: Outcome<'_, V>,
+        outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure>
     where
         R: Summation,
@@ -76,20 +76,51 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         S: System<V, Class = P::Class>,
         N: Solver<V, S>,
     {
+        let (moves, witness) = (&mut (), &mut ());
+        Ok(Self::take_by::<R, V, S, _, _>(
+            step, system, memory, kept, outcome, moves, witness,
+        ))
+    }
+
+    #[inline(always)]
+    fn take_by<R, V, S, K, W>(
+        step: &Step<'_, V>,
+        system: &S,
+        evaluations: &mut Evaluations<V>,
+        kept: WarmStart,
+        mut outcome: Outcome<'_, V>,
+        moves: &mut K,
+        witness: &mut W,
+    ) -> StepStatistics
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = P::Class>,
+        K: KickDrift,
+        W: EvaluationObserver,
+    {
         Self::start::<R, V>(step, &mut outcome);
-        P::apply::<R, V, S, (), ()>(step.span(), system, memory, kept, outcome, &mut (), &mut ());
+        P::apply::<R, V, S, K, W>(
+            step.span(),
+            system,
+            evaluations,
+            kept,
+            outcome,
+            moves,
+            witness,
+        );
         let carried = if kept.evaluation { P::CARRIED } else { 0 };
-        Ok(StepStatistics {
+        StepStatistics {
             evaluations: P::EVALUATIONS - carried,
             ..StepStatistics::default()
-        })
+        }
     }
 
     fn observe<R, V, S, N, W>(
         step: &Step<'_, V>,
         system: &S,
         memory: &mut Evaluations<V>,
-        mut outcome: Outcome<'_, V>,
+        outcome: Outcome<'_, V>,
         witness: &mut W,
     ) where
         R: Summation,
@@ -99,16 +130,8 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         W: EvaluationObserver,
     {
         *memory = Evaluations::like(step.q);
-        Self::start::<R, V>(step, &mut outcome);
-        P::apply::<R, V, S, (), W>(
-            step.span(),
-            system,
-            memory,
-            WarmStart::default(),
-            outcome,
-            &mut (),
-            witness,
-        );
+        let kept = WarmStart::default();
+        Self::take_by::<R, V, S, _, _>(step, system, memory, kept, outcome, &mut (), witness);
     }
 
     const INTERPOLATION: Interpolation = Interpolation::Hermite;

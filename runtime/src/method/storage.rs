@@ -39,6 +39,11 @@ pub trait StageStorage<V: Vector>: Sized + Clone {
         storage
     }
 
+    /// Forgets what steps have left behind.
+    fn forget(&mut self, prototype: &V) {
+        *self = Self::of_method(self, prototype);
+    }
+
     /// Shows `visit` all numbers that a step leaves for the next one: a checkpoint holds them.
     fn words(&mut self, visit: &mut Visit<'_>);
 

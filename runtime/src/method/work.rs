@@ -76,6 +76,15 @@ pub enum Failure {
     },
     /// A linear system of a Newton iteration has no solution: [`Error::SingularMatrix`](crate::Error::SingularMatrix).
     SingularMatrix,
+    /// The gradient of a constraint depends on those before it: [`Error::DependentConstraints`](crate::Error::DependentConstraints).
+    DependentConstraints {
+        /// The constraint, from 0.
+        constraint: usize,
+        /// What is left of its row of `G M⁻¹ Gᵀ`, relative to its diagonal entry.
+        pivot: f64,
+    },
+    /// The gradients of the constraints were set in other places than before: [`Error::MovingGradients`](crate::Error::MovingGradients).
+    MovingGradients,
 }
 
 impl Failure {
@@ -86,7 +95,7 @@ impl Failure {
                 what,
                 stage: stage.map(|stage| stages + stage),
             },
-            Self::NoConvergence { .. } | Self::Stagnation { .. } | Self::SingularMatrix => self,
+            _ => self,
         }
     }
 }

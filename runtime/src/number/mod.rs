@@ -3,6 +3,8 @@
 pub(crate) mod array;
 pub(crate) mod coefficient;
 pub(crate) mod elementary;
+#[cfg(feature = "alloc")]
+pub(crate) mod elimination;
 pub(crate) mod lanes;
 pub(crate) mod linear_combination;
 pub(crate) mod rows;

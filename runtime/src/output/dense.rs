@@ -91,7 +91,7 @@ impl<V: Vector> Ends<V> {
         for ((time, q, p), Derivatives { velocity, force }) in states.into_iter().zip(ends) {
             let at = V::Scalar::from_f64(time);
             integrator.system().velocity(at, q, p, velocity);
-            integrator.system().force(at, q, p, force);
+            integrator.momentum_rate(time, q, p, force);
             for (what, value) in [(Quantity::Velocity, velocity), (Quantity::Force, force)] {
                 if !is_finite(value) {
                     return Err(Error::NonFinite {

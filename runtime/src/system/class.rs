@@ -1,14 +1,23 @@
 //! The kinds of Hamiltonian that a method has a plan for.
 
-use crate::method::{Method, Plan};
+#[cfg(feature = "alloc")]
+use core::marker::PhantomData;
+
+#[cfg(feature = "alloc")]
+use crate::method::ConstrainedPlan;
+use crate::method::{DampedPlan, Method, Plan};
 
 mod sealed {
     pub trait Sealed {}
     impl Sealed for super::General {}
     impl Sealed for super::Separable {}
+    impl Sealed for super::Damped {}
+    #[cfg(feature = "alloc")]
+    impl<C> Sealed for super::Constrained<C> {}
 }
 
-/// What the derivatives of a [`Hamiltonian`](crate::Hamiltonian) depend on: [`General`] or [`Separable`].
+/// What the derivatives of a [`Hamiltonian`](crate::Hamiltonian) depend on: [`General`] or [`Separable`]; with linear
+/// friction [`Damped`], with holonomic constraints [`Constrained`].
 ///
 /// It picks the [`Plan`] of a [`Method`], while compiling. Sealed.
 pub trait Class: sealed::Sealed + Sized + 'static {
@@ -18,6 +27,19 @@ pub trait Class: sealed::Sealed + Sized + 'static {
     const SEPARABLE: bool;
 }
 
+/// A class without constraints: [`General`], [`Separable`] or [`Damped`]. Every method that is proved for general Hamiltonians is proved for it.
+///
+/// Code that is generic over the system and takes one such method says `S::Class: Unconstrained`.
+pub trait Unconstrained {}
+
+impl Unconstrained for General {}
+
+impl Unconstrained for Separable {}
+
+impl Unconstrained for Damped {}
+
+impl Unconstrained for () {}
+
 /// Velocity and force may depend on position and momentum both.
 #[derive(Clone, Copy, Debug)]
 pub struct General;
@@ -25,6 +47,22 @@ pub struct General;
 /// `H = T(t, p) + U(t, q)`: the velocity depends on the momentum only, the force on the position only.
 #[derive(Clone, Copy, Debug)]
 pub struct Separable;
+
+/// A separable Hamiltonian with linear friction: `p' = −∂H/∂q − γp`, with a rate γ for each component, in
+/// [`Hamiltonian::friction`](crate::Hamiltonian::friction).
+///
+/// Splittings of which the order is proved for separable Hamiltonians step such systems, with the exact flow of the friction in
+/// every kick: the order stays, and where all γ are equal a step of size h shrinks dq∧dp and the momentum maps of symmetries of H by
+/// `e^{−γh}` exactly. Negative kicks grow by `e^{γ|τ|}`: for stiff friction take a method whose kicks are positive. For any other
+/// method [`Integrator::new`](crate::Integrator::new) does not compile; a force of any kind can be part of
+/// [`Hamiltonian::force`](crate::Hamiltonian::force) of a system of class [`General`].
+#[derive(Clone, Copy, Debug)]
+pub struct Damped;
+
+impl Class for Damped {
+    type Plan<M: Method> = DampedPlan<M>;
+    const SEPARABLE: bool = true;
+}
 
 impl Class for General {
     type Plan<M: Method> = M::General;
@@ -34,4 +72,23 @@ impl Class for General {
 impl Class for Separable {
     type Plan<M: Method> = M::Separable;
     const SEPARABLE: bool = true;
+}
+
+/// `H` of class `C`, [`Separable`] or [`General`], with holonomic constraints `φ(q) = 0`:
+///
+/// ```text
+/// q' = ∂H/∂p      p' = −∂H/∂q − Gᵀλ      φ(q) = 0      G = ∂φ/∂q
+/// ```
+///
+/// The constraints are in [`Hamiltonian::constraint_values`](crate::Hamiltonian::constraint_values). Methods that are `constrained`
+/// step such systems: Lobatto IIIA–IIIB, which with two stages is RATTLE, other pairs whose stages are at both ends of the step, and
+/// compositions of them. For any other method [`Integrator::new`](crate::Integrator::new) does not compile.
+#[cfg(feature = "alloc")]
+#[derive(Clone, Copy, Debug)]
+pub struct Constrained<C>(PhantomData<C>);
+
+#[cfg(feature = "alloc")]
+impl<C: Class + Unconstrained> Class for Constrained<C> {
+    type Plan<M: Method> = ConstrainedPlan<M, C>;
+    const SEPARABLE: bool = C::SEPARABLE;
 }

@@ -1,9 +1,9 @@
 //! The systems that are integrated: a Hamiltonian, written once for every scalar.
 
 use crate::number::{F64x2, F64x4, F64x8, Scalar, Vector};
-#[cfg(feature = "alloc")]
-use crate::system::Jacobian;
 use crate::system::{Class, Separable};
+#[cfg(feature = "alloc")]
+use crate::system::{Gradients, Jacobian};
 
 /// A Hamiltonian system, given by the right-hand sides of Hamilton's equations
 ///
@@ -159,6 +159,114 @@ pub trait Hamiltonian {
     /// Each particle of a chain with one component interacts with the next: 1. `usize::MAX` where it is not known.
     fn half_bandwidth(&self) -> usize {
         usize::MAX
+    }
+
+    /// The rate γ of the friction `−γp` of a component of the momentum, per unit of time, in a system of class
+    /// [`Damped`](crate::Damped).
+    ///
+    /// ```
+    /// use symplectic::nalgebra::SVector;
+    /// use symplectic::{Damped, Error, Hamiltonian, Integrator, Scalar, State};
+    ///
+    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+    ///
+    /// /// An oscillator with friction: q'' = −q − q'/5.
+    /// struct Oscillator;
+    ///
+    /// impl Hamiltonian for Oscillator {
+    ///     type Class = Damped;
+    ///     type Vector<T: Scalar> = SVector<T, 1>;
+    ///
+    ///     fn velocity<T: Scalar>(&self, _: T, _: &SVector<T, 1>, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+    ///         *velocity = *p;
+    ///     }
+    ///
+    ///     fn force<T: Scalar>(&self, _: T, q: &SVector<T, 1>, _: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+    ///         *force = -q;
+    ///     }
+    ///
+    ///     fn friction(&self, _component: usize) -> f64 {
+    ///         0.2
+    ///     }
+    /// }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let start = State::from_arrays(0.0, [1.0], [0.0]);
+    /// let mut run = Integrator::new(StoermerVerlet, Oscillator, start, 0.01)?;
+    /// let end = run.integrate_to(10.0)?;
+    /// let (rate, frequency) = (0.1_f64, 0.99_f64.sqrt());
+    /// let exact = (-rate * 10.0).exp() * ((frequency * 10.0).cos() + rate / frequency * (frequency * 10.0).sin());
+    /// assert!((end.q[0] - exact).abs() < 1e-4);
+    /// # Ok(())
+    /// # }
+    /// ```
+    fn friction(&self, _component: usize) -> f64 {
+        0.0
+    }
+
+    /// The number m of holonomic constraints `φ(q) = 0` of a system of class [`Constrained`](crate::Constrained).
+    ///
+    /// ```
+    /// use symplectic::nalgebra::SVector;
+    /// use symplectic::system::Gradients;
+    /// use symplectic::{Constrained, Error, Hamiltonian, Integrator, Scalar, Separable, State};
+    ///
+    /// symplectic::tableau! {
+    ///     /// Lobatto IIIA–IIIB with two stages: RATTLE.
+    ///     Rattle { basis: polynomial(2), nodes: lobatto(2), require: [constrained, order == 2] }
+    /// }
+    ///
+    /// /// A pendulum of length 1 in the plane: H = |p|²/2 + 9.81 y, |q|² − 1 = 0.
+    /// struct Pendulum;
+    ///
+    /// impl Hamiltonian for Pendulum {
+    ///     type Class = Constrained<Separable>;
+    ///     type Vector<T: Scalar> = SVector<T, 2>;
+    ///
+    ///     const UNIT_MASSES: bool = true;
+    ///
+    ///     fn velocity<T: Scalar>(&self, _: T, _: &SVector<T, 2>, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+    ///         *velocity = *p;
+    ///     }
+    ///
+    ///     fn force<T: Scalar>(&self, _: T, _: &SVector<T, 2>, _: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+    ///         *force = SVector::from([T::zero(), T::from_f64(-9.81)]);
+    ///     }
+    ///
+    ///     fn constraints(&self) -> usize {
+    ///         1
+    ///     }
+    ///
+    ///     fn constraint_values<T: Scalar>(&self, q: &SVector<T, 2>, values: &mut [T]) {
+    ///         values[0] = q.dot(q) - T::one();
+    ///     }
+    ///
+    ///     fn constraint_gradients<T: Scalar>(&self, q: &SVector<T, 2>, gradients: &mut Gradients<T>) {
+    ///         gradients.set(0, 0, T::from_f64(2.0) * q[0]);
+    ///         gradients.set(0, 1, T::from_f64(2.0) * q[1]);
+    ///     }
+    /// }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
+    /// let mut run = Integrator::new(Rattle, Pendulum, start, 0.01)?;
+    /// let end = run.integrate_to(10.0)?;
+    /// assert!((end.q.norm() - 1.0).abs() < 1e-14 && end.q.dot(&end.p).abs() < 1e-14);
+    /// # Ok(())
+    /// # }
+    /// ```
+    fn constraints(&self) -> usize {
+        0
+    }
+
+    /// Writes `φ(q)`, a number for each [constraint](Self::constraints).
+    fn constraint_values<T: Scalar>(&self, _q: &Self::Vector<T>, _values: &mut [T]) {}
+
+    /// Sets the entries of the [`Gradients`] `G = ∂φ/∂q`, always the same ones in the same order.
+    ///
+    /// They are compared with differences of `φ` when an integrator is made.
+    #[cfg(feature = "alloc")]
+    fn constraint_gradients<T: Scalar>(&self, _q: &Self::Vector<T>, _gradients: &mut Gradients<T>) {
     }
 }
 

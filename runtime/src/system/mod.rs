@@ -3,6 +3,8 @@
 pub(crate) mod chain;
 pub(crate) mod class;
 pub(crate) mod closures;
+#[cfg(feature = "alloc")]
+pub(crate) mod gradients;
 pub(crate) mod hamiltonian;
 pub(crate) mod hamiltonian_macro;
 pub(crate) mod in_lanes;
@@ -15,11 +17,17 @@ pub(crate) mod over_vectors;
 pub(crate) mod strands;
 
 pub use chain::{Bonds, Chain};
-pub use class::{Class, General, Separable};
+#[cfg(feature = "alloc")]
+pub use class::Constrained;
+pub use class::{Class, Damped, General, Separable, Unconstrained};
 pub use closures::{
     HamiltonianClosures, Momentum, NoEnergy, SeparableClosures, acceleration, hamiltonian,
     separable,
 };
+#[cfg(feature = "alloc")]
+pub use gradients::Gradients;
+#[cfg(feature = "alloc")]
+pub(crate) use gradients::Terms;
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
 pub use hamiltonian_macro::hamiltonian;
 pub use in_lanes::SystemLanes;

@@ -3,9 +3,9 @@
 use crate::method::Solver;
 use crate::number::{F64x2, F64x4, F64x8, Vector};
 use crate::solver::Automatic;
-#[cfg(feature = "alloc")]
-use crate::system::Jacobian;
 use crate::system::{Class, Components, Hamiltonian, Layout, StageRows};
+#[cfg(feature = "alloc")]
+use crate::system::{Gradients, Jacobian};
 
 /// A Hamiltonian system over one type of vectors: what an [`Integrator`](crate::Integrator) steps.
 ///
@@ -88,6 +88,23 @@ pub trait System<V: Vector>: Sized {
     fn half_bandwidth(&self) -> usize {
         usize::MAX
     }
+
+    /// The rate of the friction: see [`Hamiltonian::friction`].
+    fn friction(&self, _component: usize) -> f64 {
+        0.0
+    }
+
+    /// The number of constraints: see [`Hamiltonian::constraints`].
+    fn constraints(&self) -> usize {
+        0
+    }
+
+    /// Writes the constraints: see [`Hamiltonian::constraint_values`].
+    fn constraint_values(&self, _q: &V, _values: &mut [V::Scalar]) {}
+
+    /// Sets their gradients: see [`Hamiltonian::constraint_gradients`].
+    #[cfg(feature = "alloc")]
+    fn constraint_gradients(&self, _q: &V, _gradients: &mut Gradients<V::Scalar>) {}
 
     // What follows is how a `Chain` is made fast, for no other system.
 
@@ -175,6 +192,26 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
 
     fn half_bandwidth(&self) -> usize {
         Hamiltonian::half_bandwidth(self)
+    }
+
+    #[inline(always)]
+    fn friction(&self, component: usize) -> f64 {
+        Hamiltonian::friction(self, component)
+    }
+
+    fn constraints(&self) -> usize {
+        Hamiltonian::constraints(self)
+    }
+
+    #[inline(always)]
+    fn constraint_values(&self, q: &V, values: &mut [V::Scalar]) {
+        Hamiltonian::constraint_values::<V::Scalar>(self, q, values);
+    }
+
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    fn constraint_gradients(&self, q: &V, gradients: &mut Gradients<V::Scalar>) {
+        Hamiltonian::constraint_gradients::<V::Scalar>(self, q, gradients);
     }
 }
 

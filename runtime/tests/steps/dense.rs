@@ -8,12 +8,13 @@ use crate::common::systems::{Kepler, Pendulum, Product, perihelion, point};
 use symplectic::nalgebra::{DVector, SVector};
 use symplectic::output::Interpolation;
 use symplectic::solver::{FixedPoint, SimdFixedPoint, Solver};
+use symplectic::system::Unconstrained;
 use symplectic::{Error, Integrator, Method, ProvedFor, State, Summation, System, Vector};
 
 /// The state after a step of the size `fraction size`, in a hundred steps of Gauss 8.
 fn exact<S, V>(system: S, start: &State<V>, time: f64) -> Result<State<V>, Error>
 where
-    S: System<V>,
+    S: System<V, Class: Unconstrained>,
     V: Vector,
 {
     let mut fine = Integrator::new(Gauss8, system, start.clone(), time / 8.0)?;
@@ -34,7 +35,7 @@ fn errors<M, S, V>(
 ) -> Result<[f64; 2], Error>
 where
     M: Method + ProvedFor<S::Class>,
-    S: System<V>,
+    S: System<V, Class: Unconstrained>,
     V: Vector<Scalar = f64>,
 {
     let mut integrator = Integrator::new(method, system(), start.clone(), size)?;
@@ -65,7 +66,7 @@ fn shows<M, S, V>(
 ) -> Result<(), Error>
 where
     M: Method + ProvedFor<S::Class>,
-    S: System<V>,
+    S: System<V, Class: Unconstrained>,
     V: Vector<Scalar = f64>,
 {
     let runs = [size, size / 2.0].map(|size| {
@@ -93,7 +94,7 @@ where
 fn interpolation<M, S, V>(_method: M, _system: impl Fn() -> S, _start: &State<V>) -> Interpolation
 where
     M: Method + ProvedFor<S::Class>,
-    S: System<V>,
+    S: System<V, Class: Unconstrained>,
     V: Vector,
 {
     Integrator::<M, S, V>::INTERPOLATION

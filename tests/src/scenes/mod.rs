@@ -54,6 +54,7 @@ impl Needs {
 #[cfg(test)]
 mod check {
     use symplectic::nalgebra::DMatrix;
+    use symplectic::system::Unconstrained;
     use symplectic::{Class, Integrator, State, System, Vector};
 
     use super::Needs;
@@ -141,7 +142,7 @@ mod check {
     pub fn end<V, S>(system: S, start: State<V>, step_size: f64, end: f64) -> State<V>
     where
         V: Vector<Scalar = f64>,
-        S: System<V>,
+        S: System<V, Class: Unconstrained>,
     {
         let mut integrator = Integrator::new(Gauss8, system, start, step_size).expect("a start");
         integrator
@@ -154,7 +155,7 @@ mod check {
     pub fn conservation<V, S>(system: S, start: State<V>, step_size: f64, time: f64, tolerance: f64)
     where
         V: Vector<Scalar = f64>,
-        S: System<V> + Copy,
+        S: System<V, Class: Unconstrained> + Copy,
     {
         let energy = |state: &State<V>| {
             let energy = system.energy(state.time, &state.q, &state.p);

@@ -15,8 +15,7 @@ use super::facts::Known;
 use super::{literal, literal::identifier, nystrom, predictor, symplectic_rounding};
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
-use crate::derive::substeps;
-use crate::error::ErrorKind;
+use crate::derive::Substep;
 use crate::schedule::{Class, Node, Phases, StepGraph};
 use crate::tableau::Tableau;
 use crate::tableau::left_out;
@@ -51,22 +50,20 @@ pub(super) struct Plan {
     pub(super) code: TokenStream,
 }
 
-/// The plans of a method, under these names. Where the stages of a composition are solved for, it is taken step by step.
-///
-/// # Errors
-/// Those of [`substeps`].
+/// The plans of a method, under these names. Where the stages of a composition are solved for, it is taken step by step: by
+/// its methods and substeps.
 pub(super) fn plans(
     tableau: &Tableau,
     numbers: &Coefficients<Number<'_>>,
+    (methods, substeps): (&[Tableau], &[Substep]),
     names: [(Class, &Ident); 2],
-) -> Result<[Plan; 2], ErrorKind> {
-    let (methods, substeps) = substeps(&tableau.provenance().definition)?;
+) -> [Plan; 2] {
     let parts: Vec<_> = methods.iter().map(Tableau::numbers).collect();
     let polynomials = StagePolynomials::new(numbers);
     let known = Known::new(tableau);
     let parts_known: Vec<_> = methods.iter().map(Known::new).collect();
     let long = left_out(tableau).is_some();
-    Ok(names.map(|(class, name)| {
+    names.map(|(class, name)| {
         if long && class == Class::General {
             return Plan {
                 name: quote!(::symplectic::emitted::SeparableOnly),
@@ -79,16 +76,16 @@ pub(super) fn plans(
         }
         let composed = Composed {
             class,
-            methods: &methods,
+            methods,
             numbers: &parts,
             known: &parts_known,
-            substeps: &substeps,
+            substeps,
         };
         Plan {
             name: quote!(::symplectic::emitted::Composition<#name>),
             code: composed.code(name),
         }
-    }))
+    })
 }
 
 fn class_name(class: Class) -> Ident {

@@ -15,7 +15,7 @@ pub(crate) use schedule::{Coupled, Half, Kind, MOST, Row, Schedule, Splitting};
 
 use crate::method::{Method, Orders, ProvedFor};
 use crate::number::Coefficients;
-use crate::system::{Class, General, Separable};
+use crate::system::{Class, General, Separable, Unconstrained};
 
 /// The coefficients of a method with s stages, each the double nearest to the exact number.
 ///
@@ -228,4 +228,4 @@ impl Method for AtRunTime {
 }
 
 // Looked at when the integrator is made.
-impl<C> ProvedFor<C> for AtRunTime {}
+impl<C: Unconstrained> ProvedFor<C> for AtRunTime {}

@@ -65,7 +65,7 @@ pub(super) fn solve<C: Class, T: Scalar, W: Sweeps>(
         Err(Failure::NoConvergence { iterations, .. } | Failure::Stagnation { iterations, .. }) => {
             iterations
         }
-        Err(Failure::NonFinite { .. } | Failure::SingularMatrix) => 1,
+        Err(_) => 1,
     };
     work.iterations += iterations;
     work.evaluations += iterations * counts.sweep;

@@ -6,8 +6,8 @@ use core::marker::PhantomData;
 
 use super::every_stage::{AllStages, EveryStage, NOT_FINITE};
 use super::jacobian::Derivatives;
-use super::lu::{Complex, Elimination};
 use crate::method::Failure;
+use crate::number::elimination::{Complex, Elimination};
 use crate::number::words::words;
 use crate::number::{Scalar, Vector, Visit, scalar_words};
 use crate::system::{BandMatrix, Class, Jacobian, System};

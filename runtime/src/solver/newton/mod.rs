@@ -7,7 +7,6 @@ mod every_stage;
 mod fallback;
 mod jacobian;
 mod linear_solver;
-mod lu;
 mod memory;
 mod sweep;
 

@@ -13,7 +13,7 @@ use divan::Bencher;
 use peers::{End, Equations};
 use symplectic::nalgebra::SVector;
 use symplectic::solver::{FixedPoint, Solver};
-use symplectic::system::SystemInLanes;
+use symplectic::system::{SystemInLanes, Unconstrained};
 use symplectic::{
     Compensated, Error, Integrator, Method, Plain, ProvedFor, Separable, State, Summation, System,
     Vector,
@@ -268,7 +268,7 @@ where
 /// Gauss with eight stages of the library, in lanes as by hand and stage by stage.
 fn gauss_8<S, V>(settings: &Settings, system: S, start: State<V>) -> [Entry; 3]
 where
-    S: SystemInLanes<V> + Copy + 'static,
+    S: SystemInLanes<V> + System<V, Class: Unconstrained> + Copy + 'static,
     V: Vector<Scalar = f64>,
 {
     let (tolerance, problem) = (settings.stages, (system, start));
@@ -395,7 +395,10 @@ fn general<S, B, const N: usize, const M: usize>(
     start: &State<SVector<f64, N>>,
 ) -> Vec<Entry>
 where
-    S: SystemInLanes<SVector<f64, N>> + Copy + 'static,
+    S: SystemInLanes<SVector<f64, N>>
+        + System<SVector<f64, N>, Class: Unconstrained>
+        + Copy
+        + 'static,
     B: systems::General<N> + Copy + 'static,
 {
     let &Settings {

@@ -2,6 +2,7 @@
 //!
 //! Every method is generic over the system once, here: a scene chooses a set and says its numbers.
 
+use symplectic::system::Unconstrained;
 use symplectic::{Integrator, Separable, System, Vector};
 use symplectic_report::Problem;
 use symplectic_tests::methods::{
@@ -59,7 +60,7 @@ where
 pub fn implicit<V, S>(problem: Problem<V, S>) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: System<V> + Clone + 'static,
+    S: System<V, Class: Unconstrained> + Clone + 'static,
 {
     run!(problem, integrator => Ok(integrator);
         Gauss2 "Gauss 2" plain,
@@ -74,7 +75,7 @@ where
 pub fn coupled<V, S>(problem: Problem<V, S>) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: System<V> + Clone + 'static,
+    S: System<V, Class: Unconstrained> + Clone + 'static,
 {
     run!(implicit(problem), integrator => Ok(integrator);
         StoermerVerlet "Störmer–Verlet, implicit" plain,
@@ -86,7 +87,7 @@ where
 pub fn newton<V, S>(problem: Problem<V, S>) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: System<V> + Clone + 'static,
+    S: System<V, Class: Unconstrained> + Clone + 'static,
 {
     run!(problem, integrator => Ok(integrator.by_newton());
         Gauss4 "Gauss 4, Newton" plain,

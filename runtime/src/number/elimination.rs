@@ -8,7 +8,7 @@ use crate::number::words::words;
 use crate::number::{Scalar, Visit};
 
 /// A number of a field.
-pub(super) trait Entry:
+pub(crate) trait Entry:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
     fn zero() -> Self;
@@ -42,9 +42,9 @@ impl<T: Scalar> Entry for T {
 
 /// A complex number.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Complex<T> {
-    pub(super) re: T,
-    pub(super) im: T,
+pub(crate) struct Complex<T> {
+    pub(crate) re: T,
+    pub(crate) im: T,
 }
 
 impl<T: Add<Output = T>> Add for Complex<T> {
@@ -124,7 +124,7 @@ impl<T: Scalar + Neg<Output = T>> Entry for Complex<T> {
 /// The factors of a square matrix whose entries `(i, j)` are zero where `|i − j|` is above its half bandwidth, with the
 /// rows exchanged so that the pivots are as large as may be (Golub & Van Loan, *Matrix Computations*, 4.3.5).
 #[derive(Clone, Debug)]
-pub(super) struct Elimination<E> {
+pub(crate) struct Elimination<E> {
     size: usize,
     half_bandwidth: usize,
     /// Entries of a row that are stored; all of them where a band would need more.
@@ -134,12 +134,12 @@ pub(super) struct Elimination<E> {
     /// The row that each one was exchanged with.
     pivots: Vec<usize>,
     /// A right-hand side.
-    pub(super) right: Vec<E>,
+    pub(crate) right: Vec<E>,
 }
 
 impl<E: Entry> Elimination<E> {
     /// Memory for matrices of this size.
-    pub(super) fn new(size: usize, half_bandwidth: usize) -> Self {
+    pub(crate) fn new(size: usize, half_bandwidth: usize) -> Self {
         // Exchanged rows reach beyond the band, as far again.
         let width = half_bandwidth.saturating_mul(3).saturating_add(1).min(size);
         Self {
@@ -153,7 +153,7 @@ impl<E: Entry> Elimination<E> {
     }
 
     /// The factors, for checkpoints.
-    pub(super) fn words(&mut self, visit: &mut Visit<'_>) {
+    pub(crate) fn words(&mut self, visit: &mut Visit<'_>) {
         for entry in &mut self.entries {
             entry.words(visit);
         }
@@ -177,7 +177,7 @@ impl<E: Entry> Elimination<E> {
     }
 
     /// Factors the matrix with these entries; returns whether every pivot is finite and not zero.
-    pub(super) fn factor(&mut self, entry: impl Fn(usize, usize) -> E) -> bool {
+    pub(crate) fn factor(&mut self, entry: impl Fn(usize, usize) -> E) -> bool {
         self.entries.fill(E::zero());
         for i in 0..self.size {
             for j in self.band(i) {
@@ -226,7 +226,7 @@ impl<E: Entry> Elimination<E> {
     }
 
     /// Solves for the right-hand side in `right`, in its place.
-    pub(super) fn solve(&mut self) {
+    pub(crate) fn solve(&mut self) {
         for k in 0..self.size {
             self.right.swap(k, self.pivots[k]);
             let known = self.right[k];

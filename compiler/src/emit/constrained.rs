@@ -1,0 +1,100 @@
+//! How a method steps systems with holonomic constraints, as data.
+
+use num_rational::BigRational;
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::literal;
+use super::symplectic_rounding::complements;
+use crate::algebra::{Field, Number, Real, Reals};
+use crate::coefficients::Coefficients;
+use crate::derive::Substep;
+use crate::properties::multiplier_matrix;
+use crate::tableau::Tableau;
+
+/// The `CONSTRAINED` of a `Method`; nothing for a method that does not qualify.
+///
+/// A composition qualifies if every method of which it consists does: it composes their constrained steps.
+pub(super) fn code(
+    tableau: &Tableau,
+    numbers: &Coefficients<Number<'_>>,
+    (methods, substeps): (&[Tableau], &[Substep]),
+) -> Option<TokenStream> {
+    let qualifies = |tableau: &Tableau| tableau.properties().constrained.holds;
+    let (tableaux, steps) = if qualifies(tableau) {
+        let exact = |value: f64| {
+            let value = literal::double(value);
+            quote!(::symplectic::emitted::Coefficient::exact(#value))
+        };
+        let (start, size) = (exact(0.0), exact(1.0));
+        let whole = quote!(#start, #size, &TABLEAU1);
+        (vec![constants(numbers)?], vec![whole])
+    } else {
+        if substeps.is_empty() || !methods.iter().all(qualifies) {
+            return None;
+        }
+        let constants = methods.iter().map(|method| constants(&method.numbers()));
+        (constants.collect::<Option<Vec<_>>>()?, list(substeps))
+    };
+    let names = (1..=tableaux.len()).map(|k| format_ident!("TABLEAU{k}"));
+    let steps = steps
+        .iter()
+        .map(|step| quote!(::symplectic::emitted::ConstrainedStep::new(#step)));
+    Some(quote! {
+        const CONSTRAINED: &'static [::symplectic::emitted::ConstrainedStep] = {
+            #(const #names: ::symplectic::emitted::ConstrainedTableau = #tableaux;)*
+            &[#(#steps),*]
+        };
+    })
+}
+
+/// The start and the size of every substep as fractions of the step, and its tableau.
+fn list(substeps: &[Substep]) -> Vec<TokenStream> {
+    let coefficient = |real: &Real| literal::coefficient(&Reals.number(real));
+    let mut start = Real::rational(BigRational::default());
+    let step = |substep: &Substep| {
+        let fraction = Real::constant(substep.fraction.clone());
+        let (at, size) = (coefficient(&start), coefficient(&fraction));
+        let tableau = format_ident!("TABLEAU{}", substep.method + 1);
+        start = Reals.add(&start, &fraction);
+        quote!(#at, #size, &#tableau)
+    };
+    substeps.iter().map(step).collect()
+}
+
+/// A tableau, rounded so that it is symplectic exactly, and `X⁻¹`.
+fn constants(numbers: &Coefficients<Number<'_>>) -> Option<TokenStream> {
+    let stages = numbers.b.len();
+    // μ_ij = a_ij/b_j and μ̃_ji = ã_ji/b_i, which add up to 1.
+    let pair = |i: usize, j: usize| {
+        let mu = (&numbers.a[i][j], &numbers.b[j]);
+        let mu_tilde = (&numbers.a_tilde[j][i], &numbers.b_tilde[i]);
+        let (mu, mu_tilde) = complements(mu, mu_tilde, false)?;
+        Some((literal::rounded(mu), literal::rounded(mu_tilde)))
+    };
+    let matrix = |entry: &dyn Fn(usize, usize) -> Option<TokenStream>| {
+        let row = |i| (0..stages).map(|j| entry(i, j)).collect();
+        (0..stages).map(row).collect::<Option<Vec<Vec<_>>>>()
+    };
+    let positions = matrix(&|i, j| Some(pair(i, j)?.0))?;
+    let momenta = matrix(&|i, j| Some(pair(j, i)?.1))?;
+    let rows = |rows: &[Vec<TokenStream>]| {
+        let rows = rows.iter().map(|row| quote!(&[#(#row),*]));
+        quote!(&[#(#rows),*])
+    };
+    let [positions, momenta] = [&positions, &momenta].map(|matrix| rows(matrix));
+    let inverse = multiplier_matrix(numbers)?;
+    let inverse = inverse.iter().map(|row| literal::array(row));
+    let [weights, nodes, momentum_nodes] =
+        [&numbers.b, &numbers.c, &numbers.c_tilde].map(|vector| literal::coefficients(vector));
+    Some(quote! {
+        ::symplectic::emitted::ConstrainedTableau {
+            positions: #positions,
+            momenta: #momenta,
+            weights: &#weights,
+            nodes: &#nodes,
+            momentum_nodes: &#momentum_nodes,
+            multipliers: &[#(&#inverse),*],
+        }
+    })
+}

@@ -1,0 +1,124 @@
+//! The memory of a constrained step.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::array;
+
+use super::metric::{Metric, Point};
+use super::newton::StageJacobian;
+use crate::error::Quantity;
+use crate::method::storage::{first_mismatch, first_non_finite};
+use crate::method::{Method, StageStorage};
+use crate::number::{Scalar, Vector, Visit, scalar_words, vector_words};
+use crate::system::{Gradients, System, Terms};
+
+/// What depends on the numbers of constraints and stages.
+#[derive(Clone, Debug)]
+pub(super) struct Workspace<V: Vector> {
+    pub(super) metric: Metric<V::Scalar>,
+    /// At the start of the step, once it has begun.
+    pub(super) start: Point<V>,
+    /// At its end; at the start of the next one.
+    pub(super) end: Point<V>,
+    /// Stage positions Q_i and momenta P_i.
+    pub(super) q: Vec<V>,
+    pub(super) p: Vec<V>,
+    /// The increments `h b_i velocity_i` of positions and `h b_i force_i` of momenta, constraint forces included.
+    pub(super) drift: Vec<V>,
+    pub(super) kick: Vec<V>,
+    /// The gradients at Q_2 … Q_{s−1}.
+    pub(super) gradients: Vec<Gradients<V::Scalar>>,
+    /// `h b_k Λ_k`, stage by stage.
+    pub(super) impulses: Vec<V::Scalar>,
+    /// Made when first needed.
+    pub(super) jacobian: Option<StageJacobian<V::Scalar>>,
+    /// `φ(Q_i)`, then `S⁻¹ φ(Q_i)`, i = 2..s, stage by stage.
+    pub(super) defects: Vec<V::Scalar>,
+    /// The multipliers at the end of the step before, from which those of a step start.
+    pub(super) multipliers: Vec<V::Scalar>,
+    /// `G velocity` at the end.
+    pub(super) rates: Vec<V::Scalar>,
+    /// What the residuals of every constraint are compared with.
+    pub(super) terms: Vec<Terms>,
+    /// `|G velocity|` before the impulses of the last stage, which these have to take away.
+    pub(super) drive: Vec<f64>,
+    /// A velocity, a force, a momentum.
+    pub(super) scratch: [V; 3],
+}
+
+/// The memory of a constrained step.
+#[derive(Clone, Debug)]
+pub struct ConstrainedStages<V: Vector> {
+    /// None until the system is known.
+    pub(super) workspace: Option<Workspace<V>>,
+    /// Where the result of a substep is: position and momentum, each with what it leaves out.
+    pub(super) between: [V; 4],
+}
+
+impl<V: Vector> Workspace<V> {
+    /// Memory for steps of a method and of a system at this state.
+    pub(super) fn new<M: Method, S: System<V>>(system: &S, time: f64, q: &V, p: &V) -> Self {
+        let constraints = system.constraints();
+        let stages = M::CONSTRAINED.iter().map(|step| step.tableau.weights.len());
+        let stages = stages.max().unwrap_or(0);
+        let (metric, point) = Metric::new(system, time, q, p);
+        let vectors = |count: usize| -> Vec<V> { (0..count).map(|_| q.zeros_like()).collect() };
+        let numbers = |count: usize| vec![V::Scalar::from_f64(0.0); count];
+        let gradients = point.gradients.clone();
+        Self {
+            metric,
+            start: point.clone(),
+            end: point,
+            q: vectors(stages),
+            p: vectors(stages),
+            drift: vectors(stages),
+            kick: vectors(stages),
+            gradients: vec![gradients; stages.saturating_sub(2)],
+            impulses: numbers(stages.saturating_sub(1) * constraints),
+            jacobian: None,
+            defects: numbers(stages.saturating_sub(1) * constraints),
+            multipliers: numbers(constraints),
+            rates: numbers(constraints),
+            terms: vec![Terms::default(); constraints],
+            drive: vec![0.0; constraints],
+            scratch: array::from_fn(|_| q.zeros_like()),
+        }
+    }
+}
+
+impl<V: Vector> StageStorage<V> for ConstrainedStages<V> {
+    fn like(prototype: &V) -> Self {
+        Self {
+            workspace: None,
+            between: array::from_fn(|_| prototype.zeros_like()),
+        }
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        let Some(Workspace {
+            end, multipliers, ..
+        }) = &mut self.workspace
+        else {
+            return;
+        };
+        vector_words(array::from_mut(&mut end.force), visit);
+        end.gradients.words(visit);
+        end.normal.words(visit);
+        scalar_words(multipliers, visit);
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        let workspace = self.workspace.as_ref()?;
+        first_non_finite(
+            (&workspace.q, &workspace.kick),
+            (&workspace.p, &workspace.drift),
+        )
+    }
+
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        let [velocity, force, _] = &self.workspace.as_ref()?.scratch;
+        first_mismatch(array::from_ref(force), array::from_ref(velocity), dimension)
+    }
+
+    fn forget(&mut self, _prototype: &V) {}
+}

@@ -1,0 +1,252 @@
+//! `G M⁻¹ Gᵀ` of a system at a state.
+
+use core::array;
+
+use alloc::vec::Vec;
+
+use super::normal_matrix::{NormalMatrix, Products};
+use crate::method::Failure;
+use crate::number::{Scalar, Vector};
+use crate::system::linearity::non_linear_velocity;
+use crate::system::{Class, Gradients, System};
+
+/// How the velocity depends on the momentum.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum InverseMasses<T> {
+    /// The velocity is the momentum.
+    Unit,
+    /// Each component of the velocity is the component of the momentum times a constant.
+    Diagonal(Vec<T>),
+    /// Any other way: `M⁻¹` stands for ∂velocity/∂p.
+    Full,
+}
+
+/// What `G M⁻¹ Gᵀ` is computed with at every state.
+#[derive(Clone, Debug)]
+pub(super) struct Metric<T> {
+    masses: InverseMasses<T>,
+    products: Products,
+    /// Whether the velocity is linear in the momentum.
+    linear: bool,
+}
+
+/// What is known at a state on the constraints: at the start of a step, and at its end.
+#[derive(Clone, Debug)]
+pub(super) struct Point<V: Vector> {
+    /// The force without that of the constraints; of separable systems.
+    pub(super) force: V,
+    pub(super) gradients: Gradients<V::Scalar>,
+    /// `G M⁻¹ Gᵀ`, factored.
+    pub(super) normal: NormalMatrix<V::Scalar>,
+}
+
+impl<T: Scalar> Metric<T> {
+    /// That of a system as it is at a state, and room for a point.
+    pub(super) fn new<V: Vector<Scalar = T>, S: System<V>>(
+        system: &S,
+        time: f64,
+        q: &V,
+        p: &V,
+    ) -> (Self, Point<V>) {
+        let constraints = system.constraints();
+        let gradients = Gradients::learned(constraints, q.dimension(), |gradients| {
+            system.constraint_gradients(q, gradients);
+        });
+        let linear = S::UNIT_MASSES || non_linear_velocity(system, time, q, p).is_none();
+        let masses = inverse_masses(system, linear, time, q, p);
+        let products = Products::new(&gradients, &masses);
+        let point = Point {
+            force: q.zeros_like(),
+            normal: NormalMatrix::new(constraints, &products),
+            gradients,
+        };
+        let metric = Self {
+            masses,
+            products,
+            linear,
+        };
+        (metric, point)
+    }
+
+    /// Evaluates the gradients at `q`, and factors `G M⁻¹ Gᵀ` there.
+    pub(super) fn look<V: Vector<Scalar = T>, S: System<V>>(
+        &self,
+        system: &S,
+        time: f64,
+        (q, p): (&V, &V),
+        point: &mut Point<V>,
+        [velocity, direction, moved]: &mut [V; 3],
+    ) -> Result<(), Failure> {
+        let Point {
+            gradients, normal, ..
+        } = point;
+        if !gradients.evaluate(|gradients| system.constraint_gradients(q, gradients)) {
+            return Err(Failure::MovingGradients);
+        }
+        if self.masses != InverseMasses::Full {
+            normal.assemble(&self.products, &self.masses, gradients);
+            return normal.factor();
+        }
+        let at = T::from_f64(time);
+        system.velocity(at, q, p, velocity);
+        for row in 0..gradients.constraints() {
+            let mut largest = 0.0_f64;
+            moved.as_mut_slice().fill(T::zero());
+            for (_, component, value) in gradients.entries().filter(|entry| entry.0 == row) {
+                moved.as_mut_slice()[component] += value;
+                largest = largest.max(value.magnitude());
+            }
+            self.direction(system, (at, q, p), largest, [velocity, direction, moved]);
+            normal.set_row(row, gradients, direction.as_slice());
+        }
+        normal.factor()
+    }
+
+    /// `direction = M⁻¹ moved`, where `velocity` is that at a place and `largest` the largest component of `moved`, which is lost.
+    fn direction<V: Vector<Scalar = T>, S: System<V>>(
+        &self,
+        system: &S,
+        (time, q, p): (T, &V, &V),
+        largest: f64,
+        [velocity, direction, moved]: [&mut V; 3],
+    ) {
+        if self.linear {
+            system.velocity(time, q, moved, direction);
+            return;
+        }
+        let sizes = p.as_slice().iter().map(|x| x.magnitude());
+        let step = num_traits::Float::sqrt(T::EPSILON) * sizes.fold(1.0, f64::max);
+        let step = step / largest.max(f64::MIN_POSITIVE);
+        let (by, back) = (T::from_f64(step), T::from_f64(step.recip()));
+        for (moved, &p) in moved.as_mut_slice().iter_mut().zip(p.as_slice()) {
+            *moved = p + by * *moved;
+        }
+        system.velocity(time, q, moved, direction);
+        let pairs = direction.as_mut_slice().iter_mut();
+        for (direction, &velocity) in pairs.zip(velocity.as_slice()) {
+            *direction = (*direction - velocity) * back;
+        }
+    }
+
+    /// Whether `M⁻¹` is known by evaluations of the velocity only.
+    pub(super) fn is_full(&self) -> bool {
+        self.masses == InverseMasses::Full
+    }
+
+    /// How far apart the numbers of constraints with a component in common may be.
+    pub(super) const fn half_bandwidth(&self) -> usize {
+        self.products.half_bandwidth()
+    }
+
+    /// `left M⁻¹ rightᵀ` as a band by rows, `M⁻¹` at a place.
+    pub(super) fn cross<V: Vector<Scalar = T>, S: System<V>>(
+        &self,
+        system: &S,
+        (time, q, p): (T, &V, &V),
+        left: &Gradients<T>,
+        right: &Gradients<T>,
+        band: &mut [T],
+        [velocity, direction, moved]: &mut [V; 3],
+    ) {
+        band.fill(T::zero());
+        let half = self.half_bandwidth();
+        let place = |row: usize, column: usize| row * (2 * half + 1) + column + half - row;
+        if self.masses != InverseMasses::Full {
+            let mass = |component: usize| match &self.masses {
+                InverseMasses::Diagonal(inverse) => inverse[component],
+                _ => T::one(),
+            };
+            for (a, b, row, column, component) in self.products.pairs() {
+                let (left, right) = (left.values(), right.values());
+                band[place(row, column)] += left[a] * right[b] * mass(component);
+                if row != column {
+                    band[place(column, row)] += left[b] * right[a] * mass(component);
+                }
+            }
+            return;
+        }
+        system.velocity(time, q, p, velocity);
+        for column in 0..right.constraints() {
+            let mut largest = 0.0_f64;
+            moved.as_mut_slice().fill(T::zero());
+            for (_, component, value) in right.entries().filter(|entry| entry.0 == column) {
+                moved.as_mut_slice()[component] += value;
+                largest = largest.max(value.magnitude());
+            }
+            self.direction(system, (time, q, p), largest, [velocity, direction, moved]);
+            for (row, component, value) in left.entries() {
+                band[place(row, column)] += value * direction.as_slice()[component];
+            }
+        }
+    }
+
+    /// `vector = M⁻¹ vector` for a vector `Gᵀ factors`, at a state.
+    pub(super) fn apply<V: Vector<Scalar = T>, S: System<V>>(
+        &self,
+        system: &S,
+        time: f64,
+        (q, p): (&V, &V),
+        vector: &mut V,
+    ) {
+        match &self.masses {
+            InverseMasses::Unit => {}
+            InverseMasses::Diagonal(inverse) => {
+                for (x, &inverse) in vector.as_mut_slice().iter_mut().zip(inverse) {
+                    *x *= inverse;
+                }
+            }
+            InverseMasses::Full => {
+                let [mut at, mut there, mut moved] = array::from_fn(|_| p.clone());
+                let time = T::from_f64(time);
+                let pairs = moved.as_mut_slice().iter_mut().zip(vector.as_slice());
+                pairs.for_each(|(p, &x)| *p += x);
+                system.velocity(time, q, p, &mut at);
+                system.velocity(time, q, &moved, &mut there);
+                let pairs = there.as_slice().iter().zip(at.as_slice());
+                for (x, (&there, &at)) in vector.as_mut_slice().iter_mut().zip(pairs) {
+                    *x = there - at;
+                }
+            }
+        }
+    }
+}
+
+/// How the velocity of a system depends on the momentum, as far as evaluations can tell.
+fn inverse_masses<V: Vector, S: System<V>>(
+    system: &S,
+    linear: bool,
+    time: f64,
+    q: &V,
+    p: &V,
+) -> InverseMasses<V::Scalar> {
+    if S::UNIT_MASSES {
+        return InverseMasses::Unit;
+    }
+    if !S::Class::SEPARABLE || !linear {
+        return InverseMasses::Full;
+    }
+    let velocity = |momentum: &dyn Fn(usize) -> f64| {
+        let (mut point, mut velocity) = (p.zeros_like(), p.zeros_like());
+        for (k, component) in point.as_mut_slice().iter_mut().enumerate() {
+            *component = V::Scalar::from_f64(momentum(k));
+        }
+        system.velocity(V::Scalar::from_f64(time), q, &point, &mut velocity);
+        velocity
+    };
+    let inverse = velocity(&|_| 1.0);
+    // Momenta with components that are all different: entries off the diagonal show.
+    let tries = [0.618_033_988_749_895, 0.754_877_666_246_693];
+    let diagonal = tries.iter().all(|ratio| {
+        let momentum = |k: usize| 1.0 + (k as f64 * ratio) % 1.0;
+        let tried = velocity(&momentum);
+        let mut pairs = inverse.as_slice().iter().zip(tried.as_slice()).enumerate();
+        pairs.all(|(k, (&inverse, &tried))| {
+            let expected = inverse * V::Scalar::from_f64(momentum(k));
+            (tried - expected).magnitude() <= 16.0 * V::Scalar::EPSILON * expected.magnitude()
+        })
+    });
+    match diagonal {
+        true => InverseMasses::Diagonal(inverse.as_slice().to_vec()),
+        false => InverseMasses::Full,
+    }
+}

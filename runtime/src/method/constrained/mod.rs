@@ -1,0 +1,146 @@
+//! Steps of systems with holonomic constraints `φ(q) = 0` (Jay, 1996; Marsden & West, 2001, 3.5.6).
+//!
+//! ```text
+//! Q_i = q0 + h Σ_j a_ij velocity_j    P_i = p0 + h Σ_j ã_ij force_j    force_j = −∂H/∂q(Q_j, P_j) − G(Q_j)ᵀ Λ_j
+//! φ(Q_i) = 0, i = 2..s                q1 = Q_s    p1 = p0 + h Σ_i b_i force_i,   G(q1) ∂H/∂p(q1, p1) = 0
+//! ```
+//!
+//! With two stages of Lobatto IIIA–IIIB this is RATTLE.
+
+mod force;
+mod memory;
+mod metric;
+mod newton;
+mod normal_matrix;
+mod start;
+mod step;
+
+pub use force::{ConstraintForce, constraint_force};
+pub use memory::ConstrainedStages;
+pub(crate) use start::check_start;
+pub use start::consistent;
+
+use core::marker::PhantomData;
+
+use crate::error::Error;
+use crate::method::{
+    EvaluationObserver, Failure, Inside, Interpolation, Method, Outcome, Plan, Solver, Step,
+    StepStatistics, Stopping, WarmStart,
+};
+use crate::number::{Scalar, Summation, Vector};
+use crate::system::{Class, Constrained, System, Unconstrained};
+use memory::Workspace;
+
+/// How the method `M` steps systems with constraints.
+#[derive(Debug)]
+pub struct ConstrainedPlan<M, C>(PhantomData<(M, C)>);
+
+impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
+    type Class = Constrained<C>;
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = ConstrainedStages<V>;
+
+    fn prepare<V, S, N>(memory: &mut ConstrainedStages<V>, system: &S, time: f64, q: &V, p: &V)
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+        memory.workspace = Some(Workspace::new::<M, S>(system, time, q, p));
+    }
+
+    fn check<V, S>(system: &S, time: f64, q: &V, p: &V) -> Result<(), Error>
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        check_start(system, time, q, p)
+    }
+
+    fn take<R, V, S, N>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut ConstrainedStages<V>,
+        kept: WarmStart,
+        stopping: Stopping,
+        mut outcome: Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+        let ConstrainedStages {
+            workspace,
+            between: [q, q_low, p, p_low],
+        } = memory;
+        let workspace = workspace
+            .get_or_insert_with(|| Workspace::new::<M, S>(system, step.time, step.q, step.p));
+        let mut between = Outcome { q, q_low, p, p_low };
+        let mut outcome = outcome.reborrow();
+        let mut work = StepStatistics::default();
+        let count = M::CONSTRAINED.len();
+        for (number, substep) in M::CONSTRAINED.iter().enumerate() {
+            // Results go to one of two places in turn, the last one to where it belongs.
+            let (here, there) = if (count - number) % 2 == 1 {
+                (&mut outcome, &between)
+            } else {
+                (&mut between, &outcome)
+            };
+            let (q, q_low, p, p_low) = if number == 0 {
+                (step.q, step.q_low, step.p, step.p_low)
+            } else {
+                (&*there.q, &*there.q_low, &*there.p, &*there.p_low)
+            };
+            let part = Step {
+                time: step.time + substep.start.double() * step.size,
+                size: substep.fraction.double() * step.size,
+                q,
+                q_low,
+                p,
+                p_low,
+                linear_velocity: step.linear_velocity,
+            };
+            let carried = number > 0 || kept.evaluation;
+            let taken =
+                workspace.take::<R, S>(substep.tableau, &part, system, carried, stopping, here);
+            work += taken?;
+        }
+        Ok(work)
+    }
+
+    /// The stages are in the memory.
+    fn observe<R, V, S, N, W>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _memory: &mut ConstrainedStages<V>,
+        _outcome: Outcome<'_, V>,
+        _witness: &mut W,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+        W: EvaluationObserver,
+    {
+    }
+
+    fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        system.force(V::Scalar::from_f64(time), q, p, rate);
+        force::add_to_force(system, time, (q, p), rate);
+    }
+
+    const INTERPOLATION: Interpolation = Interpolation::Hermite;
+
+    fn extend<V, S, N>(_memory: &ConstrainedStages<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+    }
+}

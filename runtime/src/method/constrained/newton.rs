@@ -1,0 +1,138 @@
+//! Newton's method for the multipliers.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::memory::Workspace;
+use crate::method::{ConstrainedTableau, Failure, Step};
+use crate::number::elimination::Elimination;
+use crate::number::{Scalar, Vector};
+use crate::system::{Gradients, System};
+
+/// The matrix of the positions of the stages by the impulses of the constraints, at the present stages:
+///
+/// ```text
+/// ∂φ(Q_i)/∂(h b_k Λ_k) = −h Z_ik G(Q_i) M⁻¹ G(Q_k)ᵀ      Z_ik = Σ_j b_j μ_ij μ̃_jk
+/// ```
+///
+/// How forces change with positions is left out: that is smaller by h².
+#[derive(Clone, Debug)]
+pub(super) struct StageJacobian<T> {
+    elimination: Elimination<T>,
+    /// Blocks `G(Q_i) M⁻¹ G(Q_k)ᵀ` by rows, one after another.
+    blocks: Vec<T>,
+}
+
+impl<T: Scalar> StageJacobian<T> {
+    /// Memory for so many constraints and stages of multipliers.
+    fn new(constraints: usize, stages: usize, half_bandwidth: usize) -> Self {
+        let half = (half_bandwidth + 1) * stages - 1;
+        Self {
+            elimination: Elimination::new(constraints * stages, half),
+            blocks: vec![T::zero(); stages * stages * constraints * (2 * half_bandwidth + 1)],
+        }
+    }
+}
+
+impl<V: Vector> Workspace<V> {
+    /// Whether the matrix takes many evaluations of the velocity.
+    pub(super) fn jacobian_is_costly(&self) -> bool {
+        self.metric.is_full()
+    }
+
+    /// New impulses of the constraints from the defects, by a step of Newton's method, with the matrix of an earlier sweep unless it
+    /// is to be `renew`ed.
+    ///
+    /// # Errors
+    /// [`Failure::SingularMatrix`]
+    pub(super) fn correct_by_newton<S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        renew: bool,
+    ) -> Result<(), Failure> {
+        let (stages, constraints) = (tableau.weights.len() - 1, self.multipliers.len());
+        let half = self.metric.half_bandwidth();
+        let length = stages * stages * constraints * (2 * half + 1);
+        let known = self.jacobian.take();
+        let known = known.filter(|jacobian| jacobian.blocks.len() == length);
+        let mut jacobian = match known {
+            Some(known) => known,
+            None => StageJacobian::new(constraints, stages, half),
+        };
+        if renew && !self.renew(tableau, step, system, &mut jacobian)? {
+            return Err(Failure::SingularMatrix);
+        }
+        let elimination = &mut jacobian.elimination;
+        for c in 0..constraints {
+            for i in 0..stages {
+                elimination.right[c * stages + i] = self.defects[i * constraints + c];
+            }
+        }
+        elimination.solve();
+        for c in 0..constraints {
+            for k in 0..stages {
+                self.impulses[k * constraints + c] += elimination.right[c * stages + k];
+            }
+        }
+        self.jacobian = Some(jacobian);
+        Ok(())
+    }
+
+    /// Computes and factors the matrix at the present stages; returns whether it is regular.
+    fn renew<S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        jacobian: &mut StageJacobian<V::Scalar>,
+    ) -> Result<bool, Failure> {
+        let (stages, constraints) = (tableau.weights.len() - 1, self.multipliers.len());
+        let half = self.metric.half_bandwidth();
+        let width = 2 * half + 1;
+        // Those at Q_1 … Q_{s−1} are known from the sweep.
+        let q = &self.q[stages];
+        let last = &mut self.end.gradients;
+        if !last.evaluate(|gradients| system.constraint_gradients(q, gradients)) {
+            return Err(Failure::MovingGradients);
+        }
+        let at = |stage: usize| -> &Gradients<V::Scalar> {
+            match stage {
+                0 => &self.start.gradients,
+                _ if stage == stages => &self.end.gradients,
+                _ => &self.gradients[stage - 1],
+            }
+        };
+        for k in 0..stages {
+            let place = (step.at(tableau.momentum_nodes[k]), &self.q[k], &self.p[k]);
+            for i in 0..stages {
+                let block = (i * stages + k) * constraints * width;
+                let block = &mut jacobian.blocks[block..block + constraints * width];
+                let scratch = &mut self.scratch;
+                (self.metric).cross(system, place, at(i + 1), at(k), block, scratch);
+            }
+        }
+        let StageJacobian {
+            elimination,
+            blocks,
+        } = jacobian;
+        let factor = |i: usize, k: usize| {
+            let products = (0..=stages).map(|j| {
+                let positions = tableau.positions[i + 1][j].double();
+                tableau.weights[j].double() * positions * tableau.momenta[j][k].double()
+            });
+            V::Scalar::from_f64(step.size * products.sum::<f64>())
+        };
+        // Constraint by constraint, in each its stages.
+        Ok(elimination.factor(|row, column| {
+            let (c, i) = (row / stages, row % stages);
+            let (d, k) = (column / stages, column % stages);
+            if c.abs_diff(d) > half {
+                return V::Scalar::from_f64(0.0);
+            }
+            let block = (i * stages + k) * constraints * width;
+            factor(i, k) * blocks[block + c * width + d + half - c]
+        }))
+    }
+}

@@ -1,0 +1,207 @@
+//! The matrix `S = G M⁻¹ Gᵀ` of the constraints, and its factors.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::metric::InverseMasses;
+use crate::method::Failure;
+use crate::number::{Scalar, Visit, scalar_words};
+use crate::system::Gradients;
+
+/// Which products of entries of G an entry of S consists of.
+#[derive(Clone, Debug)]
+pub(super) struct Products {
+    /// Two entries of G in the same column, the place of their product in the band, and the column.
+    pairs: Vec<(u32, u32, u32, u32)>,
+    half_bandwidth: usize,
+}
+
+impl Products {
+    /// The products for gradients with these places; with [`InverseMasses::Full`] none, and a full matrix.
+    pub(super) fn new<T: Scalar>(gradients: &Gradients<T>, masses: &InverseMasses<T>) -> Self {
+        if *masses == InverseMasses::Full {
+            return Self {
+                pairs: Vec::new(),
+                half_bandwidth: gradients.constraints().saturating_sub(1),
+            };
+        }
+        // The entries of each column, column by column.
+        let mut by_column: Vec<(usize, usize, usize)> = gradients
+            .entries()
+            .enumerate()
+            .map(|(entry, (constraint, component, _))| (component, constraint, entry))
+            .collect();
+        by_column.sort_unstable();
+        let columns = || by_column.chunk_by(|a, b| a.0 == b.0);
+        let widths = columns().map(|column| column[column.len() - 1].1 - column[0].1);
+        let half_bandwidth = widths.max().unwrap_or(0);
+        let mut pairs = Vec::new();
+        for column in columns() {
+            for (number, &(component, row, entry)) in column.iter().enumerate() {
+                for &(_, other_row, other) in &column[..=number] {
+                    let place = row * half_bandwidth + half_bandwidth + other_row;
+                    pairs.push([entry, other, place, component].map(|x| x as u32).into());
+                    // Both orders of two entries of one constraint in one column.
+                    if row == other_row && entry != other {
+                        pairs.push([other, entry, place, component].map(|x| x as u32).into());
+                    }
+                }
+            }
+        }
+        Self {
+            pairs,
+            half_bandwidth,
+        }
+    }
+}
+
+impl Products {
+    pub(super) const fn half_bandwidth(&self) -> usize {
+        self.half_bandwidth
+    }
+
+    /// Two entries of G in the same column, their constraints, the second not above the first, and the column.
+    pub(super) fn pairs(&self) -> impl Iterator<Item = (usize, usize, usize, usize, usize)> {
+        let half = self.half_bandwidth;
+        self.pairs.iter().map(move |&(a, b, place, component)| {
+            let row = place as usize / (half + 1);
+            let column = place as usize - row * half - half;
+            (a as usize, b as usize, row, column, component as usize)
+        })
+    }
+}
+
+/// A symmetric band: row k holds the entries from column `k − half_bandwidth` to k; its factors `L D Lᵀ` in the same places.
+#[derive(Clone, Debug)]
+pub(super) struct NormalMatrix<T> {
+    size: usize,
+    half_bandwidth: usize,
+    rows: Vec<T>,
+}
+
+impl<T: Scalar> NormalMatrix<T> {
+    pub(super) fn new(size: usize, products: &Products) -> Self {
+        let half_bandwidth = products.half_bandwidth;
+        Self {
+            size,
+            half_bandwidth,
+            rows: vec![T::zero(); size * (half_bandwidth + 1)],
+        }
+    }
+
+    #[inline]
+    const fn place(&self, row: usize, column: usize) -> usize {
+        row * self.half_bandwidth + self.half_bandwidth + column
+    }
+
+    /// `G M⁻¹ Gᵀ` with diagonal masses.
+    pub(super) fn assemble(
+        &mut self,
+        products: &Products,
+        masses: &InverseMasses<T>,
+        gradients: &Gradients<T>,
+    ) {
+        let values = gradients.values();
+        self.rows.fill(T::zero());
+        match masses {
+            InverseMasses::Diagonal(inverse) => {
+                for &(a, b, place, component) in &products.pairs {
+                    let product = values[a as usize] * values[b as usize];
+                    self.rows[place as usize] += product * inverse[component as usize];
+                }
+            }
+            _ => {
+                for &(a, b, place, _) in &products.pairs {
+                    self.rows[place as usize] += values[a as usize] * values[b as usize];
+                }
+            }
+        }
+    }
+
+    /// Row `row` of `G M⁻¹ Gᵀ` from `direction`, `M⁻¹` times the gradient of that constraint; of a full matrix.
+    pub(super) fn set_row(&mut self, row: usize, gradients: &Gradients<T>, direction: &[T]) {
+        for column in 0..=row {
+            let place = self.place(row, column);
+            self.rows[place] = T::zero();
+        }
+        for (column, component, value) in gradients.entries().filter(|entry| entry.0 <= row) {
+            let place = self.place(row, column);
+            self.rows[place] += value * direction[component];
+        }
+    }
+
+    /// Factors the matrix.
+    ///
+    /// # Errors
+    /// [`Failure::DependentConstraints`], where a pivot is lost in rounding errors: the gradient of the constraint depends on those
+    /// of the constraints before it, or vanishes.
+    pub(super) fn factor(&mut self) -> Result<(), Failure> {
+        let (size, half) = (self.size, self.half_bandwidth);
+        for k in 0..size {
+            let diagonal = self.rows[self.place(k, k)].magnitude();
+            for column in k.saturating_sub(half)..=k {
+                // Column by column: (k, column) −= Σ_j L_kj D_j L_column,j.
+                let mut entry = self.rows[self.place(k, column)];
+                for j in k.saturating_sub(half)..column {
+                    let factor = self.rows[self.place(k, j)] * self.rows[self.place(j, j)];
+                    if column - j <= half {
+                        entry -= factor * self.rows[self.place(column, j)];
+                    }
+                }
+                if column < k {
+                    entry *= self.rows[self.place(column, column)].recip();
+                }
+                let place = self.place(k, column);
+                self.rows[place] = entry;
+            }
+            let pivot = self.rows[self.place(k, k)].magnitude();
+            // NaN is not above the bound.
+            let regular = pivot > LOST * T::EPSILON * diagonal && pivot.is_finite();
+            if !regular {
+                return Err(Failure::DependentConstraints {
+                    constraint: k,
+                    pivot: pivot / diagonal,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves for a right-hand side, in its place.
+    pub(super) fn solve(&self, unknown: &mut [T]) {
+        for k in 0..self.size {
+            let (before, rest) = unknown.split_at_mut(k);
+            let (row, first) = self.row(k);
+            let products = row.iter().zip(&before[first..]);
+            rest[0] = products.fold(rest[0], |sum, (&entry, &known)| sum - entry * known);
+        }
+        for (k, unknown) in unknown.iter_mut().enumerate() {
+            *unknown *= self.rows[self.place(k, k)].recip();
+        }
+        for k in (0..self.size).rev() {
+            let (before, rest) = unknown.split_at_mut(k);
+            let (row, first) = self.row(k);
+            for (unknown, &entry) in before[first..].iter_mut().zip(row) {
+                *unknown -= entry * rest[0];
+            }
+        }
+    }
+
+    /// The entries of a row before the diagonal, and the column of the first.
+    #[inline]
+    fn row(&self, row: usize) -> (&[T], usize) {
+        let first = row.saturating_sub(self.half_bandwidth);
+        (
+            &self.rows[self.place(row, first)..self.place(row, row)],
+            first,
+        )
+    }
+
+    /// The words of the factors.
+    pub(super) fn words(&mut self, visit: &mut Visit<'_>) {
+        scalar_words(&mut self.rows, visit);
+    }
+}
+
+/// A pivot below so many units of rounding of its diagonal entry has no digit that means anything.
+const LOST: f64 = 4096.0;

@@ -1,0 +1,297 @@
+//! States on the constraints.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::array;
+
+use super::metric::{Metric, Point};
+use crate::error::{Error, Quantity};
+use crate::method::Failure;
+use crate::method::storage::is_finite;
+use crate::number::{Scalar, Vector};
+use crate::state::State;
+use crate::system::{Class, Constrained, System, Terms, Unconstrained};
+
+/// How far a start may be from the constraints, relative to the terms of which they consist.
+const CONSISTENT: f64 = 1e-10;
+/// How far a gradient may be from the quotient of differences.
+const GRADIENT: f64 = 1e-4;
+/// Most iterations on the way to a consistent state.
+const ITERATIONS: usize = 100;
+
+/// The constraints of a system at a state.
+struct Examined<V: Vector> {
+    metric: Metric<V::Scalar>,
+    point: Point<V>,
+    scratch: [V; 3],
+    /// `φ(q)`, and what each is compared with.
+    values: Vec<V::Scalar>,
+    terms: Vec<Terms>,
+    /// `G velocity`, and what each is compared with.
+    rates: Vec<V::Scalar>,
+    rate_terms: Vec<Terms>,
+}
+
+impl<V: Vector> Examined<V> {
+    fn new<S: System<V>>(system: &S, time: f64, q: &V, p: &V) -> Result<Self, Error> {
+        let (constraints, dimension) = (system.constraints(), q.dimension());
+        if constraints == 0 || constraints > dimension {
+            return Err(Error::ConstraintCount {
+                constraints,
+                dimension,
+            });
+        }
+        let (metric, point) = Metric::new(system, time, q, p);
+        if let Some((constraint, component)) = point.gradients.misplaced() {
+            return Err(Error::GradientPlace {
+                constraint,
+                component,
+                constraints,
+                dimension,
+            });
+        }
+        let mut examined = Self {
+            metric,
+            point,
+            scratch: array::from_fn(|_| q.zeros_like()),
+            values: vec![V::Scalar::from_f64(0.0); constraints],
+            terms: vec![Terms::default(); constraints],
+            rates: vec![V::Scalar::from_f64(0.0); constraints],
+            rate_terms: vec![Terms::default(); constraints],
+        };
+        examined.look(system, time, q, p)?;
+        Ok(examined)
+    }
+
+    /// Evaluates everything at a state.
+    fn look<S: System<V>>(&mut self, system: &S, time: f64, q: &V, p: &V) -> Result<(), Error> {
+        let Self {
+            metric,
+            point,
+            scratch,
+            ..
+        } = self;
+        let looked = metric.look(system, time, (q, p), point, scratch);
+        looked.map_err(|failure| error(failure, time))?;
+        system.constraint_values(q, &mut self.values);
+        let velocity = &mut self.scratch[0];
+        system.velocity(V::Scalar::from_f64(time), q, p, velocity);
+        let gradients = &self.point.gradients;
+        gradients.multiply(velocity.as_slice(), &mut self.rates);
+        for (terms, vector) in [(&mut self.terms, q), (&mut self.rate_terms, velocity)] {
+            gradients.sizes(|k| vector.as_slice()[k].magnitude(), terms);
+        }
+        let finite = |numbers: &[V::Scalar]| numbers.iter().all(|x| x.is_finite());
+        if finite(&self.values) && finite(&self.rates) && finite(gradients.values()) {
+            return Ok(());
+        }
+        Err(Error::NonFiniteState {
+            what: Quantity::Constraint,
+        })
+    }
+
+    /// The largest residual relative to its scale, with the number of the constraint.
+    fn largest(values: &[V::Scalar], terms: &[Terms]) -> (usize, f64) {
+        let relative =
+            |(value, terms): (&V::Scalar, &Terms)| terms.relative(value.magnitude(), 0.0);
+        let relative = values.iter().zip(terms).map(relative).enumerate();
+        relative.fold(
+            (0, 0.0),
+            |largest, next| {
+                if next.1 > largest.1 { next } else { largest }
+            },
+        )
+    }
+
+    fn position(&self) -> (usize, f64) {
+        Self::largest(&self.values, &self.terms)
+    }
+
+    fn momentum(&self) -> (usize, f64) {
+        Self::largest(&self.rates, &self.rate_terms)
+    }
+}
+
+/// Why there are no multipliers at a state.
+pub(super) const fn error(failure: Failure, time: f64) -> Error {
+    match failure {
+        Failure::DependentConstraints { constraint, pivot } => Error::DependentConstraints {
+            time,
+            constraint,
+            pivot,
+        },
+        _ => Error::MovingGradients { time },
+    }
+}
+
+/// Checks that a state is on the constraints, `φ(q) = 0` and `G ∂H/∂p = 0`, and that these are independent with the gradients that
+/// the system states.
+pub(crate) fn check_start<V: Vector, S: System<V>>(
+    system: &S,
+    time: f64,
+    q: &V,
+    p: &V,
+) -> Result<(), Error> {
+    let examined = Examined::new(system, time, q, p)?;
+    check_gradients(system, q, &examined.point)?;
+    let (position, momentum) = (examined.position(), examined.momentum());
+    if position.1 <= CONSISTENT && momentum.1 <= CONSISTENT {
+        return Ok(());
+    }
+    let constraint = if position.1 > CONSISTENT {
+        position.0
+    } else {
+        momentum.0
+    };
+    Err(Error::InconsistentStart {
+        constraint,
+        value: examined.values[constraint].magnitude(),
+        rate: examined.rates[constraint].magnitude(),
+    })
+}
+
+/// Compares the gradients with differences of the constraints in two directions.
+fn check_gradients<V: Vector, S: System<V>>(
+    system: &S,
+    q: &V,
+    point: &Point<V>,
+) -> Result<(), Error> {
+    let constraints = system.constraints();
+    let sizes = q.as_slice().iter().map(|x| x.magnitude());
+    let size = sizes.fold(0.0, f64::max);
+    let step = num_traits::Float::cbrt(V::Scalar::EPSILON) * if size > 0.0 { size } else { 1.0 };
+    let zeros = || vec![V::Scalar::from_f64(0.0); constraints];
+    let (mut high, mut low, mut stated) = (zeros(), zeros(), zeros());
+    for ratio in [0.618_033_988_749_895, 0.754_877_666_246_693] {
+        let direction = |k: usize| 0.25 + ((k + 1) as f64 * ratio) % 1.0;
+        let mut moved = q.clone();
+        for (sign, values) in [(1.0, &mut high), (-1.0, &mut low)] {
+            moved.clone_from(q);
+            for (k, component) in moved.as_mut_slice().iter_mut().enumerate() {
+                *component += V::Scalar::from_f64(sign * step * direction(k));
+            }
+            system.constraint_values(&moved, values);
+        }
+        for (k, component) in moved.as_mut_slice().iter_mut().enumerate() {
+            *component = V::Scalar::from_f64(direction(k));
+        }
+        point.gradients.multiply(moved.as_slice(), &mut stated);
+        let mut terms = vec![Terms::default(); constraints];
+        point.gradients.sizes(direction, &mut terms);
+        let half = V::Scalar::from_f64((2.0 * step).recip());
+        for (constraint, &stated) in stated.iter().enumerate() {
+            let found = (high[constraint] - low[constraint]) * half;
+            let difference = (stated - found).magnitude();
+            // Where the constraint is not defined nearby, it says nothing.
+            if terms[constraint].relative(difference, found.magnitude()) > GRADIENT {
+                return Err(Error::GradientMismatch {
+                    constraint,
+                    stated: stated.magnitude(),
+                    found: found.magnitude(),
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The state on the constraints of a system that is nearest to `state` in the metric of its masses, to first order: with
+/// `G = ∂φ/∂q`,
+///
+/// ```text
+/// q ← q − M⁻¹ G(q)ᵀ μ with φ(q) = 0,    then    p ← p − G(q)ᵀ ν with G(q) ∂H/∂p(q, p) = 0
+/// ```
+///
+/// An integrator projects nothing by itself: [`Integrator::new`](crate::Integrator::new) refuses a state that is not on the
+/// constraints.
+///
+/// # Errors
+///
+/// [`Error::NoConsistentState`], where the iteration does not come to rest; [`Error::DependentConstraints`],
+/// [`Error::NonFiniteState`], and the errors of a system whose constraints or gradients are wrong.
+///
+/// ```
+/// use symplectic::nalgebra::SVector;
+/// use symplectic::{Error, State, consistent};
+/// # use symplectic::{Constrained, Hamiltonian, Scalar, Separable};
+/// # use symplectic::system::Gradients;
+/// # struct Pendulum;
+/// # impl Hamiltonian for Pendulum {
+/// #     type Class = Constrained<Separable>;
+/// #     type Vector<T: Scalar> = SVector<T, 2>;
+/// #     const UNIT_MASSES: bool = true;
+/// #     fn velocity<T: Scalar>(&self, _: T, _: &SVector<T, 2>, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+/// #         *velocity = *p;
+/// #     }
+/// #     fn force<T: Scalar>(&self, _: T, _: &SVector<T, 2>, _: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+/// #         *force = SVector::from([T::zero(), T::from_f64(-9.81)]);
+/// #     }
+/// #     fn constraints(&self) -> usize { 1 }
+/// #     fn constraint_values<T: Scalar>(&self, q: &SVector<T, 2>, values: &mut [T]) {
+/// #         values[0] = q.dot(q) - T::one();
+/// #     }
+/// #     fn constraint_gradients<T: Scalar>(&self, q: &SVector<T, 2>, gradients: &mut Gradients<T>) {
+/// #         for k in 0..2 { gradients.set(0, k, q[k] + q[k]); }
+/// #     }
+/// # }
+/// # fn main() -> Result<(), Error> {
+/// // A pendulum of length 1, |q|² − 1 = 0, that was read off a plot.
+/// let read = State::from_arrays(0.0, [0.6, -0.79], [0.8, 0.61]);
+/// let start = consistent(&Pendulum, read)?;
+/// assert!((start.q.norm() - 1.0).abs() < 1e-15 && start.q.dot(&start.p).abs() < 1e-15);
+/// # Ok(())
+/// # }
+/// ```
+pub fn consistent<V, S, C>(system: &S, state: State<V>) -> Result<State<V>, Error>
+where
+    V: Vector,
+    S: System<V, Class = Constrained<C>>,
+    C: Class + Unconstrained,
+{
+    let State { time, mut q, mut p } = state;
+    if q.dimension() != p.dimension() {
+        return Err(Error::Dimension {
+            position: q.dimension(),
+            momentum: p.dimension(),
+        });
+    }
+    let mut examined = Examined::new(system, time, &q, &p)?;
+    let mut best = f64::INFINITY;
+    for _ in 0..ITERATIONS {
+        let (_, residual) = examined.position();
+        if residual == 0.0 || residual >= 0.5 * best && best <= CONSISTENT * 1e-4 {
+            break;
+        }
+        best = best.min(residual);
+        let mut multipliers = examined.values.clone();
+        examined.point.normal.solve(&mut multipliers);
+        let mut change = q.zeros_like();
+        let gradients = &examined.point.gradients;
+        gradients.subtract_transposed(&multipliers, change.as_mut_slice());
+        examined.metric.apply(system, time, (&q, &p), &mut change);
+        let pairs = q.as_mut_slice().iter_mut().zip(change.as_slice());
+        pairs.for_each(|(q, &change)| *q += change);
+        examined.look(system, time, &q, &p)?;
+    }
+    let mut best = f64::INFINITY;
+    for _ in 0..ITERATIONS {
+        let (_, residual) = examined.momentum();
+        if residual == 0.0 || residual >= 0.5 * best && best <= CONSISTENT * 1e-4 {
+            break;
+        }
+        best = best.min(residual);
+        let mut multipliers = examined.rates.clone();
+        examined.point.normal.solve(&mut multipliers);
+        let gradients = &examined.point.gradients;
+        gradients.subtract_transposed(&multipliers, p.as_mut_slice());
+        examined.look(system, time, &q, &p)?;
+    }
+    let found = is_finite(&q) && is_finite(&p);
+    if found && examined.position().1 <= CONSISTENT && examined.momentum().1 <= CONSISTENT {
+        return Ok(State { time, q, p });
+    }
+    Err(Error::NoConsistentState {
+        value: examined.values[examined.position().0].magnitude(),
+        rate: examined.rates[examined.momentum().0].magnitude(),
+    })
+}

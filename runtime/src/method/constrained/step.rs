@@ -1,0 +1,460 @@
+//! One constrained step.
+
+use super::memory::Workspace;
+use crate::error::Quantity;
+use crate::method::storage::is_finite;
+use crate::method::{ConstrainedTableau, Failure, Outcome, Step, StepStatistics, Stopping};
+use crate::number::summation::add;
+use crate::number::{Coefficient, Scalar, Summation, Vector};
+use crate::system::{Class, System};
+
+/// A residual of so many units of rounding is as small as residuals become.
+const ROUNDING: f64 = 2.0;
+/// A residual that no longer shrinks may be as large as this, in units of rounding.
+const NOISE: f64 = 256.0;
+/// A sweep that leaves more of the residual than this contracts badly.
+const SLOW: f64 = 0.125;
+/// Sweeps without a smaller residual after which the iteration has ended.
+const PATIENCE: u32 = 4;
+
+impl<V: Vector> Workspace<V> {
+    /// Takes a step; `carried` says that the step before ended where this one starts.
+    ///
+    /// A sweep evaluates the forces at the stages, makes stages of them with the present multipliers, and corrects these, first by
+    ///
+    /// ```text
+    /// h b_k Λ_k += (b_k/h) Σ_i (X⁻¹)_ki S⁻¹ φ(Q_i)      S = G M⁻¹ Gᵀ at q0
+    /// ```
+    ///
+    /// then by a step of Newton's method, until the residuals are rounding errors. Then `Q_s = q1`, and the last multiplier follows from `G velocity(q1, p1) = 0`.
+    pub(super) fn take<R: Summation, S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        carried: bool,
+        stopping: Stopping,
+        outcome: &mut Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure> {
+        let separable = S::Class::SEPARABLE;
+        let mut work = StepStatistics::default();
+        if !carried {
+            let Self {
+                metric,
+                end,
+                scratch,
+                ..
+            } = self;
+            metric.look(system, step.time, (step.q, step.p), end, scratch)?;
+            if separable {
+                let at = V::Scalar::from_f64(step.time);
+                system.force(at, step.q, step.p, &mut self.end.force);
+                work.evaluations += 1;
+            }
+        }
+        core::mem::swap(&mut self.start, &mut self.end);
+        self.begin(tableau, step, system, &mut work);
+        self.iterate::<R, S>(tableau, step, system, stopping, outcome, &mut work)?;
+        self.finish::<R, S>(tableau, step, system, stopping, outcome, &mut work)?;
+        Ok(work)
+    }
+
+    /// Where the stages and multipliers start from.
+    fn begin<S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        work: &mut StepStatistics,
+    ) {
+        let stages = tableau.weights.len();
+        let impulses = self.impulses.chunks_exact_mut(self.multipliers.len());
+        for (impulses, &weight) in impulses.zip(tableau.weights) {
+            let weight = V::Scalar::weight(step.size, weight);
+            for (impulse, &multiplier) in impulses.iter_mut().zip(&self.multipliers) {
+                *impulse = weight * multiplier;
+            }
+        }
+        let velocity = &mut self.scratch[0];
+        system.velocity(step.at(Coefficient::exact(0.0)), step.q, step.p, velocity);
+        work.evaluations += 1;
+        self.q[0].clone_from(step.q);
+        self.p.iter_mut().for_each(|p| p.clone_from(step.p));
+        for i in 1..stages {
+            let factor = V::Scalar::weight(step.size, tableau.nodes[i]);
+            let pairs = step.q.as_slice().iter().zip(velocity.as_slice());
+            for (out, (&q, &velocity)) in self.q[i].as_mut_slice().iter_mut().zip(pairs) {
+                *out = velocity.fused(factor, q);
+            }
+        }
+        let size = step.size.abs();
+        let (q, velocity) = (step.q.as_slice(), velocity.as_slice());
+        (self.start.gradients).sizes(
+            |k| q[k].magnitude() + size * velocity[k].magnitude(),
+            &mut self.terms,
+        );
+    }
+
+    /// Sweeps until the stages are on the constraints and stand still. The position after the step is in `outcome`.
+    fn iterate<R: Summation, S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        stopping: Stopping,
+        outcome: &mut Outcome<'_, V>,
+        work: &mut StepStatistics,
+    ) -> Result<(), Failure> {
+        let (mut best, mut since) = (f64::INFINITY, 0);
+        let (mut before, mut moved) = (f64::INFINITY, f64::INFINITY);
+        for sweep in 1..=stopping.max_iterations {
+            work.iterations += 1;
+            self.kicks(tableau, step, system, work)?;
+            self.drifts::<S>(tableau, step, system, work);
+            let [defect, movement] = self.positions::<R, S>(tableau, step, system, outcome);
+            // What is left of a movement shrinks at least as the movements did.
+            let rate = if sweep > 1 && movement < moved {
+                movement / moved
+            } else {
+                1.0
+            };
+            let residual = maximum(defect, movement * rate);
+            moved = movement;
+            if residual <= ROUNDING {
+                return Ok(());
+            }
+            if residual.is_nan() {
+                return Err(self.not_finite());
+            }
+            if residual < best {
+                (best, since) = (residual, 0);
+            } else {
+                since += 1;
+                if since >= PATIENCE && best <= NOISE {
+                    return Ok(());
+                }
+                if since >= PATIENCE * PATIENCE {
+                    return Err(Failure::NoConvergence {
+                        residual: residual * V::Scalar::EPSILON,
+                        iterations: sweep,
+                    });
+                }
+            }
+            // The matrix of the start costs nothing; that of the first stages contracts much faster.
+            let slow = residual > SLOW * before;
+            before = residual;
+            if sweep == 1 || self.jacobian_is_costly() && !slow {
+                self.correct(tableau, step);
+            } else {
+                let renew = sweep == 2 || slow;
+                self.correct_by_newton(tableau, step, system, renew)?;
+                work.factorisations += u32::from(renew);
+            }
+        }
+        Err(Failure::NoConvergence {
+            residual: best * V::Scalar::EPSILON,
+            iterations: stopping.max_iterations,
+        })
+    }
+
+    /// `h b_j force_j` of all stages but the last, with the impulses of the constraints.
+    fn kicks<S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        work: &mut StepStatistics,
+    ) -> Result<(), Failure> {
+        let constraints = self.multipliers.len();
+        for j in 0..tableau.weights.len() - 1 {
+            let force = &mut self.scratch[1];
+            let gradients = if j == 0 {
+                &self.start.gradients
+            } else {
+                let gradients = &mut self.gradients[j - 1];
+                let q = &self.q[j];
+                if !gradients.evaluate(|gradients| system.constraint_gradients(q, gradients)) {
+                    return Err(Failure::MovingGradients);
+                }
+                gradients
+            };
+            let force = if j == 0 && S::Class::SEPARABLE {
+                &self.start.force
+            } else {
+                let at = step.at(tableau.nodes[j]);
+                system.force(at, &self.q[j], &self.p[j], force);
+                work.evaluations += 1;
+                force
+            };
+            let weight = V::Scalar::weight(step.size, tableau.weights[j]);
+            let kick = self.kick[j].as_mut_slice();
+            for (kick, &force) in kick.iter_mut().zip(force.as_slice()) {
+                *kick = weight * force;
+            }
+            let impulses = &self.impulses[j * constraints..(j + 1) * constraints];
+            gradients.subtract_transposed(impulses, kick);
+        }
+        Ok(())
+    }
+
+    /// The momenta of the stages, and `h b_i velocity_i` there.
+    fn drifts<S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        work: &mut StepStatistics,
+    ) {
+        for i in 0..tableau.weights.len() {
+            // Of a separable system the velocity is that of the stage before where the momentum is.
+            let row = tableau.momenta[i];
+            let time = tableau.momentum_nodes[i];
+            let again = i > 0
+                && row == tableau.momenta[i - 1]
+                && time == tableau.momentum_nodes[i - 1]
+                && S::Class::SEPARABLE;
+            if !again {
+                stage(&mut self.p[i], (step.p, step.p_low), row, &self.kick);
+                let velocity = &mut self.scratch[0];
+                system.velocity(step.at(time), &self.q[i], &self.p[i], velocity);
+                work.evaluations += 1;
+            }
+            let weight = V::Scalar::weight(step.size, tableau.weights[i]);
+            let velocities = self.scratch[0].as_slice().iter();
+            for (drift, &velocity) in self.drift[i].as_mut_slice().iter_mut().zip(velocities) {
+                *drift = weight * velocity;
+            }
+        }
+    }
+
+    /// The positions of the stages. Returns how far they are from the constraints, and how far those have moved that forces depend on,
+    /// both in units of rounding.
+    fn positions<R: Summation, S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        outcome: &mut Outcome<'_, V>,
+    ) -> [f64; 2] {
+        let (stages, constraints) = (tableau.weights.len(), self.multipliers.len());
+        // No force inside the step of a separable system depends on the last one.
+        let moving = if S::Class::SEPARABLE {
+            stages - 1
+        } else {
+            stages
+        };
+        let (mut movement, mut size) = (0.0_f64, f64::MIN_POSITIVE);
+        for i in 1..stages {
+            let old = &mut self.scratch[2];
+            core::mem::swap(old, &mut self.q[i]);
+            if i + 1 < stages {
+                stage(
+                    &mut self.q[i],
+                    (step.q, step.q_low),
+                    tableau.positions[i],
+                    &self.drift,
+                );
+            } else {
+                let drift = &self.drift;
+                let (q, low) = (step.q.as_slice(), step.q_low.as_slice());
+                let places = outcome.q.as_mut_slice().iter_mut();
+                let places = places.zip(outcome.q_low.as_mut_slice()).enumerate();
+                for (k, (out, out_low)) in places {
+                    let (sum, rest) = add::<R, _>(q[k], low[k], stages, |j| drift[j].as_slice()[k]);
+                    *out = sum;
+                    if R::COMPENSATED {
+                        *out_low = rest;
+                    }
+                }
+                self.q[i].clone_from(outcome.q);
+            }
+            if i < moving {
+                let pairs = self.q[i].as_slice().iter().zip(old.as_slice());
+                for (&new, &old) in pairs {
+                    movement = maximum(movement, (new - old).magnitude());
+                    size = maximum(size, new.magnitude());
+                }
+            }
+            let defects = &mut self.defects[(i - 1) * constraints..i * constraints];
+            system.constraint_values(&self.q[i], defects);
+        }
+        let defects = self.defects.chunks_exact(constraints).take(stages - 1);
+        let mut residual = 0.0;
+        for defects in defects {
+            for (defect, terms) in defects.iter().zip(&self.terms) {
+                residual = maximum(residual, terms.relative(defect.magnitude(), 0.0));
+            }
+        }
+        [residual, movement / size].map(|change| change / V::Scalar::EPSILON)
+    }
+
+    /// New impulses of the constraints from the defects.
+    fn correct(&mut self, tableau: &ConstrainedTableau, step: &Step<'_, V>) {
+        let (stages, constraints) = (tableau.weights.len(), self.multipliers.len());
+        let defects = self.defects.chunks_exact_mut(constraints);
+        for defects in defects.take(stages - 1) {
+            self.start.normal.solve(defects);
+        }
+        for (k, row) in tableau.multipliers.iter().enumerate() {
+            let weight = tableau.weights[k].double() / step.size;
+            for (i, &entry) in row.iter().enumerate() {
+                let factor = V::Scalar::from_f64(weight * entry);
+                for c in 0..constraints {
+                    self.impulses[k * constraints + c] +=
+                        factor * self.defects[i * constraints + c];
+                }
+            }
+        }
+    }
+
+    /// The momentum after the step, on the hidden constraint.
+    fn finish<R: Summation, S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        stopping: Stopping,
+        outcome: &mut Outcome<'_, V>,
+        work: &mut StepStatistics,
+    ) -> Result<(), Failure> {
+        let last = tableau.weights.len() - 1;
+        let weight = V::Scalar::weight(step.size, tableau.weights[last]);
+        let force = &mut self.scratch[1];
+        system.force(
+            step.at(tableau.nodes[last]),
+            outcome.q,
+            &self.p[last],
+            force,
+        );
+        work.evaluations += 1;
+        let pairs = self.kick[last].as_mut_slice().iter_mut();
+        for (kick, &force) in pairs.zip(force.as_slice()) {
+            *kick = weight * force;
+        }
+        if S::Class::SEPARABLE {
+            self.end.force.clone_from(force);
+        }
+        let end = step.time + step.size;
+        let Self {
+            metric,
+            end: point,
+            scratch,
+            p,
+            ..
+        } = self;
+        metric.look(system, end, (outcome.q, &p[last]), point, scratch)?;
+        self.multipliers.fill(V::Scalar::from_f64(0.0));
+        let (mut best, mut since) = (f64::INFINITY, 0);
+        for sweep in 1..=stopping.max_iterations {
+            self.momentum::<R>(step, last, outcome);
+            let velocity = &mut self.scratch[0];
+            system.velocity(V::Scalar::from_f64(end), outcome.q, outcome.p, velocity);
+            work.evaluations += 1;
+            let residual = self.rates(sweep == 1);
+            if residual.is_nan() {
+                return Err(self.not_finite());
+            }
+            if residual <= ROUNDING {
+                break;
+            }
+            if residual < 0.5 * best {
+                (best, since) = (residual, 0);
+            } else {
+                since += 1;
+                if best <= NOISE {
+                    break;
+                }
+                if since > PATIENCE {
+                    return Err(Failure::NoConvergence {
+                        residual: residual * V::Scalar::EPSILON,
+                        iterations: sweep,
+                    });
+                }
+            }
+            // The impulse −Gᵀy of the last stage, in place of its multiplier.
+            self.end.normal.solve(&mut self.rates);
+            for (k, &change) in self.rates.iter().enumerate() {
+                self.multipliers[k] += change;
+            }
+            (self.end.gradients).subtract_transposed(&self.rates, self.kick[last].as_mut_slice());
+        }
+        let inverse = weight.recip();
+        for multiplier in &mut self.multipliers {
+            *multiplier *= inverse;
+        }
+        Ok(())
+    }
+
+    /// The momentum after the step, of all kicks.
+    fn momentum<R: Summation>(
+        &self,
+        step: &Step<'_, V>,
+        last: usize,
+        outcome: &mut Outcome<'_, V>,
+    ) {
+        let (p, low) = (step.p.as_slice(), step.p_low.as_slice());
+        let places = outcome.p.as_mut_slice().iter_mut();
+        let places = places.zip(outcome.p_low.as_mut_slice()).enumerate();
+        for (k, (out, out_low)) in places {
+            let kick = |j: usize| self.kick[j].as_slice()[k];
+            let (sum, rest) = add::<R, _>(p[k], low[k], last + 1, kick);
+            *out = sum;
+            if R::COMPENSATED {
+                *out_low = rest;
+            }
+        }
+    }
+
+    /// `G velocity` at the end of the step; returns the largest one, in units of its rounding errors.
+    fn rates(&mut self, first: bool) -> f64 {
+        let velocity = self.scratch[0].as_slice();
+        let gradients = &self.end.gradients;
+        gradients.multiply(velocity, &mut self.rates);
+        gradients.sizes(|k| velocity[k].magnitude(), &mut self.terms);
+        let mut residual = 0.0;
+        for (c, rate) in self.rates.iter().enumerate() {
+            let rate = rate.magnitude();
+            if first {
+                self.drive[c] = rate;
+            }
+            residual = maximum(residual, self.terms[c].relative(rate, self.drive[c]));
+        }
+        residual / V::Scalar::EPSILON
+    }
+
+    /// What is not finite in the stages.
+    fn not_finite(&self) -> Failure {
+        let kicks = self.kick.iter().position(|kick| !is_finite(kick));
+        let drifts = self.drift.iter().position(|drift| !is_finite(drift));
+        let (what, stage) = match (kicks, drifts) {
+            (Some(stage), _) => (Quantity::Force, Some(stage + 1)),
+            (None, Some(stage)) => (Quantity::Velocity, Some(stage + 1)),
+            (None, None) => (Quantity::Constraint, None),
+        };
+        Failure::NonFinite { what, stage }
+    }
+}
+
+/// `out = base + (low + Σ_j factor_j increment_j)`
+fn stage<V: Vector>(out: &mut V, (base, low): (&V, &V), factors: &[Coefficient], increments: &[V]) {
+    out.clone_from(low);
+    for (&factor, increment) in factors.iter().zip(increments) {
+        if factor.double() == 0.0 {
+            continue;
+        }
+        let factor = V::Scalar::from_coefficient(factor);
+        let pairs = out.as_mut_slice().iter_mut().zip(increment.as_slice());
+        for (out, &increment) in pairs {
+            *out = increment.fused(factor, *out);
+        }
+    }
+    for (out, &base) in out.as_mut_slice().iter_mut().zip(base.as_slice()) {
+        *out = base + *out;
+    }
+}
+
+/// The larger number, or NaN if one of them is.
+#[inline(always)]
+const fn maximum(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
+}

@@ -1,0 +1,46 @@
+//! The tableaux of constrained steps, as the macro emits them.
+
+use crate::number::Coefficient;
+
+/// A step `Φ_{γh}` of a method on a system with holonomic constraints; a method that is no composition is one of them.
+#[derive(Clone, Copy, Debug)]
+pub struct ConstrainedStep {
+    /// Where it starts, as a fraction of the whole step.
+    pub start: Coefficient,
+    /// The fraction γ of the whole step.
+    pub fraction: Coefficient,
+    /// Its tableau.
+    pub tableau: &'static ConstrainedTableau,
+}
+
+impl ConstrainedStep {
+    /// The step from `start` of size `fraction`.
+    pub const fn new(
+        start: Coefficient,
+        fraction: Coefficient,
+        tableau: &'static ConstrainedTableau,
+    ) -> Self {
+        Self {
+            start,
+            fraction,
+            tableau,
+        }
+    }
+}
+
+/// A tableau with `a_1j = 0`, `a_sj = b_j` and a regular matrix `X = (A Ã)_ik`, `i = 2..s`, `k = 1..s−1`.
+#[derive(Clone, Copy, Debug)]
+pub struct ConstrainedTableau {
+    /// `μ_ij = a_ij/b_j` by rows.
+    pub positions: &'static [&'static [Coefficient]],
+    /// `μ̃_ij = ã_ij/b_j` by rows; as rounded, `μ̃_ij + μ_ji = 1` exactly.
+    pub momenta: &'static [&'static [Coefficient]],
+    /// `b_i`
+    pub weights: &'static [Coefficient],
+    /// `c_i`
+    pub nodes: &'static [Coefficient],
+    /// `c̃_i`
+    pub momentum_nodes: &'static [Coefficient],
+    /// `X⁻¹` by rows.
+    pub multipliers: &'static [&'static [f64]],
+}

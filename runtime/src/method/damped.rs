@@ -1,0 +1,187 @@
+//! Steps of splittings for systems with linear friction.
+
+use core::marker::PhantomData;
+
+use crate::method::{
+    Drift, EvaluationObserver, Evaluations, Failure, Force, Inside, Interpolation, KickDrift,
+    Method, Outcome, Plan, Solver, Step, StepStatistics, Stopping, WarmStart,
+};
+use crate::number::summation::add;
+use crate::number::{Coefficient, Scalar, Summation, Vector};
+use crate::solver::FixedPoint;
+use crate::system::{Damped, Separable, System};
+
+/// How the splitting `M` steps systems with linear friction `−γp`: kicks are made by the exact flow at a fixed position,
+///
+/// ```text
+/// p ← e^{−γτ} p + (1 − e^{−γτ})/γ · force      τ = h b̃_i
+/// ```
+///
+/// so the order is that for separable Hamiltonians, and every step shrinks dq∧dp by `e^{−γh}` exactly.
+#[derive(Debug)]
+pub struct DampedPlan<M>(PhantomData<M>);
+
+/// The system without its friction.
+struct Undamped<'a, S>(&'a S);
+
+impl<V: Vector, S: System<V, Class = Damped>> System<V> for Undamped<'_, S> {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    const UNIT_MASSES: bool = S::UNIT_MASSES;
+
+    #[inline(always)]
+    fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
+        self.0.velocity(time, q, p, velocity);
+    }
+
+    #[inline(always)]
+    fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
+        self.0.force(time, q, p, force);
+    }
+}
+
+/// Kicks by the exact flow with the friction of a system.
+struct DampedKicks<F>(F);
+
+impl<F: Fn(usize) -> f64> KickDrift for DampedKicks<F> {
+    #[inline(always)]
+    fn force<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
+        &mut self,
+        force: Force,
+        system: &S,
+        place: &mut V,
+        position: &mut V,
+        momentum: (&mut V, &mut V),
+        witness: &mut W,
+    ) {
+        ().force::<R, V, S, W>(force, system, place, position, momentum, witness);
+    }
+
+    #[inline(always)]
+    fn kick<R: Summation, V: Vector, S: System<V>>(
+        &mut self,
+        h: f64,
+        weight: Coefficient,
+        _system: &S,
+        force: &mut V,
+        _position: &mut V,
+        (p, p_low): (&mut V, &mut V),
+    ) {
+        let time = h * weight.double();
+        let momenta = p.as_mut_slice().iter_mut().zip(p_low.as_mut_slice());
+        for (k, ((p, low), &force)) in momenta.zip(force.as_slice()).enumerate() {
+            let exponent = -(self.0)(k) * time;
+            // e^{−γτ} − 1, and (1 − e^{−γτ})/γ.
+            let loss = num_traits::Float::exp_m1(exponent);
+            let gain = if exponent == 0.0 {
+                time
+            } else {
+                time * (loss / exponent)
+            };
+            let (loss, gain) = (V::Scalar::from_f64(loss), V::Scalar::from_f64(gain));
+            let terms = [loss * *p, gain * force, loss * *low];
+            let count = if R::COMPENSATED { 3 } else { 2 };
+            (*p, *low) = add::<R, _>(*p, *low, count, |j| terms[j]);
+        }
+    }
+
+    #[inline(always)]
+    fn drift<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
+        &mut self,
+        drift: Drift,
+        system: &S,
+        evaluations: (&mut V, &mut V),
+        position: (&mut V, &mut V),
+        momentum: (&mut V, &mut V),
+        witness: &mut W,
+    ) {
+        ().drift::<R, V, S, W>(drift, system, evaluations, position, momentum, witness);
+    }
+
+    #[inline(always)]
+    fn settle<R: Summation, V: Vector, S: System<V>>(
+        &mut self,
+        _system: &S,
+        _force: &mut V,
+        _position: &mut V,
+        _momentum: (&mut V, &mut V),
+    ) {
+    }
+}
+
+impl<M: Method> Plan for DampedPlan<M> {
+    type Class = Damped;
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = Evaluations<V>;
+
+    #[inline(always)]
+    fn take<R, V, S, N>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Evaluations<V>,
+        kept: WarmStart,
+        _stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Damped>,
+        N: Solver<V, S>,
+    {
+        let mut moves = DampedKicks(|component| system.friction(component));
+        let undamped = Undamped(system);
+        Ok(M::Separable::take_by::<R, V, _, _, ()>(
+            step,
+            &undamped,
+            memory,
+            kept,
+            outcome,
+            &mut moves,
+            &mut (),
+        ))
+    }
+
+    fn observe<R, V, S, N, W>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Evaluations<V>,
+        outcome: Outcome<'_, V>,
+        witness: &mut W,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Damped>,
+        N: Solver<V, S>,
+        W: EvaluationObserver,
+    {
+        let mut moves = DampedKicks(|component| system.friction(component));
+        let undamped = Undamped(system);
+        let kept = WarmStart::default();
+        M::Separable::take_by::<R, V, _, _, W>(
+            step, &undamped, memory, kept, outcome, &mut moves, witness,
+        );
+    }
+
+    fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
+    where
+        V: Vector,
+        S: System<V, Class = Damped>,
+    {
+        system.force(V::Scalar::from_f64(time), q, p, rate);
+        let pairs = rate.as_mut_slice().iter_mut().zip(p.as_slice());
+        for (k, (rate, &p)) in pairs.enumerate() {
+            *rate -= V::Scalar::from_f64(system.friction(k)) * p;
+        }
+    }
+
+    const INTERPOLATION: Interpolation = Interpolation::Hermite;
+
+    fn extend<V, S, N>(_memory: &Evaluations<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
+    where
+        V: Vector,
+        S: System<V, Class = Damped>,
+        N: Solver<V, S>,
+    {
+    }
+}

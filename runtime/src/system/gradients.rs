@@ -1,0 +1,154 @@
+//! The gradients of constraints.
+
+use alloc::vec::Vec;
+
+use crate::number::{Scalar, Visit, scalar_words};
+
+/// The gradients `G = ∂φ/∂q` of the constraints `φ(q) = 0` of a system: a sparse m×n matrix.
+///
+/// A system [`set`](Self::set)s every entry that is not zero everywhere, in the same order at every evaluation; entries that are set
+/// twice add up. Constraints and components are counted from 0.
+#[derive(Clone, Debug)]
+pub struct Gradients<T> {
+    constraints: usize,
+    dimension: usize,
+    /// Constraint and component of each entry.
+    places: Vec<(u32, u32)>,
+    values: Vec<T>,
+    /// The number of the entry that is set next.
+    next: usize,
+    /// Whether places are noted: at the first evaluation.
+    learning: bool,
+    /// An entry outside the matrix, or in another place than at the first evaluation.
+    misplaced: Option<(usize, usize)>,
+}
+
+/// How large the terms of a constraint are.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Terms {
+    /// The sum of the sizes of the entries of its gradient.
+    gradient: f64,
+    /// The largest component of a vector where these are.
+    largest: f64,
+}
+
+impl Terms {
+    /// A residual relative to the terms and to another number of its kind; zero where it is zero.
+    #[inline]
+    pub(crate) fn relative(self, residual: f64, other: f64) -> f64 {
+        if residual == 0.0 {
+            return 0.0;
+        }
+        residual / (self.gradient * self.largest + other)
+    }
+}
+
+impl<T: Scalar> Gradients<T> {
+    /// The gradients of so many constraints by so many components that `evaluate` sets for the first time.
+    pub(crate) fn learned(
+        constraints: usize,
+        dimension: usize,
+        evaluate: impl FnOnce(&mut Self),
+    ) -> Self {
+        let mut gradients = Self {
+            constraints,
+            dimension,
+            places: Vec::new(),
+            values: Vec::new(),
+            next: 0,
+            learning: true,
+            misplaced: None,
+        };
+        evaluate(&mut gradients);
+        gradients.learning = false;
+        gradients
+    }
+
+    /// Sets the entry of a constraint and a component of the position.
+    #[inline]
+    pub fn set(&mut self, constraint: usize, component: usize, value: T) {
+        let place = (constraint as u32, component as u32);
+        if self.places.get(self.next) == Some(&place) {
+            self.values[self.next] = value;
+            self.next += 1;
+        } else {
+            self.note(constraint, component, value);
+        }
+    }
+
+    /// A place that is new.
+    #[cold]
+    fn note(&mut self, constraint: usize, component: usize, value: T) {
+        if !self.learning || constraint >= self.constraints || component >= self.dimension {
+            self.misplaced.get_or_insert((constraint, component));
+            return;
+        }
+        self.places.push((constraint as u32, component as u32));
+        self.values.push(value);
+        self.next += 1;
+    }
+
+    /// Lets `evaluate` set all entries; returns whether each had its place.
+    #[inline]
+    pub(crate) fn evaluate(&mut self, evaluate: impl FnOnce(&mut Self)) -> bool {
+        self.next = 0;
+        evaluate(self);
+        self.next == self.values.len() && self.misplaced.is_none()
+    }
+
+    /// The first entry that was set where there is no place for it: constraint and component.
+    pub(crate) const fn misplaced(&self) -> Option<(usize, usize)> {
+        self.misplaced
+    }
+
+    /// Number of constraints m.
+    pub(crate) const fn constraints(&self) -> usize {
+        self.constraints
+    }
+
+    /// Every entry: constraint, component and value.
+    #[inline]
+    pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, usize, T)> {
+        let entries = self.places.iter().zip(&self.values);
+        entries.map(|(&(constraint, component), &value)| {
+            (constraint as usize, component as usize, value)
+        })
+    }
+
+    /// The values of the entries.
+    pub(crate) fn values(&self) -> &[T] {
+        &self.values
+    }
+
+    /// `out −= Gᵀ factors`
+    #[inline]
+    pub(crate) fn subtract_transposed(&self, factors: &[T], out: &mut [T]) {
+        for (constraint, component, value) in self.entries() {
+            out[component] -= value * factors[constraint];
+        }
+    }
+
+    /// `out = G vector`
+    #[inline]
+    pub(crate) fn multiply(&self, vector: &[T], out: &mut [T]) {
+        out.fill(T::zero());
+        for (constraint, component, value) in self.entries() {
+            out[constraint] += value * vector[component];
+        }
+    }
+
+    /// How large the terms of every constraint are: `Σ_k |g_ik|`, and the largest `size(k)` of its components.
+    pub(crate) fn sizes(&self, size: impl Fn(usize) -> f64, out: &mut [Terms]) {
+        out.fill(Terms::default());
+        for (constraint, component, value) in self.entries() {
+            let Terms { gradient, largest } = &mut out[constraint];
+            *gradient += value.magnitude();
+            *largest = largest.max(size(component));
+        }
+    }
+
+    /// The words of the values.
+    pub(crate) fn words(&mut self, visit: &mut Visit<'_>) {
+        scalar_words(&mut self.values, visit);
+    }
+}

@@ -1,0 +1,171 @@
+//! Linear friction with exact kicks.
+
+use symplectic::nalgebra::{Matrix2, SVector, Vector2};
+use symplectic::{Damped, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State};
+
+symplectic::tableau! {
+    pub StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) }
+    pub ForestRuth { base: forest-ruth-1990 }
+    pub Yoshida6 { base: yoshida-1990-order-6-a, accept: verified(100 bits) }
+}
+
+type Plane<T> = SVector<T, 2>;
+
+/// The ring of Marsden & West (2001), Figure 2: H = |p|²/2 + |q|²(|q|² − 1)², with the friction γ.
+#[derive(Clone, Copy)]
+struct Ring(f64);
+
+impl Hamiltonian for Ring {
+    type Class = Damped;
+    type Vector<T: Scalar> = Plane<T>;
+
+    const UNIT_MASSES: bool = true;
+
+    fn velocity<T: Scalar>(&self, _: T, _: &Plane<T>, p: &Plane<T>, velocity: &mut Plane<T>) {
+        *velocity = *p;
+    }
+
+    fn force<T: Scalar>(&self, _: T, q: &Plane<T>, _: &Plane<T>, force: &mut Plane<T>) {
+        let r = q.dot(q);
+        let slope = (r - T::one()) * (T::from_f64(3.0) * r - T::one());
+        *force = q * (T::from_f64(-2.0) * slope);
+    }
+
+    fn energy<T: Scalar>(&self, _: T, q: &Plane<T>, p: &Plane<T>) -> Option<T> {
+        let r = q.dot(q);
+        Some(p.dot(p) * T::from_f64(0.5) + r * (r - T::one()) * (r - T::one()))
+    }
+
+    fn friction(&self, _component: usize) -> f64 {
+        self.0
+    }
+}
+
+fn start() -> State<Vector2<f64>> {
+    State::from_arrays(0.0, [1.25, 0.0], [0.0, 0.5])
+}
+
+fn end<M: Method + ProvedFor<Damped>>(method: M, friction: f64, steps: u32) -> State<Vector2<f64>> {
+    let size = 2.0 / f64::from(steps);
+    let mut run = Integrator::new(method, Ring(friction), start(), size).expect("a run");
+    run.integrate_to(2.0).expect("steps").clone()
+}
+
+#[test]
+fn the_order_is_that_for_separable_systems() {
+    fn slope<M: Method + ProvedFor<Damped>>(method: M, steps: u32) -> f64 {
+        let reference = end(Yoshida6, 0.25, 4000);
+        let errors = [steps, 2 * steps].map(|steps| {
+            let end = end(method, 0.25, steps);
+            (end.q - reference.q).norm() + (end.p - reference.p).norm()
+        });
+        (errors[0] / errors[1]).log2()
+    }
+    for (slope, order) in [
+        (slope(StoermerVerlet, 200), 2.0),
+        (slope(ForestRuth, 200), 4.0),
+        (slope(Yoshida6, 120), 6.0),
+    ] {
+        assert!((slope - order).abs() < 0.1, "{slope} instead of {order}");
+    }
+}
+
+/// The angular momentum shrinks by e^{−γh} in every step, and so does dq∧dp, whatever the signs of the kicks.
+#[test]
+fn areas_and_momenta_shrink_exactly() {
+    let momentum = |state: &State<Vector2<f64>>| state.q[0] * state.p[1] - state.q[1] * state.p[0];
+    let mut run = Integrator::new(ForestRuth, Ring(0.25), start(), 0.1).expect("a run");
+    let before = momentum(run.state());
+    let after = momentum(run.take_steps(100).expect("steps"));
+    assert!((after / before / (-2.5_f64).exp() - 1.0).abs() < 1e-13);
+
+    // One dimension: the determinant of the Jacobian of a step, by differences of order 4.
+    let step = |q: f64, p: f64| {
+        let state = State::from_arrays(0.0, [q, 0.0], [p, 0.0]);
+        let mut run = Integrator::new(ForestRuth, Ring(0.25), state, 0.1).expect("a run");
+        let State { q, p, .. } = run.step().expect("a step").clone();
+        Vector2::new(q[0], p[0])
+    };
+    const STEP: f64 = 1e-3;
+    let column = |q: f64, p: f64| {
+        let [a, b, c, d] =
+            [-2.0, -1.0, 1.0, 2.0].map(|by| step(1.25 + by * STEP * q, 0.3 + by * STEP * p));
+        (a - d + (c - b) * 8.0) / (12.0 * STEP)
+    };
+    let determinant = Matrix2::from_columns(&[column(1.0, 0.0), column(0.0, 1.0)]).determinant();
+    let exact = (-0.025_f64).exp();
+    assert!((determinant - exact).abs() < 1e-10, "{determinant} {exact}");
+}
+
+/// The energies of Figure 2 at t = 500, 1000, 1500: those of Störmer–Verlet with h = 0.1 stay near those of small steps.
+#[test]
+fn the_energy_decays_as_it_should() {
+    let energies = |size: f64| {
+        let mut run = Integrator::new(StoermerVerlet, Ring(1e-3), start(), size).expect("a run");
+        [500.0, 1000.0, 1500.0].map(|time| {
+            // The mean over ten units of time, for the error oscillates.
+            run.integrate_to(time - 5.0).expect("steps");
+            let (mut sum, mut count) = (0.0, 0);
+            while run.state().time < time + 5.0 {
+                run.step().expect("a step");
+                sum += run.energy().expect("known");
+                count += 1;
+            }
+            sum / f64::from(count)
+        })
+    };
+    let exact = energies(0.01);
+    for (energy, printed) in exact.iter().zip([0.298, 0.160, 0.092]) {
+        assert!((energy - printed).abs() < 2e-3, "{energy} {printed}");
+    }
+    for (energy, exact) in energies(0.1).iter().zip(exact) {
+        assert!((energy - exact).abs() < 6e-3, "{energy} {exact}");
+    }
+}
+
+/// Without friction the steps are those of a separable system, to the last bit.
+#[test]
+fn no_friction_changes_nothing() {
+    struct Undamped;
+
+    impl symplectic::SeparableHamiltonian for Undamped {
+        type Vector<T: Scalar> = Plane<T>;
+
+        fn velocity<T: Scalar>(&self, _: T, p: &Plane<T>, velocity: &mut Plane<T>) {
+            *velocity = *p;
+        }
+
+        fn force<T: Scalar>(&self, time: T, q: &Plane<T>, force: &mut Plane<T>) {
+            Hamiltonian::force(&Ring(0.0), time, q, q, force);
+        }
+    }
+    let mut damped = Integrator::plain(ForestRuth, Ring(0.0), start(), 0.1).expect("a run");
+    let mut undamped = Integrator::plain(ForestRuth, Undamped, start(), 0.1).expect("a run");
+    for _ in 0..20 {
+        let (a, b) = (
+            damped.step().expect("a step"),
+            undamped.step().expect("a step"),
+        );
+        assert!((a.q - b.q).norm() < 1e-14 && (a.p - b.p).norm() < 1e-14);
+    }
+}
+
+/// Dense output knows the friction: the values inside a step have order 4.
+#[test]
+fn inside_a_step() {
+    let error = |size: f64| {
+        let mut run = Integrator::new(ForestRuth, Ring(1.0), start(), size).expect("a run");
+        run.step().expect("a step");
+        let middle = run
+            .dense()
+            .expect("a step")
+            .state(0.5 * size)
+            .expect("inside");
+        let fine = size / 200.0;
+        let mut run = Integrator::new(Yoshida6, Ring(1.0), start(), fine).expect("a run");
+        let exact = run.integrate_to(0.5 * size).expect("steps");
+        (middle.p - exact.p).norm()
+    };
+    let slope = (error(0.04) / error(0.02)).log2();
+    assert!(slope > 3.7, "{slope}");
+}

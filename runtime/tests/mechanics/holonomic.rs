@@ -1,0 +1,318 @@
+//! Order, constraints, structure and invariants of constrained steps.
+
+use symplectic::nalgebra::{SVector, Vector1, Vector2};
+use symplectic::{
+    Constrained, Error, Hamiltonian, Integrator, Method, ProvedFor, State, Vector, consistent,
+};
+
+use crate::systems::*;
+
+/// The distance of two states in their largest component.
+fn distance<V: Vector<Scalar = f64>>(a: &State<V>, b: &State<V>) -> f64 {
+    let pairs = |a: &V, b: &V| {
+        let pairs = a.as_slice().iter().zip(b.as_slice());
+        pairs.fold(0.0_f64, |largest, (a, b)| largest.max((a - b).abs()))
+    };
+    pairs(&a.q, &b.q).max(pairs(&a.p, &b.p))
+}
+
+fn end<M, S, C, V>(method: M, system: S, start: &State<V>, steps: u32) -> State<V>
+where
+    M: Method + ProvedFor<Constrained<C>>,
+    V: Vector<Scalar = f64>,
+    S: Hamiltonian<Class = Constrained<C>, Vector<f64> = V>,
+    C: symplectic::Class + symplectic::system::Unconstrained,
+{
+    let size = 1.0 / f64::from(steps);
+    let mut run = Integrator::new(method, system, start.clone(), size).expect("consistent");
+    run.integrate_to(1.0).expect("converges").clone()
+}
+
+/// The slopes of the error at t = 1 between three numbers of steps, each twice the one before, against Lobatto with five stages.
+fn slopes<M, S, C, V>(method: M, system: S, start: &State<V>, steps: u32) -> [f64; 2]
+where
+    M: Method + ProvedFor<Constrained<C>>,
+    V: Vector<Scalar = f64>,
+    S: Hamiltonian<Class = Constrained<C>, Vector<f64> = V> + Copy,
+    C: symplectic::Class + symplectic::system::Unconstrained,
+{
+    let reference = end(Lobatto5, system, start, 128);
+    let error = |steps| distance(&end(method, system, start, steps), &reference);
+    let errors = [1, 2, 4].map(|factor| error(factor * steps));
+    [0, 1].map(|k| (errors[k] / errors[k + 1]).log2())
+}
+
+macro_rules! orders {
+    ($($name:ident: $system:expr, $start:expr, [$($method:ident $steps:literal $order:literal,)*];)*) => {$(
+        #[test]
+        fn $name() {
+            $(
+                let found = slopes($method, $system, &$start, $steps);
+                let near = (found[1] - f64::from($order)).abs() < 0.06;
+                assert!(near, "{}: slopes {found:?}", stringify!($method));
+            )*
+        }
+    )*};
+}
+
+orders! {
+    orders_on_the_double_spherical_pendulum: DoubleSpherical, double_start(), [
+        Rattle 40 2, Lobatto3 40 4, Lobatto4 20 6, Quarter 80 2, NewtonCotes4 80 2, ClenshawCurtis5 32 4, Waves 80 2, Rattle4 80 4,
+    ];
+    orders_with_a_kinetic_energy_that_depends_on_the_place: Bead, sphere_start(), [
+        Rattle 40 2, Lobatto3 32 4, Lobatto4 10 6, Rattle4 80 4,
+    ];
+    orders_with_a_velocity_that_is_not_linear: Relativistic,
+        consistent(&Relativistic, sphere_start()).expect("regular"), [
+        Rattle 40 2, Lobatto3 32 4, Lobatto4 8 6, Rattle4 80 4,
+    ];
+}
+
+/// Order 8 and a composition of order 6: few steps, for their errors are soon rounding errors.
+#[test]
+fn high_orders() {
+    let start = double_start();
+    let reference = end(Lobatto5, DoubleSpherical, &start, 200);
+    let errors = [8, 16].map(|n| distance(&end(Lobatto5, DoubleSpherical, &start, n), &reference));
+    let slope = (errors[0] / errors[1]).log2();
+    assert!((7.8..8.6).contains(&slope), "{slope}");
+    let errors =
+        [100, 200].map(|n| distance(&end(Rattle6, DoubleSpherical, &start, n), &reference));
+    let slope = (errors[0] / errors[1]).log2();
+    assert!((5.8..6.4).contains(&slope), "{slope}");
+}
+
+/// φ and G v are rounding errors in every step.
+#[test]
+fn states_stay_on_the_constraints() {
+    fn check<M: Method + ProvedFor<Constrained<symplectic::Separable>>>(method: M) {
+        let mut run =
+            Integrator::new(method, DoubleSpherical, double_start(), 0.05).expect("a run");
+        for _ in 0..5000 {
+            let State { q, p, .. } = run.step().expect("a step");
+            let mut values = [0.0; 2];
+            DoubleSpherical.constraint_values(q, &mut values);
+            let link = q.fixed_rows::<3>(3) - q.fixed_rows::<3>(0);
+            let velocity = p.fixed_rows::<3>(3) * 0.5 - p.fixed_rows::<3>(0);
+            let rates = [
+                q.fixed_rows::<3>(0).dot(&p.fixed_rows::<3>(0)),
+                link.dot(&velocity),
+            ];
+            for (value, rate) in values.iter().zip(rates) {
+                assert!(
+                    value.abs() < 8e-15 && rate.abs() < 8e-15,
+                    "{}: {value:e} {rate:e}",
+                    M::NAME
+                );
+            }
+        }
+    }
+    check(Rattle);
+    check(Lobatto3);
+    check(Lobatto4);
+    check(Rattle4);
+}
+
+/// dq∧dp of two tangent vectors of the constrained phase space, before and after a step, by differences.
+#[test]
+fn steps_are_symplectic_on_the_constraints() {
+    fn check<M: Method + ProvedFor<Constrained<symplectic::Separable>>>(method: M) -> f64 {
+        const STEP: f64 = 1e-3;
+        let start = double_start();
+        // A state near by, in a direction, on the constraints.
+        let moved = |direction: usize, by: f64| {
+            let State { time, mut q, mut p } = start.clone();
+            q[(direction * 2) % 6] += by;
+            p[(direction + 1) % 6] -= 0.7 * by;
+            p[4 - direction] += 0.3 * by;
+            consistent(&DoubleSpherical, State { time, q, p }).expect("regular")
+        };
+        let stepped = |state: State<SVector<f64, 6>>| {
+            let mut run = Integrator::new(method, DoubleSpherical, state, 0.1).expect("a run");
+            run.step().expect("a step").clone()
+        };
+        // Differences of order 4.
+        let tangent =
+            |direction: usize, map: &dyn Fn(State<SVector<f64, 6>>) -> State<SVector<f64, 6>>| {
+                let at = |by: f64| map(moved(direction, by * STEP));
+                let part = |take: fn(&State<SVector<f64, 6>>) -> SVector<f64, 6>| {
+                    let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|by| take(&at(by)));
+                    (a - d + (c - b) * 8.0) / (12.0 * STEP)
+                };
+                (part(|state| state.q), part(|state| state.p))
+            };
+        let form = |map: &dyn Fn(State<SVector<f64, 6>>) -> State<SVector<f64, 6>>| {
+            let ((q1, p1), (q2, p2)) = (tangent(0, map), tangent(1, map));
+            q1.dot(&p2) - p1.dot(&q2)
+        };
+        let (before, after) = (form(&|state| state), form(&stepped));
+        assert!(before.abs() > 0.1, "{before}");
+        ((after - before) / before).abs()
+    }
+    for defect in [
+        check(Rattle),
+        check(Lobatto3),
+        check(Lobatto4),
+        check(Rattle4),
+        check(Quarter),
+    ] {
+        assert!(defect < 1e-10, "{defect:e}");
+    }
+}
+
+#[test]
+fn symmetric_steps_go_back_and_others_do_not() {
+    fn back<M: Method + ProvedFor<Constrained<symplectic::Separable>>>(method: M) -> f64 {
+        let start = double_start();
+        let mut run = Integrator::new(method, DoubleSpherical, start.clone(), 0.1).expect("a run");
+        let there = run.step().expect("a step").clone();
+        let mut run = Integrator::new(method, DoubleSpherical, there, -0.1).expect("a run");
+        let mut back = run.step().expect("a step").clone();
+        back.time = start.time;
+        distance(&back, &start)
+    }
+    assert!(back(Rattle) < 1e-14 && back(Lobatto3) < 1e-14 && back(Lobatto4) < 1e-14);
+    let quarter = back(Quarter);
+    assert!(quarter > 1e-8, "{quarter:e}");
+}
+
+/// The angular momentum about the vertical axis, a symmetry of H and of the constraints.
+#[test]
+fn momentum_maps_are_conserved() {
+    let momentum = |state: &State<SVector<f64, 6>>| {
+        let State { q, p, .. } = state;
+        q[0] * p[1] - q[1] * p[0] + q[3] * p[4] - q[4] * p[3]
+    };
+    let start = double_start();
+    let before = momentum(&start);
+    let mut run = Integrator::new(Lobatto3, DoubleSpherical, start, 0.1).expect("a run");
+    let after = momentum(run.take_steps(2000).expect("steps"));
+    assert!((after - before).abs() < 1e-13, "{:e}", after - before);
+}
+
+/// The pendulum in the plane and by its angle.
+#[test]
+fn coordinates_and_angle_are_the_same_motion() -> Result<(), Error> {
+    let (angle, rate) = (2.0_f64, 0.5);
+    let start = State::new(
+        0.0,
+        Vector2::new(angle.sin(), -angle.cos()),
+        Vector2::new(angle.cos(), angle.sin()) * rate,
+    );
+    let mut plane = Integrator::new(Lobatto4, Pendulum, start, 0.02)?;
+    let by_angle = State::new(0.0, Vector1::new(angle), Vector1::new(rate));
+    let mut reference = Integrator::new(Lobatto5, Angle, by_angle, 0.01)?;
+    for end in 1..=20 {
+        let end = f64::from(end);
+        let State { q, p, .. } = plane.integrate_to(end)?.clone();
+        let State { q: a, p: rate, .. } = reference.integrate_to(end)?.clone();
+        let (sine, cosine) = a[0].sin_cos();
+        let difference = (q - Vector2::new(sine, -cosine)).norm();
+        let other = (p - Vector2::new(cosine, sine) * rate[0]).norm();
+        assert!(
+            difference < 2e-10 && other < 2e-10,
+            "{difference:e} {other:e}"
+        );
+    }
+    Ok(())
+}
+
+/// The energy error stays as it is, and shrinks by 2⁴ for half the step.
+#[test]
+fn the_energy_does_not_drift() {
+    let error = |size: f64| {
+        let start: State<Vector2<f64>> = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
+        let mut run = Integrator::new(Lobatto3, Pendulum, start, size).expect("a run");
+        let before = run.energy().expect("known");
+        let mut largest = [0.0_f64; 2];
+        for half in &mut largest {
+            for _ in 0..4000 {
+                run.step().expect("a step");
+                *half = half.max((run.energy().expect("known") - before).abs());
+            }
+        }
+        largest
+    };
+    let [early, late] = error(0.1);
+    assert!(late < 1.1 * early, "{early:e} {late:e}");
+    let ratio = late / error(0.05)[1];
+    assert!((14.0..18.0).contains(&ratio), "{ratio}");
+}
+
+/// A pendulum that hangs at rest stays there: forces and impulses cancel, and what rounding leaves of them is no motion.
+#[test]
+fn equilibrium_stays() {
+    let start: State<Vector2<f64>> = State::from_arrays(0.0, [0.6, -0.8], [0.0, 0.0]);
+    let turned = Turned(Vector2::new(0.6, -0.8));
+    let mut run = Integrator::new(Lobatto4, turned, start.clone(), 0.1).expect("a run");
+    let end = run.take_steps(1000).expect("steps");
+    assert!(
+        distance(
+            end,
+            &State {
+                time: end.time,
+                ..start
+            }
+        ) < 1e-13
+    );
+}
+
+/// Long chains: a band, and the same motion as that of the chain of numbers.
+#[test]
+fn chains_of_links() {
+    let chain = Links(200);
+    let mut run = Integrator::new(Rattle, chain, chain.start(), 0.005).expect("a run");
+    let before = run.energy().expect("known");
+    run.take_steps(400).expect("steps");
+    let after = run.energy().expect("known");
+    assert!(
+        (after - before).abs() < 2e-3 * before.abs().max(1.0),
+        "{before} {after}"
+    );
+    let mut values = vec![0.0; 200];
+    chain.constraint_values(&run.state().q, &mut values);
+    let largest = values
+        .iter()
+        .fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    assert!(largest < 1e-12, "{largest:e}");
+}
+
+/// Where sweeps with the matrix of the start contract badly, Newton's method takes over.
+#[test]
+fn newton_takes_over_at_large_steps() {
+    let start: State<Vector2<f64>> = State::from_arrays(0.0, [1.0, 0.0], [0.0, -1.0]);
+    let mut run = Integrator::new(Rattle, Pendulum, start.clone(), 0.7).expect("a run");
+    run.step().expect("a step");
+    assert!(run.statistics().factorisations > 0);
+    let q: Vector2<f64> = run.state().q;
+    assert!((q.norm() - 1.0).abs() < 1e-15);
+    // Farther than the pendulum is long, there is no step.
+    let mut run = Integrator::new(Rattle, Pendulum, start.clone(), 3.0).expect("a run");
+    let error = run.step().expect_err("no step");
+    assert!(
+        matches!(
+            error,
+            Error::NoConvergence { .. } | Error::SingularMatrix { .. }
+        ),
+        "{error}"
+    );
+    assert_eq!(run.state(), &start);
+}
+
+/// A run that is saved and restored has the bits of the run that goes on.
+#[test]
+fn restart_to_the_bit() {
+    for method_steps in [3, 10] {
+        let mut run =
+            Integrator::new(Lobatto3, DoubleSpherical, double_start(), 0.1).expect("a run");
+        run.take_steps(method_steps).expect("steps");
+        let saved = run.checkpoint().expect("saved");
+        let mut other =
+            Integrator::new(Lobatto3, DoubleSpherical, double_start(), 0.1).expect("a run");
+        other.restore(&saved).expect("restored");
+        assert_eq!(
+            run.take_steps(20).expect("steps"),
+            other.take_steps(20).expect("steps")
+        );
+    }
+}

@@ -1,0 +1,6 @@
+//! Systems with constraints, and with friction.
+
+mod friction;
+mod holonomic;
+mod start;
+mod systems;

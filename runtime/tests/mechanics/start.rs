@@ -1,0 +1,224 @@
+//! Starts, and systems whose constraints are wrong.
+
+use symplectic::nalgebra::{SVector, Vector2};
+use symplectic::system::Gradients;
+use symplectic::{Constrained, Error, Hamiltonian, Integrator, Separable, State, consistent};
+
+use crate::systems::*;
+
+/// A point in the plane with unit mass and these constraints: what each test gets wrong.
+#[derive(Clone, Copy)]
+struct Point {
+    constraints: usize,
+    values: fn(&[f64; 2]) -> [f64; 3],
+    gradients: fn(&[f64; 2]) -> [[f64; 2]; 3],
+    /// A constraint and a component that are not there.
+    beyond: Option<(usize, usize)>,
+}
+
+const CIRCLE: Point = Point {
+    constraints: 1,
+    values: |q| [q[0] * q[0] + q[1] * q[1] - 1.0, 0.0, 0.0],
+    gradients: |q| [[2.0 * q[0], 2.0 * q[1]], [0.0; 2], [0.0; 2]],
+    beyond: None,
+};
+
+impl symplectic::System<Vector2<f64>> for Point {
+    type Class = Constrained<Separable>;
+    type Solver = symplectic::solver::FixedPoint;
+
+    fn velocity(&self, _: f64, _: &Vector2<f64>, p: &Vector2<f64>, velocity: &mut Vector2<f64>) {
+        *velocity = *p;
+    }
+
+    fn force(&self, _: f64, _: &Vector2<f64>, _: &Vector2<f64>, force: &mut Vector2<f64>) {
+        *force = Vector2::new(0.0, -1.0);
+    }
+
+    fn constraints(&self) -> usize {
+        self.constraints
+    }
+
+    fn constraint_values(&self, q: &Vector2<f64>, values: &mut [f64]) {
+        values.copy_from_slice(&(self.values)(&[q[0], q[1]])[..values.len()]);
+    }
+
+    fn constraint_gradients(&self, q: &Vector2<f64>, gradients: &mut Gradients<f64>) {
+        let rows = (self.gradients)(&[q[0], q[1]]);
+        for (constraint, row) in rows.iter().take(self.constraints).enumerate() {
+            for (component, &value) in row.iter().enumerate() {
+                gradients.set(constraint, component, value);
+            }
+        }
+        if let Some((constraint, component)) = self.beyond {
+            gradients.set(constraint, component, 1.0);
+        }
+    }
+}
+
+fn refused(system: Point, q: [f64; 2], p: [f64; 2]) -> Error {
+    let state = State::from_arrays(0.0, q, p);
+    match Integrator::new(Rattle, system, state, 0.1) {
+        Err(error) => error,
+        Ok(_) => panic!("accepted"),
+    }
+}
+
+#[test]
+fn a_start_off_the_constraints_is_refused() {
+    let error = refused(CIRCLE, [1.1, 0.0], [0.0, 1.0]);
+    assert!(
+        matches!(error, Error::InconsistentStart { constraint: 0, .. }),
+        "{error}"
+    );
+    assert!(
+        error.to_string().contains("consistent(&system, state)"),
+        "{error}"
+    );
+    let error = refused(CIRCLE, [1.0, 0.0], [1.0, 1.0]);
+    let Error::InconsistentStart { value, rate, .. } = error else {
+        panic!("{error}");
+    };
+    assert_eq!((value, rate), (0.0, 2.0));
+    let fine = State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.0]);
+    assert!(Integrator::new(Rattle, CIRCLE, fine, 0.1).is_ok());
+}
+
+#[test]
+fn a_state_that_replaces_another_is_checked_too() {
+    let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.0]);
+    let mut run = Integrator::new(Rattle, CIRCLE, start.clone(), 0.1).expect("a run");
+    let error = run.set_state(State::from_arrays(0.0, [2.0, 0.0], [0.0, 1.0]));
+    assert!(
+        matches!(error, Err(Error::InconsistentStart { .. })),
+        "{error:?}"
+    );
+    assert_eq!(run.state(), &start);
+}
+
+#[test]
+fn systems_whose_constraints_are_wrong_are_refused() {
+    let start = ([1.0, 0.0], [0.0, 1.0]);
+    let at = |system: Point| refused(system, start.0, start.1);
+    let error = at(Point {
+        constraints: 0,
+        ..CIRCLE
+    });
+    assert!(
+        matches!(
+            error,
+            Error::ConstraintCount {
+                constraints: 0,
+                dimension: 2
+            }
+        ),
+        "{error}"
+    );
+    let error = at(Point {
+        constraints: 3,
+        ..CIRCLE
+    });
+    assert!(
+        matches!(
+            error,
+            Error::ConstraintCount {
+                constraints: 3,
+                dimension: 2
+            }
+        ),
+        "{error}"
+    );
+    let error = at(Point {
+        beyond: Some((1, 0)),
+        ..CIRCLE
+    });
+    assert!(
+        matches!(
+            error,
+            Error::GradientPlace {
+                constraint: 1,
+                component: 0,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    let sign: fn(&[f64; 2]) -> [[f64; 2]; 3] =
+        |q| [[2.0 * q[0], -2.0 * q[1] + 1.0], [0.0; 2], [0.0; 2]];
+    let error = at(Point {
+        gradients: sign,
+        ..CIRCLE
+    });
+    assert!(
+        matches!(error, Error::GradientMismatch { constraint: 0, .. }),
+        "{error}"
+    );
+    // A constraint that is constant, and one that is there twice.
+    let constant = Point {
+        values: |_| [0.0; 3],
+        gradients: |_| [[0.0; 2]; 3],
+        ..CIRCLE
+    };
+    assert!(
+        matches!(
+            at(constant),
+            Error::DependentConstraints { constraint: 0, .. }
+        ),
+        "{}",
+        at(constant)
+    );
+    let twice = Point {
+        constraints: 2,
+        values: |q| {
+            let value = (CIRCLE.values)(q)[0];
+            [value, 3.0 * value, 0.0]
+        },
+        gradients: |q| {
+            let row = (CIRCLE.gradients)(q)[0];
+            [row, row.map(|x| 3.0 * x), [0.0; 2]]
+        },
+        ..CIRCLE
+    };
+    assert!(
+        matches!(at(twice), Error::DependentConstraints { constraint: 1, .. }),
+        "{}",
+        at(twice)
+    );
+}
+
+/// A cross of two lines, whose gradient vanishes where they meet: the first step goes there exactly.
+#[test]
+fn a_configuration_where_the_gradient_vanishes_ends_the_run() {
+    let cross = Point {
+        values: |q| [q[0] * q[1], 0.0, 0.0],
+        gradients: |q| [[q[1], q[0]], [0.0; 2], [0.0; 2]],
+        ..CIRCLE
+    };
+    let start = State::from_arrays(0.0, [0.0, 0.1328125], [0.0, -1.0]);
+    let mut run = Integrator::new(Rattle, cross, start.clone(), 0.125).expect("a run");
+    let error = run.step().expect_err("no multiplier");
+    assert!(
+        matches!(error, Error::DependentConstraints { constraint: 0, .. }),
+        "{error}"
+    );
+    assert_eq!(run.state(), &start);
+}
+
+#[test]
+fn consistent_states() {
+    let read = State::from_arrays(0.0, [0.6, -0.79], [0.8, 0.61]);
+    let state: State<Vector2<f64>> = consistent(&Pendulum, read).expect("near by");
+    assert!((state.q.norm() - 1.0).abs() < 1e-15 && state.q.dot(&state.p).abs() < 1e-15);
+    // One that is consistent stays as it is.
+    let again = consistent(&Pendulum, state.clone()).expect("consistent");
+    assert_eq!(again, state);
+    // Masses count: the light end moves.
+    let state = State::from_arrays(0.0, [0.0, 0.0, -1.0, 0.0, 0.3, -2.0], [0.0; 6]);
+    let state: State<SVector<f64, 6>> = consistent(&DoubleSpherical, state).expect("near by");
+    let mut values = [0.0; 2];
+    DoubleSpherical.constraint_values(&state.q, &mut values);
+    assert!(values.iter().all(|value| value.abs() < 1e-15), "{values:?}");
+    // From the middle of the circle there is no nearest state.
+    let middle = State::from_arrays(0.0, [0.0, 0.0], [0.0, 0.0]);
+    assert!(consistent(&Pendulum, middle).is_err());
+}
