@@ -162,6 +162,30 @@ fn wrong_formulas_are_refused_at_their_place() {
         refused("P q: [3], p: [3]; H = |p|^2 + sum(i in -1..2: q[i+1]^4)"),
         refused("P q: [x], p: [px]; H = px^2 + ((((((x^999)^999)^999)^999)^999)^999)^999"),
         refused("P q: [x], p: [px]; H = px^2 + x^((((1/3)^400)^400)^400)"),
+        refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 constraints: { rod = x^2 + px - 1 }"),
+        refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 constraints: { rod = x - t }"),
+        refused("P { l: 1 } q: [x, y], p: [px, py]; H = px^2 + py^2 constraints: { rod = l - 1 }"),
+        refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 constraints: { rod = x, rod = y }"),
+        refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 constraints: { x = y }"),
+        refused(
+            "P<N> q: [N], p: [N]; H = sum(i: p[i]^2) constraints: { all(i < j) = q[i] - q[j] }",
+        ),
+        refused("P q: [..], p: [..]; H = sum(i: p[i]^2) constraints: { all(i) = q[i] }"),
+        refused(
+            "P<N> q: [N], p: [N]; bonds: free; H = sum(i: p[i]^2) constraints: { all(bonds d) = d }",
+        ),
+        refused(
+            "P<N> q: [N], p: [N]; H = sum(i: p[i]^2) constraints: { all(i in 1..N) = q[i] - q[i-2] }",
+        ),
+        refused(
+            "P q: [x, y], p: [px, py]; H = px^2 + py^2 constraints: { rod = x } invariants: { momentum = px + py }",
+        ),
+        refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 constraints: rod = x"),
+        refused("P q: [x], p: [px]; H = px^2 + x^2 friction: x"),
+        refused("P q: [x], p: [px]; H = px^2 + x^2 friction: 1 friction: 2"),
+        refused("P q: [x], p: [px]; H = px^2 + x px friction: 1"),
+        refused("P q: [x], p: [px]; H = px^2 friction: 1 invariants: { momentum = px }"),
+        refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 friction: 1 constraints: { rod = x }"),
     ];
     expect_file!["data/formulas_refused.txt"].assert_eq(&(all.join("\n\n") + "\n"));
 }

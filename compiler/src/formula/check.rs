@@ -42,12 +42,35 @@ impl System {
             };
             return Err(kind.into());
         }
+        if self.friction.is_some() {
+            self.check_friction(structure, input)?;
+        }
         for name in self.required.clone() {
             self.require(structure, &name, input)?;
         }
         for k in 0..self.invariants.len() {
             let invariant = self.invariants[k].clone();
             self.invariants[k].proved = self.conserved(&invariant, input)?;
+        }
+        Ok(())
+    }
+
+    /// Friction is for separable systems, and conserves nothing.
+    fn check_friction(&self, structure: &Structure, input: Input<'_>) -> Result<(), Error> {
+        if let Err(term) = structure.split {
+            let kind = FormulaError::Unsupported {
+                what: "friction where H is not separable".to_owned(),
+                instead: "H = T(p) + U(q); this term depends on positions and momenta",
+            };
+            let place = self.place_of(term).cloned().unwrap_or(0..0);
+            return Err(input.error(&place, kind.into()));
+        }
+        if let Some(invariant) = self.invariants.first() {
+            let kind = FormulaError::Unsupported {
+                what: "an invariant of a system with friction".to_owned(),
+                instead: "momenta decay, and so does H",
+            };
+            return Err(input.error(&invariant.span, kind.into()));
         }
         Ok(())
     }
@@ -129,29 +152,34 @@ impl System {
     /// [`FormulaError::NotConserved`].
     pub fn conserved(&mut self, invariant: &Invariant, input: Input<'_>) -> Result<bool, Error> {
         let mut proved = true;
+        let mut all = vec![("H", self.energy)];
+        all.extend(self.constraint_square().map(|square| ("Σφ²", square)));
         for &part in &invariant.parts {
-            if self.is_symmetry(part) {
-                continue;
-            }
-            proved = false;
-            for seed in 0..3 {
-                let Some((bracket, size)) = self.bracket(part, seed) else {
+            for &(of, formula) in &all {
+                if self.is_symmetry(part, formula) {
                     continue;
-                };
-                if bracket.abs() > ROUNDING * size {
-                    let kind = FormulaError::NotConserved {
-                        name: invariant.name.clone(),
-                        bracket: format!("{bracket:.3e}"),
+                }
+                proved = false;
+                for seed in 0..3 {
+                    let Some((bracket, size)) = self.bracket(part, formula, seed) else {
+                        continue;
                     };
-                    return Err(input.error(&invariant.span, kind.into()));
+                    if bracket.abs() > ROUNDING * size {
+                        let kind = FormulaError::NotConserved {
+                            name: invariant.name.clone(),
+                            of,
+                            bracket: format!("{bracket:.3e}"),
+                        };
+                        return Err(input.error(&invariant.span, kind.into()));
+                    }
                 }
             }
         }
         Ok(proved)
     }
 
-    /// Whether H does not change in the direction that a function generates, seen from the formulas.
-    fn is_symmetry(&mut self, function: Id) -> bool {
+    /// Whether H, or another formula in its place, does not change in the direction that a function generates, seen from the formulas.
+    fn is_symmetry(&mut self, function: Id, energy: Id) -> bool {
         if self.graph.depends(function).time {
             return false;
         }
@@ -159,7 +187,6 @@ impl System {
         let by_q = gradient(&mut self.graph, function, &[], -Number::one(), Half::Q);
         let system = self.clone();
         let mut seen = true;
-        let energy = self.energy;
         let speed = directional(&mut self.graph, energy, None, |graph, coordinate| {
             let parts = if coordinate.half == Half::Q {
                 &by_p
@@ -173,9 +200,8 @@ impl System {
         seen && self.graph.is_zero(speed)
     }
 
-    /// The Poisson bracket `{function, H}` and the time derivative at a state, and the size of its terms.
-    fn bracket(&mut self, function: Id, seed: u64) -> Option<(f64, f64)> {
-        let energy = self.energy;
+    /// The Poisson bracket `{function, energy}` and the time derivative at a state, and the size of its terms.
+    fn bracket(&mut self, function: Id, energy: Id, seed: u64) -> Option<(f64, f64)> {
         let mut derivatives = Vec::new();
         for (of, half) in [
             (function, Half::Q),

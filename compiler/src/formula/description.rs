@@ -59,6 +59,18 @@ impl System {
         })
     }
 
+    /// The constraints, a line for each.
+    pub fn constraint_equations(&self, notation: Notation) -> Vec<String> {
+        let lines = self.constraints.iter().flat_map(|constraint| {
+            let loops: Vec<LoopId> = constraint.over.into_iter().collect();
+            constraint.parts.iter().map(move |&part| {
+                let formula = self.formula(part, notation);
+                format!("{formula} = 0{}", self.ranges(&loops, notation))
+            })
+        });
+        lines.collect()
+    }
+
     /// The second derivatives of H, a line for each part of one that is not zero.
     pub fn second_derivatives(&self, notation: Notation) -> Vec<String> {
         let mut copy = self.clone();
@@ -102,6 +114,10 @@ pub fn page(system: &System, structure: &Structure) -> String {
         let momenta = system.momentum_equations(Notation::Text).join("\n");
         text = format!("L = {lagrangian}\n\n{momenta}\n\n{text}");
     }
+    if !system.constraints.is_empty() {
+        let constraints = system.constraint_equations(Notation::Text).join("\n");
+        text = format!("{text}\n\n{constraints}");
+    }
     if text.len() > MOST_CHARACTERS {
         text = "The formula is too long to be shown.".to_owned();
     }
@@ -115,6 +131,7 @@ fn katex(system: &System) -> String {
     let energy = system.formula(system.energy, Notation::Latex);
     let mut lines = vec![format!("H = {energy}")];
     lines.extend(system.equations_of_motion(Notation::Latex));
+    lines.extend(system.constraint_equations(Notation::Latex));
     let mut display = String::new();
     for line in lines {
         display.push_str("$$");
@@ -168,6 +185,9 @@ pub fn text(system: &System, structure: &Structure) -> String {
         "equations of motion",
         &system.equations_of_motion(Notation::Text),
     );
+    if !system.constraints.is_empty() {
+        section("constraints", &system.constraint_equations(Notation::Text));
+    }
     section(
         "second derivatives",
         &system.second_derivatives(Notation::Text),
@@ -188,6 +208,7 @@ pub fn latex(system: &System) -> String {
         system.formula(system.energy, Notation::Latex)
     ));
     lines.extend(system.equations_of_motion(Notation::Latex));
+    lines.extend(system.constraint_equations(Notation::Latex));
     lines.extend(system.second_derivatives(Notation::Latex));
     let lines: Vec<String> = lines
         .iter()
@@ -253,6 +274,15 @@ pub fn json(system: &System, structure: &Structure) -> Value {
         "cyclic": cyclic,
         "conserved": conserved,
     });
+    if !system.constraints.is_empty() {
+        all["constraints"] = both(System::constraint_equations);
+    }
+    if let Some(rate) = system.friction {
+        all["friction"] = json!({
+            "text": system.formula(rate, Notation::Text),
+            "latex": system.formula(rate, Notation::Latex),
+        });
+    }
     if let Some(lagrangian) = &system.lagrangian {
         all["lagrangian"] = json!({
             "text": system.lagrangian_formula(Notation::Text),
@@ -298,14 +328,22 @@ pub fn facts(system: &System, structure: &Structure) -> Vec<String> {
         }
         (Ok(_), Kinetic::General) => "separable".to_owned(),
     });
-    facts.push(
-        if structure.time_dependent {
-            "dependent on time"
-        } else {
-            "independent of time, so H is conserved"
-        }
-        .to_owned(),
-    );
+    facts.push(match (structure.time_dependent, system.friction) {
+        (true, _) => "dependent on time".to_owned(),
+        (false, None) => "independent of time, so H is conserved".to_owned(),
+        (false, Some(_)) => "independent of time".to_owned(),
+    });
+    if let Some(rate) = system.friction {
+        facts.push(format!(
+            "the friction −γp with γ = {} is added to the force",
+            system.formula(rate, Notation::Text)
+        ));
+    }
+    if !system.constraints.is_empty() {
+        facts.push(
+            "the force −Gᵀλ of the constraints, with G = ∂φ/∂q, is added to the force".to_owned(),
+        );
+    }
     match system.lagrangian.as_ref().map(|known| known.regularity) {
         Some(Regularity::Proved) => {
             facts.push("the mass matrix is proved regular".to_owned());

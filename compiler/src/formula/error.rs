@@ -109,10 +109,12 @@ pub enum FormulaError {
         reason: String,
     },
     /// A function of the state that changes along solutions.
-    #[error("`{name}` is not conserved: {{{name}, H}} is {bracket} at a random state, not 0")]
+    #[error("`{name}` is not conserved: {{{name}, {of}}} is {bracket} at a random state, not 0")]
     NotConserved {
         /// The name of the invariant.
         name: String,
+        /// H, or the squares of the constraints.
+        of: &'static str,
         /// The Poisson bracket.
         bracket: String,
     },

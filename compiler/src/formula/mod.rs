@@ -48,7 +48,9 @@ pub use check::PROPERTIES;
 pub use error::FormulaError;
 pub use structure::{Kinetic, Structure};
 pub use syntax::Form;
-pub use system::{Bonds, Invariant, Lagrangian, Layout, Parameter, Regularity, Shape, System};
+pub use system::{
+    Bonds, Constraint, Invariant, Lagrangian, Layout, Parameter, Regularity, Shape, System,
+};
 
 use crate::error::Error;
 use crate::expression::Input;

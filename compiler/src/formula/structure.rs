@@ -77,20 +77,67 @@ impl Structure {
             Err(_) => Kinetic::General,
         };
         let chain = match split {
-            Ok(split) if kinetic == Kinetic::Unit => chain(system, split.potential),
+            Ok(split) if kinetic == Kinetic::Unit && system.is_free() => {
+                chain(system, split.potential)
+            }
             _ => None,
         };
+        let symmetries = Symmetries::of(system);
         Structure {
             split,
             kinetic,
             time_dependent: system.graph.depends(energy).time,
-            cyclic: cyclic(system),
-            translations: translations(system),
-            rotations: rotations(system),
+            cyclic: symmetries.cyclic,
+            translations: symmetries.translations,
+            rotations: symmetries.rotations,
             chain,
             hessian: MomentumHessian::of(system),
             degree: degree(system),
         }
+    }
+}
+
+/// What can be moved or turned without a change of H, and of constraints.
+struct Symmetries {
+    cyclic: Vec<usize>,
+    translations: Vec<usize>,
+    rotations: Vec<[usize; 2]>,
+}
+
+impl Symmetries {
+    fn of(system: &mut System) -> Self {
+        let mut found = Self::of_energy(system);
+        if system.friction.is_some() {
+            // The momenta decay.
+            found.keep(&Symmetries {
+                cyclic: Vec::new(),
+                translations: Vec::new(),
+                rotations: Vec::new(),
+            });
+        }
+        if let Some(square) = system.constraint_square() {
+            let energy = std::mem::replace(&mut system.energy, square);
+            found.keep(&Self::of_energy(system));
+            system.energy = energy;
+        }
+        found
+    }
+
+    /// Those of the formula in the place of H.
+    fn of_energy(system: &mut System) -> Self {
+        Symmetries {
+            cyclic: cyclic(system),
+            translations: translations(system),
+            rotations: rotations(system),
+        }
+    }
+
+    /// Keeps what others have too.
+    fn keep(&mut self, others: &Self) {
+        self.cyclic.retain(|x| others.cyclic.contains(x));
+        self.translations
+            .retain(|x| others.translations.contains(x));
+        self.rotations.retain(|x| others.rotations.contains(x));
     }
 }
 

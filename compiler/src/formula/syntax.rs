@@ -88,10 +88,25 @@ pub struct Definition {
     pub abbreviations: Vec<Abbreviation>,
     /// The Hamiltonian or the Lagrangian.
     pub function: Option<Expression>,
+    /// Holonomic constraints.
+    pub constraints: Vec<Constraint>,
+    /// The rate γ of a friction `−γp`.
+    pub friction: Option<Expression>,
     /// What is said to be conserved.
     pub invariants: Vec<(Name, Expression)>,
     /// What the system has to be.
     pub required: Vec<Name>,
+}
+
+/// `name = φ` or `name(i in a..b) = φ`: φ is zero.
+#[derive(Debug, Clone)]
+pub struct Constraint {
+    /// The name.
+    pub name: Name,
+    /// The indices for each of which there is one.
+    pub over: Option<Over>,
+    /// What is zero.
+    pub value: Expression,
 }
 
 /// A parameter: a field of the system.

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::graph::{Coordinate, Graph, Half, Id, Number};
+use super::graph::{Coordinate, Graph, Half, Id, LoopId, Number, integer};
 use super::syntax::{Ends, Length, Name, Span};
 
 /// A Hamiltonian system that was read from a formula.
@@ -28,6 +28,10 @@ pub struct System {
     pub energy: Id,
     /// The Lagrangian that H was derived from.
     pub lagrangian: Option<Lagrangian>,
+    /// Holonomic constraints.
+    pub constraints: Vec<Constraint>,
+    /// The rate γ of a friction `−γp`.
+    pub friction: Option<Id>,
     /// What is said to be conserved.
     pub invariants: Vec<Invariant>,
     /// What it has to be.
@@ -127,6 +131,26 @@ impl Layout {
 }
 
 impl System {
+    /// Whether there is nothing but H: no constraint, no friction.
+    pub fn is_free(&self) -> bool {
+        self.constraints.is_empty() && self.friction.is_none()
+    }
+
+    /// The sum of the squares of all constraints, which changes wherever one of them does; none where there is no constraint.
+    pub fn constraint_square(&mut self) -> Option<Id> {
+        let mut terms = Vec::new();
+        for constraint in &self.constraints {
+            for &part in &constraint.parts {
+                let square = self.graph.power(part, integer(2));
+                terms.push(match constraint.over {
+                    Some(over) => (integer(1), self.graph.total(over, square)),
+                    None => (integer(1), square),
+                });
+            }
+        }
+        (!terms.is_empty()).then(|| self.graph.sum(terms))
+    }
+
     /// Where a node, or the node that it is a multiple of, was read first.
     pub fn place_of(&self, id: Id) -> Option<&Span> {
         let inner = self.graph.scaled(id).1;
@@ -141,6 +165,17 @@ impl System {
             _ => self.layout.name(coordinate.half, index),
         }
     }
+}
+
+/// Functions of the positions that are zero.
+#[derive(Debug, Clone)]
+pub struct Constraint {
+    /// The name.
+    pub name: String,
+    /// The loop for each index of which there is one.
+    pub over: Option<LoopId>,
+    /// What is zero: one function, or the components of a vector.
+    pub parts: Vec<Id>,
 }
 
 /// A function of the state that is said to be conserved.

@@ -67,6 +67,36 @@
 /// functions in scope, `fn V<T: Scalar>(x: T) -> T` and its two derivatives. H has to be twice continuously differentiable: `abs`, `min`
 /// and `max` are refused; `|x|^3` is not.
 ///
+/// # Constraints and friction
+///
+/// `constraints: { rod = |q[0]|^2 - 1, link(i in 1..N) = |q[i] - q[i-1]|^2 - 1 }` says what is zero: functions of the positions, or vectors
+/// of them, one or one for each index; `rod(s = (i, j) in rods) = …` has one for each pair of a parameter. The class of the system is
+/// then [`Constrained`](crate::Constrained), and methods that are `constrained` step it.
+///
+/// `friction: gamma` adds the force `−γp` to a separable system. Its class is [`Damped`](crate::Damped), for splittings.
+///
+/// ```
+/// use symplectic::{Error, Integrator, State};
+///
+/// symplectic::tableau! { Lobatto3 { basis: polynomial(3), nodes: lobatto(3), require: [constrained, order == 4] } }
+///
+/// symplectic::hamiltonian! {
+///     /// A pendulum in the plane.
+///     pub Pendulum { g: 9.81, l: 1 }
+///     q: [x, y], p: [px, py];
+///     H = (px^2 + py^2)/2 + g y
+///     constraints: { rod = x^2 + y^2 - l^2 }
+/// }
+///
+/// # fn main() -> Result<(), Error> {
+/// let start = State::from_arrays(0.0, [0.6, -0.8], [0.0, 0.0]);
+/// let mut run = Integrator::new(Lobatto3, Pendulum::default(), start, 0.01)?;
+/// let [x, y] = run.integrate_to(10.0)?.to_arrays().0;
+/// assert!((x.hypot(y) - 1.0_f64).abs() < 1e-15);
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Conserved quantities
 ///
 /// A momentum is conserved where H has a symmetry that shows in its form: where all positions can be moved together there is a method

@@ -7,6 +7,7 @@
 mod band;
 mod block;
 mod chain;
+mod constraints;
 mod expression;
 mod fields;
 mod invariants;
@@ -90,8 +91,8 @@ impl<'a> Emitter<'a> {
         let fields = self.fields();
         let dynamics = match (self.structure.chain, self.structure.split) {
             (Some(parts), _) => self.chain(&parts),
-            (None, Ok(split)) => self.separable(split),
-            (None, Err(_)) => self.general(),
+            (None, Ok(split)) if self.system.is_free() => self.separable(split),
+            (None, split) => self.general(split.ok()),
         };
         let momentum = self.momentum();
         let invariants = self.invariants();
@@ -385,34 +386,65 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    fn general(&mut self) -> TokenStream {
+    /// H of any class, with constraints or friction perhaps; of a separable one with its two parts.
+    fn general(&mut self, split: Option<Split>) -> TokenStream {
         let name = self.header.name.clone();
         let [generics, _, arguments] = self.generics();
         let scalar = self.scalar.clone();
         let over = self.vector(&quote!(#scalar));
-        let of = self.system.energy;
+        let energy = self.system.energy;
+        let [kinetic, potential] =
+            split.map_or([energy; 2], |split| [split.kinetic, split.potential]);
         let velocity = || Derivative {
             into: "velocity",
             half: Half::P,
-            of,
+            of: kinetic,
             sign: 1,
         };
         let force = || Derivative {
             into: "force",
             half: Half::Q,
-            of,
+            of: potential,
             sign: -1,
         };
-        let both = self.derivatives(&["q", "p"], &[velocity(), force()]);
+        let class = if split.is_some() {
+            quote!(::symplectic::Separable)
+        } else {
+            quote!(::symplectic::General)
+        };
+        let class = match (&self.system.friction, self.system.constraints.is_empty()) {
+            (Some(_), _) => quote!(::symplectic::Damped),
+            (None, false) => quote!(::symplectic::Constrained<#class>),
+            (None, true) => class,
+        };
+        let unit = (split.is_some() && self.structure.kinetic == Kinetic::Unit).then(|| {
+            quote!(
+                const UNIT_MASSES: bool = true;
+            )
+        });
+        // Where nothing is in common, one after the other.
+        let both = split.is_none().then(|| {
+            let both = self.derivatives(&["q", "p"], &[velocity(), force()]);
+            quote! {
+                #[inline(always)]
+                fn slopes<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, (velocity, force): (&mut #over, &mut #over)) {
+                    #both
+                }
+            }
+        });
         let velocity = self.derivatives(&["q", "p"], &[velocity()]);
         let force = self.derivatives(&["q", "p"], &[force()]);
-        let energy = self.energy(of);
-        let jacobian = self.jacobian(None);
+        let energy = self.energy(energy);
+        // Newton's iteration is for stages without constraints.
+        let jacobian = self.system.is_free().then(|| self.jacobian(None));
+        let beside_energy = self.beside_energy();
         quote! {
             #[allow(unused_variables, non_snake_case, clippy::all)]
             impl #generics ::symplectic::Hamiltonian for #name #arguments {
-                type Class = ::symplectic::General;
+                type Class = #class;
                 type Vector<#scalar: Scalar> = #over;
+
+                #unit
 
                 #[inline(always)]
                 fn velocity<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, velocity: &mut #over) {
@@ -424,16 +456,15 @@ impl<'a> Emitter<'a> {
                     #force
                 }
 
-                #[inline(always)]
-                fn slopes<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, (velocity, force): (&mut #over, &mut #over)) {
-                    #both
-                }
+                #both
 
                 fn energy<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over) -> ::core::option::Option<#scalar> {
                     #energy
                 }
 
                 #jacobian
+
+                #beside_energy
             }
         }
     }

@@ -1,6 +1,7 @@
 //! From a definition as written to a graph: what names mean, which shapes values have, which indices are inside.
 
 mod arithmetic;
+mod constraints;
 mod declarations;
 mod indices;
 mod totals;
@@ -151,6 +152,8 @@ impl Elaborator<'_> {
         };
         let energy = self.scalar(written)?;
         self.momenta_hidden = false;
+        let constraints = self.constraints()?;
+        let friction = self.friction()?;
         let mut invariants: Vec<Invariant> = Vec::new();
         for (name, written) in &definition.invariants {
             let constructor = name.text == "new";
@@ -217,6 +220,8 @@ impl Elaborator<'_> {
             graph: self.graph,
             energy,
             lagrangian,
+            constraints,
+            friction,
             invariants,
             required: definition.required.clone(),
             bonds: self.bonds,

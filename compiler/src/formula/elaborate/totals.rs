@@ -125,7 +125,33 @@ impl Elaborator<'_> {
         body: &Expression,
         at: &Expression,
     ) -> Result<Value, Error> {
+        if let Over::Bonds(name) = over {
+            return self.bonds(name, body, at).map(Value::Scalar);
+        }
         let depth = self.loops.len();
+        let value = self.under(over, at, |this| this.value(body))?;
+        let value = self.whole(value);
+        let loops = self.loops.split_off(depth);
+        let mut close = |id: Id| {
+            loops
+                .iter()
+                .rev()
+                .fold(id, |body, &over| self.graph.total(over, body))
+        };
+        Ok(match value {
+            Value::Scalar(id) => Value::Scalar(close(id)),
+            Value::Vector(parts) => Value::Vector(parts.into_iter().map(close).collect()),
+            other => return self.mismatch(body, &other, "a number or a vector"),
+        })
+    }
+
+    /// Reads something in the loops that it goes over, which stay open.
+    pub(super) fn under<T>(
+        &mut self,
+        over: &Over,
+        at: &Expression,
+        read: impl FnOnce(&mut Self) -> Result<T, Error>,
+    ) -> Result<T, Error> {
         let all = || Index::number(0);
         let count = |this: &Self, index: &Name| match &this.layout {
             Layout::Numbered(length, _) => Ok(normal(Index::of(Base::End(length.clone())))),
@@ -136,7 +162,7 @@ impl Elaborator<'_> {
                 Err(this.input.error(&index.span, kind.into()))
             }
         };
-        let value = match over {
+        match over {
             Over::Range(name, range) => {
                 let (start, end) = match range {
                     Some(written) => {
@@ -162,10 +188,8 @@ impl Elaborator<'_> {
                     None => (all(), count(self, name)?),
                 };
                 let id = self.new_loop(LoopRange::Between(start, end), at)?;
-                self.with(
-                    vec![(name, Value::Index(Index::of(Base::Loop(id))))],
-                    |this| this.value(body),
-                )?
+                let index = Value::Index(Index::of(Base::Loop(id)));
+                self.with(vec![(name, index)], read)
             }
             Over::Pairs(first, second) => {
                 let end = count(self, first)?;
@@ -176,10 +200,7 @@ impl Elaborator<'_> {
                 };
                 let inner = self.new_loop(LoopRange::Between(next, end), at)?;
                 let index = |id| Value::Index(Index::of(Base::Loop(id)));
-                self.with(
-                    vec![(first, index(outer)), (second, index(inner))],
-                    |this| this.value(body),
-                )?
+                self.with(vec![(first, index(outer)), (second, index(inner))], read)
             }
             Over::List {
                 number,
@@ -204,23 +225,16 @@ impl Elaborator<'_> {
                 let index = |slot| Value::Index(Index::of(Base::Pair(id, slot)));
                 let mut meanings = vec![(first, index(0)), (second, index(1))];
                 meanings.extend(number.as_ref().map(|name| (name, index(2))));
-                self.with(meanings, |this| this.value(body))?
+                self.with(meanings, read)
             }
-            Over::Bonds(name) => return self.bonds(name, body, at).map(Value::Scalar),
-        };
-        let value = self.whole(value);
-        let loops = self.loops.split_off(depth);
-        let mut close = |id: Id| {
-            loops
-                .iter()
-                .rev()
-                .fold(id, |body, &over| self.graph.total(over, body))
-        };
-        Ok(match value {
-            Value::Scalar(id) => Value::Scalar(close(id)),
-            Value::Vector(parts) => Value::Vector(parts.into_iter().map(close).collect()),
-            other => return self.mismatch(body, &other, "a number or a vector"),
-        })
+            Over::Bonds(_) => {
+                let kind = FormulaError::Unsupported {
+                    what: "a constraint for every bond".to_owned(),
+                    instead: "write a range, such as `i in 1..N`",
+                };
+                self.error(at, kind)
+            }
+        }
     }
 
     /// The sum over the bonds of a chain.

@@ -87,6 +87,13 @@ pub(super) fn transform(
     {
         *part = copier.copy(*part, graph);
     }
+    let constraints = system.constraints.iter_mut();
+    for part in constraints.flat_map(|known| &mut known.parts) {
+        *part = copier.copy(*part, graph);
+    }
+    if let Some(rate) = &mut system.friction {
+        *rate = copier.copy(*rate, graph);
+    }
     system.energy = energy;
     if let Some(lagrangian) = &mut system.lagrangian {
         lagrangian.formula = formula;

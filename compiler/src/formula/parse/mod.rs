@@ -8,6 +8,8 @@
 //!            | "extern" "fn" name "with" name "," name ";"
 //!            | "let" name [ "(" names ")" ] "=" expression ";"
 //!            | ( "H" | "L" ) "=" expression
+//!            | "constraints" ":" "{" name [ "(" over ")" ] "=" expression { "," … } "}"
+//!            | "friction" ":" expression
 //!            | "invariants" ":" "{" name "=" expression { "," … } "}"
 //!            | "require" ":" "[" names "]"
 //! expression = term { ("+" | "-") term }      term = factor { [ "*" | "/" ] factor }      factor = { "-" } atom [ "^" factor ]
@@ -50,6 +52,9 @@ const KEYWORDS: [&str; 12] = [
     "invariants",
     "require",
 ];
+
+/// Words with which a statement begins, if `:` follows, and which are names elsewhere.
+const STATEMENTS: [&str; 2] = ["constraints", "friction"];
 
 /// Reads a definition.
 ///
@@ -247,6 +252,7 @@ impl Parser<'_> {
             Token::Symbol('|') => self.in_bars.last() != Some(&true),
             Token::Name(name) => {
                 let other = match self.ahead(1) {
+                    Token::Symbol(':') if STATEMENTS.contains(&name.as_str()) => true,
                     Token::Symbol(':' | '=') => self.is_keyword(name),
                     _ => false,
                 };
@@ -408,29 +414,36 @@ impl Parser<'_> {
     }
 
     fn total(&mut self) -> Result<Kind, Error> {
-        const OVER: &str =
-            "what the sum goes over: `i`, `i in 0..N`, `i < j`, `bonds d` or `(i, j) in pairs`";
-        let over = if self.accept_word("bonds") {
-            Over::Bonds(self.new_name("a name for the stretch of a bond")?)
-        } else if self.is('(') {
-            self.pair_list(None)?
-        } else {
-            let index = self.new_name(OVER)?;
-            if self.accept('=') {
-                self.pair_list(Some(index))?
-            } else if self.accept('<') {
-                Over::Pairs(index, self.new_name("the other index: `i < j`")?)
-            } else if self.accept_word("in") {
-                let from = self.expression()?;
-                self.expect('.', "`..`: a range is written `0..N`")?;
-                self.expect('.', "`..`: a range is written `0..N`")?;
-                Over::Range(index, Some([from, self.expression()?]))
-            } else {
-                Over::Range(index, None)
-            }
-        };
+        let over = self.over()?;
         self.expect(':', "`:` and the terms of the sum")?;
         Ok(Kind::Total(Box::new(over), Box::new(self.expression()?)))
+    }
+
+    /// What a sum goes over, or a family of constraints.
+    pub(super) fn over(&mut self) -> Result<Over, Error> {
+        const OVER: &str =
+            "what the sum goes over: `i`, `i in 0..N`, `i < j`, `bonds d` or `(i, j) in pairs`";
+        if self.accept_word("bonds") {
+            let stretch = self.new_name("a name for the stretch of a bond")?;
+            return Ok(Over::Bonds(stretch));
+        }
+        if self.is('(') {
+            return self.pair_list(None);
+        }
+        let index = self.new_name(OVER)?;
+        if self.accept('=') {
+            self.pair_list(Some(index))
+        } else if self.accept('<') {
+            let other = self.new_name("the other index: `i < j`")?;
+            Ok(Over::Pairs(index, other))
+        } else if self.accept_word("in") {
+            let from = self.expression()?;
+            self.expect('.', "`..`: a range is written `0..N`")?;
+            self.expect('.', "`..`: a range is written `0..N`")?;
+            Ok(Over::Range(index, Some([from, self.expression()?])))
+        } else {
+            Ok(Over::Range(index, None))
+        }
     }
 
     fn pair_list(&mut self, number: Option<Name>) -> Result<Over, Error> {

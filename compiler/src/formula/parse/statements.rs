@@ -7,8 +7,8 @@ use super::{Parser, constant};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::syntax::{
-    Abbreviation, Coordinates, CoordinatesKind, Definition, Ends, Form, Length, Name, Parameter,
-    ParameterKind,
+    Abbreviation, Constraint, Coordinates, CoordinatesKind, Definition, Ends, Form, Length, Name,
+    Parameter, ParameterKind,
 };
 
 impl Parser<'_> {
@@ -23,6 +23,8 @@ impl Parser<'_> {
             functions: Vec::new(),
             abbreviations: Vec::new(),
             function: None,
+            constraints: Vec::new(),
+            friction: None,
             invariants: Vec::new(),
             required: Vec::new(),
         };
@@ -259,6 +261,15 @@ impl Parser<'_> {
                     return Err(self.unexpected("an operator or `;`"));
                 }
             }
+            "constraints" => self.constraints(definition)?,
+            "friction" => {
+                self.expect(':', "`:` and a rate: `friction: gamma;`")?;
+                if definition.friction.is_some() {
+                    return twice(self, "`friction`");
+                }
+                definition.friction = Some(self.expression()?);
+                self.accept(';');
+            }
             "invariants" => {
                 const FORM: &str = "`invariants: { momentum = sum(i: p[i]) }`";
                 self.expect(':', FORM)?;
@@ -309,6 +320,36 @@ impl Parser<'_> {
         Ok(())
     }
 
+    fn constraints(&mut self, definition: &mut Definition) -> Result<(), Error> {
+        const FORM: &str =
+            "`constraints: { rod = |q[0]|^2 - 1, link(i in 1..N) = |q[i] - q[i-1]|^2 - 1 }`";
+        self.expect(':', FORM)?;
+        let open = self.span();
+        self.expect('{', FORM)?;
+        while !self.is('}') {
+            let name = self.new_name("the name of a constraint, or `}`")?;
+            let over = match self.accept('(') {
+                true => {
+                    let over = self.over()?;
+                    self.expect(')', "`)`")?;
+                    Some(over)
+                }
+                false => None,
+            };
+            self.expect('=', "`=` and what is zero")?;
+            let value = self.expression()?;
+            definition
+                .constraints
+                .push(Constraint { name, over, value });
+            if !self.accept(',') {
+                break;
+            }
+        }
+        self.close(&open, ['{', '}'])?;
+        self.accept(';');
+        Ok(())
+    }
+
     fn coordinates(&mut self, definition: &Definition) -> Result<Coordinates, Error> {
         let open = self.span();
         self.expect('[', "`[`: `[a, b]`, `[N]`, `[N; 3]` or `[..]`")?;
@@ -352,10 +393,10 @@ impl Parser<'_> {
 fn statement(form: Form) -> &'static str {
     match form {
         Form::Hamiltonian => {
-            "`q: […], p: […];`, `let …;`, `H = …`, `bonds: …;`, `extern fn …;`, `invariants: {…}` or `require: […]`"
+            "`q: […], p: […];`, `let …;`, `H = …`, `bonds: …;`, `extern fn …;`, `constraints: {…}`, `friction: …;`, `invariants: {…}` or `require: […]`"
         }
         Form::Lagrangian => {
-            "`q: […], v: […];`, `let …;`, `L = …`, `bonds: …;`, `extern fn …;`, `invariants: {…}` or `require: […]`"
+            "`q: […], v: […];`, `let …;`, `L = …`, `bonds: …;`, `extern fn …;`, `constraints: {…}`, `friction: …;`, `invariants: {…}` or `require: […]`"
         }
     }
 }

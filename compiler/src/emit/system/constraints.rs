@@ -1,0 +1,199 @@
+//! Holonomic constraints with their gradients, and friction: methods of `Hamiltonian`.
+
+use num_traits::One;
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::Emitter;
+use super::block::{Statement, Task, Writer};
+use super::names::{identifier, index_name, index_tokens};
+use super::operations::Operations;
+use crate::formula::Constraint;
+use crate::formula::derivative::gradient;
+use crate::formula::graph::{Half, Id, LoopId, LoopRange, Number};
+
+impl Emitter<'_> {
+    /// The methods that say what the constraints are, or the friction; nothing where there are neither.
+    pub(super) fn beside_energy(&mut self) -> TokenStream {
+        let friction = self.friction();
+        let constraints = self.constraints();
+        quote!(#friction #constraints)
+    }
+
+    fn friction(&self) -> TokenStream {
+        let Some(rate) = self.system.friction else {
+            return TokenStream::new();
+        };
+        let operations = Operations::new(&self.system.graph, &[rate]);
+        let write: Statement = Box::new(|value| quote!(return #value;));
+        let task = Task {
+            loops: Vec::new(),
+            value: operations.of(rate),
+            write,
+            fixed: true,
+        };
+        let mut writer = Writer::new(
+            &self.system,
+            &operations,
+            self.scalar.clone(),
+            &self.prefix,
+            TokenStream::new(),
+        );
+        let statements = writer.write(vec![task]);
+        quote! {
+            #[inline(always)]
+            fn friction(&self, component: usize) -> f64 {
+                #statements
+            }
+        }
+    }
+
+    fn constraints(&mut self) -> TokenStream {
+        let constraints = self.system.constraints.clone();
+        if constraints.is_empty() {
+            return TokenStream::new();
+        }
+        // Where the numbers of each family begin.
+        let mut starts = vec![quote!(0)];
+        for constraint in &constraints {
+            let (before, own) = (&starts[starts.len() - 1], self.count(constraint));
+            let next = match before.to_string().as_str() {
+                "0" => own,
+                _ => quote!(#before + #own),
+            };
+            starts.push(next);
+        }
+        let count = &starts[constraints.len()];
+        let [mut values, mut gradients] = [Vec::new(), Vec::new()];
+        for (constraint, start) in constraints.iter().zip(&starts) {
+            let loops: Vec<LoopId> = constraint.over.into_iter().collect();
+            for (k, &part) in constraint.parts.iter().enumerate() {
+                let number = self.number(constraint, start, k);
+                values.push((loops.clone(), part, quote!(values[#number])));
+                let graph = &mut self.system.graph;
+                for entry in gradient(graph, part, &loops, Number::one(), Half::Q) {
+                    let component = self.place(&entry.target);
+                    let place = quote!(#number, #component);
+                    gradients.push((entry.loops, entry.value, place));
+                }
+            }
+        }
+        let nan = self.scalar.clone();
+        let values = self.tasks(
+            values,
+            quote!(values.fill(#nan::from_f64(f64::NAN)); return;),
+            |place, value| quote!(#place = #value;),
+        );
+        let gradients = self.tasks(
+            gradients,
+            quote!(return;),
+            |place, value| quote!(gradients.set(#place, #value);),
+        );
+        let scalar = &self.scalar;
+        let over = self.vector(&quote!(#scalar));
+        quote! {
+            fn constraints(&self) -> usize {
+                #count
+            }
+
+            #[inline(always)]
+            fn constraint_values<#scalar: Scalar>(&self, q: &#over, values: &mut [#scalar]) {
+                #values
+            }
+
+            ::symplectic::emitted::if_alloc! {
+                #[inline(always)]
+                fn constraint_gradients<#scalar: Scalar>(&self, q: &#over, gradients: &mut ::symplectic::system::Gradients<#scalar>) {
+                    #gradients
+                }
+            }
+        }
+    }
+
+    /// How many constraints a family has.
+    fn count(&self, constraint: &Constraint) -> TokenStream {
+        let parts = Literal::usize_unsuffixed(constraint.parts.len());
+        let indices = match constraint
+            .over
+            .map(|over| &self.system.graph.get_loop(over).range)
+        {
+            None => return quote!(#parts),
+            Some(LoopRange::List(parameter)) => {
+                let list = identifier(&self.system.parameters[*parameter].name);
+                quote!(self.#list.len())
+            }
+            Some(LoopRange::Between(start, end)) => {
+                let [start, end] = [start, end].map(index_tokens);
+                match start.to_string().as_str() {
+                    "0" => quote!(#end),
+                    _ => quote!((#end).saturating_sub(#start)),
+                }
+            }
+        };
+        match constraint.parts.len() {
+            1 => indices,
+            _ => quote!(#parts * #indices),
+        }
+    }
+
+    /// The number of a constraint of a family, in the loop of its indices.
+    fn number(&self, constraint: &Constraint, start: &TokenStream, part: usize) -> TokenStream {
+        let mut terms = Vec::new();
+        if start.to_string() != "0" {
+            terms.push(start.clone());
+        }
+        if let Some(over) = constraint.over {
+            let index = index_name(over);
+            let index = match &self.system.graph.get_loop(over).range {
+                LoopRange::Between(first, _)
+                    if first.offset != 0 || index_tokens(first).to_string() != "0" =>
+                {
+                    let first = index_tokens(first);
+                    quote!((#index - #first))
+                }
+                _ => quote!(#index),
+            };
+            let parts = Literal::usize_unsuffixed(constraint.parts.len());
+            terms.push(match constraint.parts.len() {
+                1 => index,
+                _ => quote!(#parts * #index),
+            });
+        }
+        if part > 0 || terms.is_empty() {
+            let part = Literal::usize_unsuffixed(part);
+            terms.push(quote!(#part));
+        }
+        quote!(#(#terms)+*)
+    }
+
+    /// The statements for values in loops, each with its place.
+    fn tasks(
+        &self,
+        parts: Vec<(Vec<LoopId>, Id, TokenStream)>,
+        outside: TokenStream,
+        write: fn(&TokenStream, &TokenStream) -> TokenStream,
+    ) -> TokenStream {
+        let views = self.views(&["q"], &[]);
+        let least = self.least(&outside);
+        let roots: Vec<Id> = parts.iter().map(|part| part.1).collect();
+        let operations = Operations::new(&self.system.graph, &roots);
+        let tasks = parts.into_iter().map(|(loops, value, place)| {
+            let write: Statement = Box::new(move |value| write(&place, value));
+            Task {
+                loops,
+                value: operations.of(value),
+                write,
+                fixed: false,
+            }
+        });
+        let mut writer = Writer::new(
+            &self.system,
+            &operations,
+            self.scalar.clone(),
+            &self.prefix,
+            outside,
+        );
+        let statements = writer.write(tasks.collect());
+        quote!(#views #least #statements)
+    }
+}

@@ -1,0 +1,111 @@
+//! Holonomic constraints and friction.
+
+use super::{Elaborator, Value};
+use crate::error::{Error, ErrorKind};
+use crate::formula::error::FormulaError;
+use crate::formula::graph::{Base, Id, LoopRange};
+use crate::formula::syntax::{Expression, Length};
+use crate::formula::system::Constraint;
+
+impl Elaborator<'_> {
+    /// The constraints, each a function of the positions that is zero.
+    pub(super) fn constraints(&mut self) -> Result<Vec<Constraint>, Error> {
+        let definition = self.definition;
+        let mut constraints: Vec<Constraint> = Vec::new();
+        for written in &definition.constraints {
+            let name = &written.name;
+            let known = constraints.iter().any(|known| known.name == name.text);
+            if known || self.names.contains_key(&name.text) {
+                let meaning = match known {
+                    true => "a constraint".to_owned(),
+                    false => self.meaning(&name.text),
+                };
+                let kind = FormulaError::Taken {
+                    name: name.text.clone(),
+                    meaning,
+                };
+                return Err(self.input.error(&name.span, kind.into()));
+            }
+            let value = &written.value;
+            let parts = match &written.over {
+                None => self.zeros(value)?,
+                Some(over) => self.under(over, value, |this| this.zeros(value))?,
+            };
+            let loops = std::mem::take(&mut self.loops);
+            let over = match loops[..] {
+                [] => None,
+                [over] => Some(over),
+                _ => {
+                    let kind = FormulaError::Unsupported {
+                        what: "a constraint for every `i < j`".to_owned(),
+                        instead: "write the pairs as a parameter: `rods: pairs`, `rod(s = (i, j) in rods) = …`",
+                    };
+                    return Err(self.input.error(&name.span, kind.into()));
+                }
+            };
+            if let Some(over) = over
+                && let LoopRange::Between(_, end) = &self.graph.get_loop(over).range
+                && end.base == Base::End(Length::Runtime)
+            {
+                let kind = FormulaError::Unsupported {
+                    what: "a constraint for every index of a length that is known when the program runs".to_owned(),
+                    instead: "write the pairs as a parameter: `rods: pairs`, `rod(s = (i, j) in rods) = …`",
+                };
+                return Err(self.input.error(&name.span, kind.into()));
+            }
+            constraints.push(Constraint {
+                name: name.text.clone(),
+                over,
+                parts,
+            });
+        }
+        Ok(constraints)
+    }
+
+    /// A function of the positions, or a vector of them.
+    fn zeros(&mut self, written: &Expression) -> Result<Vec<Id>, Error> {
+        let parts = match self.value(written)? {
+            Value::Scalar(id) => vec![id],
+            value => self.components(value, written)?,
+        };
+        for &part in &parts {
+            let depends = self.graph.depends(part);
+            let what = match (depends.p, depends.v, depends.time) {
+                (true, ..) => "a momentum in a constraint",
+                (_, true, _) => "a velocity in a constraint",
+                (_, _, true) => "the time in a constraint",
+                _ if !depends.q => "a constraint without a position",
+                _ => continue,
+            };
+            let kind = FormulaError::Unsupported {
+                what: what.to_owned(),
+                instead: "a holonomic constraint is a function of the positions that is zero",
+            };
+            return self.error(written, kind);
+        }
+        Ok(parts)
+    }
+
+    /// The rate of the friction, a number of parameters.
+    pub(super) fn friction(&mut self) -> Result<Option<Id>, Error> {
+        let Some(written) = &self.definition.friction else {
+            return Ok(None);
+        };
+        let rate = self.scalar(written)?;
+        if !self.graph.depends(rate).is_fixed() {
+            let kind = ErrorKind::Type {
+                found: format!("the friction `{}`", self.text(written)),
+                expected: "a rate γ of numbers and parameters, for the force −γp".to_owned(),
+            };
+            return self.error(written, kind);
+        }
+        if !self.definition.constraints.is_empty() {
+            let kind = FormulaError::Unsupported {
+                what: "friction with constraints".to_owned(),
+                instead: "leave out one of them",
+            };
+            return self.error(written, kind);
+        }
+        Ok(Some(rate))
+    }
+}

@@ -1,0 +1,191 @@
+//! Constraints and friction from formulas, against the same motion in other coordinates.
+
+use symplectic::nalgebra::{DVector, SMatrix, SVector};
+use symplectic::{Error, Hamiltonian, Integrator, State, consistent};
+
+symplectic::tableau! {
+    Rattle { basis: polynomial(2), nodes: lobatto(2), require: [constrained] }
+    Lobatto4 { basis: polynomial(4), nodes: lobatto(4), require: [constrained] }
+    Gauss6 { basis: polynomial(6), nodes: gauss(6) }
+    ForestRuth { base: forest-ruth-1990 }
+}
+
+symplectic::hamiltonian! {
+    /// The double pendulum in the plane.
+    pub Plane { g: 9.81 }
+    q: [x1, y1, x2, y2], p: [px1, py1, px2, py2];
+    H = (px1^2 + py1^2 + px2^2 + py2^2)/2 + g (y1 + y2)
+    constraints: { first = x1^2 + y1^2 - 1, second = (x2 - x1)^2 + (y2 - y1)^2 - 1 }
+}
+
+symplectic::lagrangian! {
+    /// The same by its angles from below.
+    pub Angles { g: 9.81 }
+    q: [a, b], v: [va, vb];
+    L = va^2 + vb^2/2 + va vb cos(a - b) + g (2 cos(a) + cos(b))
+}
+
+symplectic::lagrangian! {
+    /// A chain of links in space, the first at the origin.
+    pub Links<N> { m: [N], g: 1 }
+    q: [N; 3], v: [N; 3];
+    L = sum(i: m[i] |v[i]|^2/2 - g m[i] q[i][2])
+    constraints: { anchor = |q[0]|^2 - 1, link(i in 1..N) = |q[i] - q[i-1]|^2 - 1 }
+    invariants: { about_the_vertical = sum(i: q[i][0] p[i][1] - q[i][1] p[i][0]) }
+}
+
+symplectic::hamiltonian! {
+    /// Molecules with rigid bonds.
+    pub Molecules { m: [..], rods: pairs, length: [rods] }
+    q: [..; 2], p: [..; 2];
+    H = sum(i: |p[i]|^2/(2 m[i]))
+    constraints: { rod(s = (i, j) in rods) = |q[i] - q[j]|^2 - length[s]^2 }
+}
+
+symplectic::hamiltonian! {
+    /// Two points at one place: a constraint with components.
+    pub Pinned { k: 1 }
+    q: [2; 2], p: [2; 2];
+    H = sum(i: |p[i]|^2/2) + k |q[0]|^2/2
+    constraints: { pin = q[0] - q[1] }
+}
+
+symplectic::hamiltonian! {
+    /// An oscillator with friction.
+    pub Damped { gamma: 0.2 }
+    q: [x], p: [px];
+    H = (px^2 + x^2)/2
+    friction: gamma
+}
+
+#[test]
+fn coordinates_and_angles_are_the_same_motion() -> Result<(), Error> {
+    let (a, b) = (1.2_f64, 2.0_f64);
+    let angles = Angles::default();
+    let p = angles.momentum_of_velocity(0.0, &SVector::from([a, b]), &SVector::from([0.3, -0.2]));
+    let mut angles = Integrator::new(
+        Gauss6,
+        angles,
+        State::new(0.0, SVector::from([a, b]), p),
+        0.02,
+    )?;
+    let place = |a: f64, b: f64| {
+        let first = [a.sin(), -a.cos()];
+        [first[0], first[1], first[0] + b.sin(), first[1] - b.cos()]
+    };
+    let (va, vb) = (0.3, -0.2);
+    let first = [a.cos() * va, a.sin() * va];
+    let velocity = [
+        first[0],
+        first[1],
+        first[0] + b.cos() * vb,
+        first[1] + b.sin() * vb,
+    ];
+    let start = State::from_arrays(0.0, place(a, b), velocity);
+    let mut plane = Integrator::new(Lobatto4, Plane::default(), start, 0.0025)?;
+    for end in [0.5, 1.0, 2.0] {
+        let [a, b] = angles.integrate_to(end)?.to_arrays().0;
+        let found = plane.integrate_to(end)?.to_arrays().0;
+        for (found, exact) in found.iter().zip(place(a, b)) {
+            assert!((found - exact).abs() < 1e-10, "{end}: {found} {exact}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn chains_keep_their_links_and_momenta() -> Result<(), Error> {
+    let links = Links::<5>::new([1.0, 2.0, 1.0, 2.0, 1.0]);
+    assert_eq!(Hamiltonian::constraints(&links), 5);
+    let q =
+        SMatrix::<f64, 3, 5>::from_fn(|row, body| if row == 0 { 1.0 + body as f64 } else { 0.0 });
+    let mut p = SMatrix::zeros();
+    p[(1, 4)] = 1.5;
+    let before = links.about_the_vertical(&q, &p);
+    let mut run = Integrator::new(Lobatto4, links, State::new(0.0, q, p), 0.05)?;
+    let energy = run.energy().expect("known");
+    for _ in 0..400 {
+        run.step()?;
+        let mut values = [0.0; 5];
+        Hamiltonian::constraint_values(run.system(), &run.state().q, &mut values);
+        assert!(values.iter().all(|value| value.abs() < 2e-14), "{values:?}");
+    }
+    let State { q, p, .. } = run.state();
+    assert!((run.system().about_the_vertical(q, p) - before).abs() < 1e-12);
+    assert!((run.energy().expect("known") - energy).abs() < 1e-3);
+    Ok(())
+}
+
+#[test]
+fn molecules_from_data() -> Result<(), Error> {
+    let water = Molecules::new(
+        vec![16.0, 1.0, 1.0],
+        vec![(0, 1), (0, 2), (1, 2)],
+        vec![1.0, 1.0, 1.5],
+    );
+    let q = DVector::from_vec(vec![0.0, 0.0, 1.0, 0.0, -0.1, 1.0]);
+    let p = DVector::from_vec(vec![0.1, 0.0, 0.0, 1.0, 0.0, 0.2]);
+    let start = consistent(&water, State::new(0.0, q, p))?;
+    let total =
+        |state: &State<DVector<f64>>| [0, 1].map(|k| state.p[k] + state.p[k + 2] + state.p[k + 4]);
+    let momentum = total(&start);
+    let mut run = Integrator::new(Rattle, water, start, 0.02)?;
+    let energy: f64 = run.energy().expect("known");
+    run.integrate_to(20.0)?;
+    // No force acts: the turning of a rigid body conserves its energy in every step.
+    assert!((run.energy().expect("known") - energy).abs() < 1e-12);
+    for (found, exact) in total(run.state()).iter().zip(momentum) {
+        assert!((found - exact).abs() < 1e-13);
+    }
+    Ok(())
+}
+
+/// A pair outside the positions is an error of the start, and no panic.
+#[test]
+fn a_pair_outside_is_refused() {
+    let wrong = Molecules::new(vec![1.0; 2], vec![(0, 7)], vec![1.0]);
+    let start = State::new(
+        0.0,
+        DVector::from_vec(vec![0.0, 0.0, 1.0, 0.0]),
+        DVector::zeros(4),
+    );
+    let error = Integrator::new(Rattle, wrong, start, 0.1)
+        .map(|_| ())
+        .expect_err("outside");
+    assert!(
+        matches!(
+            error,
+            Error::NonFiniteState { .. } | Error::DependentConstraints { .. }
+        ),
+        "{error}"
+    );
+}
+
+/// Each of the two points has half of the force.
+#[test]
+fn constraints_with_components() -> Result<(), Error> {
+    assert_eq!(Hamiltonian::constraints(&Pinned::default()), 2);
+    let q = SMatrix::<f64, 2, 2>::from([[1.0, 0.5], [1.0, 0.5]]);
+    let mut run = Integrator::new(
+        Lobatto4,
+        Pinned::default(),
+        State::new(0.0, q, SMatrix::zeros()),
+        0.05,
+    )?;
+    let q = run.integrate_to(3.0)?.q;
+    let exact = (3.0 / 2.0_f64.sqrt()).cos();
+    assert!((q[(0, 1)] - exact).abs() < 1e-8 && (q[(1, 0)] - 0.5 * exact).abs() < 1e-8);
+    Ok(())
+}
+
+#[test]
+fn friction_from_a_formula() -> Result<(), Error> {
+    let start = State::from_arrays(0.0, [1.0], [0.0]);
+    let mut run = Integrator::new(ForestRuth, Damped::default(), start, 0.05)?;
+    let x = run.integrate_to(10.0)?.to_arrays().0[0];
+    let (rate, frequency) = (0.1_f64, 0.99_f64.sqrt());
+    let exact = (-rate * 10.0).exp()
+        * ((frequency * 10.0).cos() + rate / frequency * (frequency * 10.0).sin());
+    assert!((x - exact).abs() < 1e-6, "{x} {exact}");
+    Ok(())
+}
