@@ -33,13 +33,19 @@ pub(crate) struct Terms {
 }
 
 impl Terms {
+    /// Gradient times vector, at most.
+    #[inline]
+    pub(crate) fn size(self) -> f64 {
+        self.gradient * self.largest
+    }
+
     /// A residual relative to the terms and to another number of its kind; zero where it is zero.
     #[inline]
     pub(crate) fn relative(self, residual: f64, other: f64) -> f64 {
         if residual == 0.0 {
             return 0.0;
         }
-        residual / (self.gradient * self.largest + other)
+        residual / (self.size() + other)
     }
 }
 

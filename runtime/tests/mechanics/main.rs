@@ -2,5 +2,6 @@
 
 mod friction;
 mod holonomic;
+mod scales;
 mod start;
 mod systems;

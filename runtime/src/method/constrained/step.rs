@@ -111,7 +111,7 @@ impl<V: Vector> Workspace<V> {
             work.iterations += 1;
             self.kicks(tableau, step, system, work)?;
             self.drifts::<S>(tableau, step, system, work);
-            let [defect, movement] = self.positions::<R, S>(tableau, step, system, outcome);
+            let [defect, movement, noise] = self.positions::<R, S>(tableau, step, system, outcome);
             // What is left of a movement shrinks at least as the movements did.
             let rate = if sweep > 1 && movement < moved {
                 movement / moved
@@ -130,7 +130,7 @@ impl<V: Vector> Workspace<V> {
                 (best, since) = (residual, 0);
             } else {
                 since += 1;
-                if since >= PATIENCE && best <= NOISE {
+                if since >= PATIENCE && (best <= NOISE || noise <= NOISE) {
                     return Ok(());
                 }
                 if since >= PATIENCE * PATIENCE {
@@ -228,14 +228,14 @@ impl<V: Vector> Workspace<V> {
     }
 
     /// The positions of the stages. Returns how far they are from the constraints, and how far those have moved that forces depend on,
-    /// both in units of rounding.
+    /// both in units of rounding; and the larger of both in units of what the values of the constraints resolve.
     fn positions<R: Summation, S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
         system: &S,
         outcome: &mut Outcome<'_, V>,
-    ) -> [f64; 2] {
+    ) -> [f64; 3] {
         let (stages, constraints) = (tableau.weights.len(), self.multipliers.len());
         // No force inside the step of a separable system depends on the last one.
         let moving = if S::Class::SEPARABLE {
@@ -279,13 +279,17 @@ impl<V: Vector> Workspace<V> {
             system.constraint_values(&self.q[i], defects);
         }
         let defects = self.defects.chunks_exact(constraints).take(stages - 1);
-        let mut residual = 0.0;
+        let resolution = &self.resolution;
+        let (mut residual, mut noise) = (0.0, movement / (size + resolution.position));
         for defects in defects {
-            for (defect, terms) in defects.iter().zip(&self.terms) {
-                residual = maximum(residual, terms.relative(defect.magnitude(), 0.0));
+            let defects = defects.iter().zip(&self.terms).zip(&resolution.values);
+            for ((defect, terms), &resolved) in defects {
+                let defect = defect.magnitude();
+                residual = maximum(residual, terms.relative(defect, 0.0));
+                noise = maximum(noise, terms.relative(defect, resolved));
             }
         }
-        [residual, movement / size].map(|change| change / V::Scalar::EPSILON)
+        [residual, movement / size, noise].map(|change| change / V::Scalar::EPSILON)
     }
 
     /// New impulses of the constraints from the defects.
