@@ -19,7 +19,7 @@ pub struct Gradients<T> {
     next: usize,
     /// Whether places are noted: at the first evaluation.
     learning: bool,
-    /// An entry outside the matrix, or in another place than at the first evaluation.
+    /// An entry outside the matrix, or in another place than at the first evaluation, in the last one.
     misplaced: Option<(usize, usize)>,
 }
 
@@ -98,6 +98,7 @@ impl<T: Scalar> Gradients<T> {
     #[inline]
     pub(crate) fn evaluate(&mut self, evaluate: impl FnOnce(&mut Self)) -> bool {
         self.next = 0;
+        self.misplaced = None;
         evaluate(self);
         self.next == self.values.len() && self.misplaced.is_none()
     }

@@ -39,6 +39,8 @@ impl<V: Vector> Workspace<V> {
         let separable = S::Class::SEPARABLE;
         let mut work = StepStatistics::default();
         if !carried {
+            // Those of another state, or of a step that failed, are no start.
+            self.multipliers.fill(V::Scalar::from_f64(0.0));
             let Self {
                 metric,
                 end,
