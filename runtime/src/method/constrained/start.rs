@@ -144,6 +144,7 @@ pub(super) const fn error(failure: Failure, time: f64) -> Error {
             constraint,
             pivot,
         },
+        Failure::NonFinite { what, .. } => Error::NonFiniteState { what },
         _ => Error::MovingGradients { time },
     }
 }
@@ -278,6 +279,11 @@ where
             position: q.dimension(),
             momentum: p.dimension(),
         });
+    }
+    for (vector, what) in [(&q, Quantity::Position), (&p, Quantity::Momentum)] {
+        if !is_finite(vector) {
+            return Err(Error::NonFiniteState { what });
+        }
     }
     let mut examined = Examined::new(system, time, &q, &p)?;
     let mut best = f64::INFINITY;

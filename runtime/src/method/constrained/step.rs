@@ -6,7 +6,7 @@ use crate::method::storage::is_finite;
 use crate::method::{ConstrainedTableau, Failure, Outcome, Step, StepStatistics, Stopping};
 use crate::number::summation::add;
 use crate::number::{Coefficient, Scalar, Summation, Vector};
-use crate::system::{Class, System};
+use crate::system::{Class, Gradients, System};
 
 /// A residual of so many units of rounding is as small as residuals become.
 const ROUNDING: f64 = 2.0;
@@ -430,6 +430,20 @@ impl<V: Vector> Workspace<V> {
 
     /// What is not finite in the stages.
     fn not_finite(&self) -> Failure {
+        let finite = |gradients: &Gradients<V::Scalar>| {
+            let mut values = gradients.values().iter();
+            values.all(|value| value.is_finite())
+        };
+        if let Some(stage) = self
+            .gradients
+            .iter()
+            .position(|gradients| !finite(gradients))
+        {
+            return Failure::NonFinite {
+                what: Quantity::Constraint,
+                stage: Some(stage + 2),
+            };
+        }
         let kicks = self.kick.iter().position(|kick| !is_finite(kick));
         let drifts = self.drift.iter().position(|drift| !is_finite(drift));
         let (what, stage) = match (kicks, drifts) {
