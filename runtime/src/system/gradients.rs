@@ -50,7 +50,7 @@ impl Terms {
 }
 
 impl<T: Scalar> Gradients<T> {
-    /// The gradients of so many constraints by so many components that `evaluate` sets for the first time.
+    /// An m×n matrix of gradients, with the places that `evaluate` sets.
     pub(crate) fn learned(
         constraints: usize,
         dimension: usize,

@@ -64,3 +64,45 @@ fn pendulums_that_pass_the_origin() {
         check(Rattle, (pivot, [0.0, 0.0]), (1e-3, 1000));
     }
 }
+
+/// An electron on a ring, in SI units: momenta of 1e-22, in which the velocity is not linear.
+struct Electron;
+
+impl symplectic::System<Vector2<f64>> for Electron {
+    type Class = Constrained<Separable>;
+    type Solver = symplectic::solver::FixedPoint;
+
+    fn velocity(&self, _: f64, _: &Vector2<f64>, p: &Vector2<f64>, velocity: &mut Vector2<f64>) {
+        let (mass, light) = (9.1e-31, 3e8);
+        let gamma = 1.0_f64.hypot((p / (mass * light)).norm());
+        *velocity = p / (mass * gamma);
+    }
+
+    fn force(&self, _: f64, _: &Vector2<f64>, _: &Vector2<f64>, force: &mut Vector2<f64>) {
+        *force = Vector2::new(0.0, -1.6e-13);
+    }
+
+    fn constraints(&self) -> usize {
+        1
+    }
+
+    fn constraint_values(&self, q: &Vector2<f64>, values: &mut [f64]) {
+        values[0] = q.norm_squared() - 1.0;
+    }
+
+    fn constraint_gradients(&self, q: &Vector2<f64>, gradients: &mut Gradients<f64>) {
+        for k in 0..2 {
+            gradients.set(0, k, 2.0 * q[k]);
+        }
+    }
+}
+
+/// Differences of the velocity are taken at the scale of the momentum.
+#[test]
+fn small_momenta() {
+    let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 1e-22]);
+    let mut run = Integrator::new(Rattle, Electron, start, 1e-11).expect("a run");
+    let end = run.take_steps(100).expect("steps");
+    assert!((end.q.norm() - 1.0).abs() < 1e-15);
+    assert!(end.p.norm() < 1e-21, "{}", end.p);
+}

@@ -43,7 +43,7 @@ pub(super) struct Workspace<V: Vector> {
     pub(super) rates: Vec<V::Scalar>,
     /// What the residuals of every constraint are compared with.
     pub(super) terms: Vec<Terms>,
-    /// `|G velocity|` before the impulses of the last stage, which these have to take away.
+    /// `|G velocity|` before the impulses of the last stage, which remove it.
     pub(super) drive: Vec<f64>,
     /// A velocity, a force, a momentum.
     pub(super) scratch: [V; 3],

@@ -209,5 +209,5 @@ impl<T: Scalar> NormalMatrix<T> {
     }
 }
 
-/// A pivot below so many units of rounding of its diagonal entry has no digit that means anything.
+/// A pivot below this many units of rounding of its diagonal entry has no correct digit.
 const LOST: f64 = 4096.0;

@@ -8,7 +8,7 @@ use crate::number::summation::add;
 use crate::number::{Coefficient, Scalar, Summation, Vector};
 use crate::system::{Class, Gradients, System};
 
-/// A residual of so many units of rounding is as small as residuals become.
+/// A residual of this many units of rounding counts as zero.
 const ROUNDING: f64 = 2.0;
 /// A residual that no longer shrinks may be as large as this, in units of rounding.
 const NOISE: f64 = 256.0;
@@ -97,7 +97,7 @@ impl<V: Vector> Workspace<V> {
         );
     }
 
-    /// Sweeps until the stages are on the constraints and stand still. The position after the step is in `outcome`.
+    /// Sweeps until the stages are on the constraints and no longer move. The position after the step is in `outcome`.
     fn iterate<R: Summation, S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
