@@ -261,7 +261,7 @@ fn check_gradients<V: Vector, S: System<V>>(
 /// # }
 /// # fn main() -> Result<(), Error> {
 /// // A pendulum of length 1, |q|² − 1 = 0, that was read off a plot.
-/// let read = State::from_arrays(0.0, [0.6, -0.79], [0.8, 0.61]);
+/// let read: State<SVector<f64, 2>> = State::from_arrays(0.0, [0.6, -0.79], [0.8, 0.61]);
 /// let start = consistent(&Pendulum, read)?;
 /// assert!((start.q.norm() - 1.0).abs() < 1e-15 && start.q.dot(&start.p).abs() < 1e-15);
 /// # Ok(())
