@@ -25,6 +25,9 @@ pub trait Class: sealed::Sealed + Sized + 'static {
     type Plan<M: Method>: Plan<Class = Self>;
     /// Whether the velocity depends on the momentum only, and the force on the position only.
     const SEPARABLE: bool;
+    /// Whether there is a friction that is no part of the force.
+    #[doc(hidden)]
+    const FRICTION: bool = false;
 }
 
 /// A class without constraints: [`General`], [`Separable`] or [`Damped`]. Every method that is proved for general Hamiltonians is proved for it.
@@ -62,6 +65,7 @@ pub struct Damped;
 impl Class for Damped {
     type Plan<M: Method> = DampedPlan<M>;
     const SEPARABLE: bool = true;
+    const FRICTION: bool = true;
 }
 
 impl Class for General {
@@ -83,6 +87,15 @@ impl Class for Separable {
 /// The constraints are in [`Hamiltonian::constraint_values`](crate::Hamiltonian::constraint_values). Methods that are `constrained`
 /// step such systems: Lobatto IIIA–IIIB, which with two stages is RATTLE, other pairs whose stages are at both ends of the step, and
 /// compositions of them. For any other method [`Integrator::new`](crate::Integrator::new) does not compile.
+///
+/// `Constrained<Damped>` does not compile: friction is part of the force of a system of class `Constrained<General>`.
+///
+/// ```compile_fail,E0080
+/// use symplectic::{Class, Constrained, Damped};
+///
+/// const SEPARABLE: bool = <Constrained<Damped> as Class>::SEPARABLE;
+/// assert!(SEPARABLE);
+/// ```
 #[cfg(feature = "alloc")]
 #[derive(Clone, Copy, Debug)]
 pub struct Constrained<C>(PhantomData<C>);
@@ -90,5 +103,11 @@ pub struct Constrained<C>(PhantomData<C>);
 #[cfg(feature = "alloc")]
 impl<C: Class + Unconstrained> Class for Constrained<C> {
     type Plan<M: Method> = ConstrainedPlan<M, C>;
-    const SEPARABLE: bool = C::SEPARABLE;
+    const SEPARABLE: bool = {
+        assert!(
+            !C::FRICTION,
+            "`Constrained<Damped>` is not possible: add the friction to the force of a system of class `Constrained<General>`"
+        );
+        C::SEPARABLE
+    };
 }

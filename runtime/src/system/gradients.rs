@@ -19,7 +19,7 @@ pub struct Gradients<T> {
     next: usize,
     /// Whether places are noted: at the first evaluation.
     learning: bool,
-    /// An entry outside the matrix, or in another place than at the first evaluation.
+    /// An entry outside the matrix, or in another place than at the first evaluation, in the last one.
     misplaced: Option<(usize, usize)>,
 }
 
@@ -33,18 +33,24 @@ pub(crate) struct Terms {
 }
 
 impl Terms {
+    /// Gradient times vector, at most.
+    #[inline]
+    pub(crate) fn size(self) -> f64 {
+        self.gradient * self.largest
+    }
+
     /// A residual relative to the terms and to another number of its kind; zero where it is zero.
     #[inline]
     pub(crate) fn relative(self, residual: f64, other: f64) -> f64 {
         if residual == 0.0 {
             return 0.0;
         }
-        residual / (self.gradient * self.largest + other)
+        residual / (self.size() + other)
     }
 }
 
 impl<T: Scalar> Gradients<T> {
-    /// The gradients of so many constraints by so many components that `evaluate` sets for the first time.
+    /// An m×n matrix of gradients, with the places that `evaluate` sets.
     pub(crate) fn learned(
         constraints: usize,
         dimension: usize,
@@ -92,6 +98,7 @@ impl<T: Scalar> Gradients<T> {
     #[inline]
     pub(crate) fn evaluate(&mut self, evaluate: impl FnOnce(&mut Self)) -> bool {
         self.next = 0;
+        self.misplaced = None;
         evaluate(self);
         self.next == self.values.len() && self.misplaced.is_none()
     }

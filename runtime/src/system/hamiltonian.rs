@@ -248,7 +248,7 @@ pub trait Hamiltonian {
     /// }
     ///
     /// # fn main() -> Result<(), Error> {
-    /// let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
+    /// let start: State<SVector<f64, 2>> = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
     /// let mut run = Integrator::new(Rattle, Pendulum, start, 0.01)?;
     /// let end = run.integrate_to(10.0)?;
     /// assert!((end.q.norm() - 1.0).abs() < 1e-14 && end.q.dot(&end.p).abs() < 1e-14);

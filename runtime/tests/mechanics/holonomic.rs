@@ -316,3 +316,25 @@ fn restart_to_the_bit() {
         );
     }
 }
+
+/// A state that is set starts anew: nothing of the steps before, nor of one that failed, is in the next step.
+#[test]
+fn a_state_that_is_set_starts_anew() {
+    let mut run = Integrator::new(Lobatto3, DoubleSpherical, double_start(), 0.1).expect("a run");
+    run.take_steps(10).expect("steps");
+    let there = run.state().clone();
+    run.set_state(there.clone()).expect("consistent");
+    let mut fresh = Integrator::new(Lobatto3, DoubleSpherical, there, 0.1).expect("a run");
+    assert_eq!(run.step().expect("a step"), fresh.step().expect("a step"));
+}
+
+/// A velocity that is linear in the momentum at the start, and affine elsewhere.
+#[test]
+fn magnetic_fields() {
+    let start: State<SVector<f64, 3>> = State::from_arrays(0.0, [0.0; 3], [0.0, 1.0, 0.0]);
+    let mut run = Integrator::new(Rattle, Charged, start, 0.01).expect("a run");
+    let before: f64 = run.energy().expect("known");
+    run.take_steps(2000).expect("steps");
+    let after: f64 = run.energy().expect("known");
+    assert!((after - before).abs() < 1e-2, "{before} {after}");
+}

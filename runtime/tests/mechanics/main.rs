@@ -3,5 +3,6 @@
 mod formulas;
 mod friction;
 mod holonomic;
+mod scales;
 mod start;
 mod systems;

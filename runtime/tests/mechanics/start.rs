@@ -2,7 +2,10 @@
 
 use symplectic::nalgebra::{SVector, Vector2};
 use symplectic::system::Gradients;
-use symplectic::{Constrained, Error, Hamiltonian, Integrator, Separable, State, consistent};
+use symplectic::{
+    Constrained, Error, Hamiltonian, Integrator, Quantity, Separable, State, consistent,
+    constraint_force,
+};
 
 use crate::systems::*;
 
@@ -221,4 +224,106 @@ fn consistent_states() {
     // From the middle of the circle there is no nearest state.
     let middle = State::from_arrays(0.0, [0.0, 0.0], [0.0, 0.0]);
     assert!(consistent(&Pendulum, middle).is_err());
+}
+
+/// A pendulum at rest on a slope has momenta that are rounding errors of its forces: a run goes on from there.
+#[test]
+fn rounding_errors_at_rest_are_consistent() {
+    let start = State::from_arrays(0.0, [0.6, -0.8], [0.0, 0.0]);
+    let turned = Turned(Vector2::new(0.6, -0.8));
+    let mut run = Integrator::new(Lobatto3, turned, start, 0.1).expect("a run");
+    let mut moved = false;
+    for _ in 0..20 {
+        let state = run.step().expect("a step").clone();
+        moved |= state.p.norm() > 0.0;
+        Integrator::new(Lobatto3, turned, state, 0.1).expect("consistent");
+    }
+    assert!(moved, "every momentum is zero");
+}
+
+/// What is not finite is no dependent constraint.
+#[test]
+fn what_is_not_finite_is_named() {
+    let broken = Point {
+        gradients: |_| [[f64::NAN, 0.0], [0.0; 2], [0.0; 2]],
+        ..CIRCLE
+    };
+    let constraint = |error: &Error| {
+        let what = Quantity::Constraint;
+        matches!(error, Error::NonFiniteState { what: found } if *found == what)
+    };
+    let error = refused(broken, [1.0, 0.0], [0.0, 1.0]);
+    assert!(constraint(&error), "{error}");
+    let state = State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.0]);
+    let error = constraint_force(&broken, &state).expect_err("NaN");
+    assert!(constraint(&error), "{error}");
+    // In a step, at its middle stage.
+    let beyond = Point {
+        gradients: |q| {
+            let x = if q[1] > 0.04 { f64::NAN } else { 2.0 * q[0] };
+            [[x, 2.0 * q[1]], [0.0; 2], [0.0; 2]]
+        },
+        ..CIRCLE
+    };
+    let mut run = Integrator::new(Lobatto3, beyond, state, 0.1).expect("a run");
+    let error = run.step().expect_err("NaN");
+    let what = Quantity::Constraint;
+    let named =
+        matches!(error, Error::NonFinite { what: found, stage: Some(2), .. } if found == what);
+    assert!(named, "{error}");
+    let nowhere = State::from_arrays(0.0, [f64::NAN, 0.0], [0.0, 1.0]);
+    let error = consistent(&CIRCLE, nowhere).expect_err("NaN");
+    let what = Quantity::Position;
+    let named = matches!(error, Error::NonFiniteState { what: found } if found == what);
+    assert!(named, "{error}");
+}
+
+/// Gradients that were set in other places in one step are an error of that step only.
+#[test]
+fn a_run_goes_on_after_misplaced_gradients() {
+    struct Once(std::cell::Cell<bool>);
+
+    impl symplectic::System<Vector2<f64>> for Once {
+        type Class = Constrained<Separable>;
+        type Solver = symplectic::solver::FixedPoint;
+
+        fn velocity(
+            &self,
+            _: f64,
+            _: &Vector2<f64>,
+            p: &Vector2<f64>,
+            velocity: &mut Vector2<f64>,
+        ) {
+            *velocity = *p;
+        }
+
+        fn force(&self, _: f64, _: &Vector2<f64>, _: &Vector2<f64>, force: &mut Vector2<f64>) {
+            *force = Vector2::new(0.0, -1.0);
+        }
+
+        fn constraints(&self) -> usize {
+            1
+        }
+
+        fn constraint_values(&self, q: &Vector2<f64>, values: &mut [f64]) {
+            values[0] = q.norm_squared() - 1.0;
+        }
+
+        fn constraint_gradients(&self, q: &Vector2<f64>, gradients: &mut Gradients<f64>) {
+            gradients.set(0, 0, 2.0 * q[0]);
+            gradients.set(0, 1, 2.0 * q[1]);
+            if self.0.take() {
+                gradients.set(0, 1, 0.0);
+            }
+        }
+    }
+
+    let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.0]);
+    let once = Once(std::cell::Cell::new(false));
+    let mut run = Integrator::new(Rattle, once, start, 0.1).expect("a run");
+    run.step().expect("a step");
+    run.system().0.set(true);
+    let error = run.step().expect_err("misplaced");
+    assert!(matches!(error, Error::MovingGradients { .. }), "{error}");
+    run.step().expect("a step");
 }

@@ -219,6 +219,49 @@ impl Hamiltonian for Relativistic {
     on_the_sphere!();
 }
 
+/// A charged bead in the magnetic field 20 along z, on a sphere through the origin, where the vector potential vanishes:
+/// H = |p − A(q)|²/2 + z, A = 10 (−y, x, 0).
+#[derive(Clone, Copy)]
+pub struct Charged;
+
+impl Hamiltonian for Charged {
+    type Class = Constrained<General>;
+    type Vector<T: Scalar> = V3<T>;
+
+    fn velocity<T: Scalar>(&self, _: T, q: &V3<T>, p: &V3<T>, velocity: &mut V3<T>) {
+        let half = T::from_f64(10.0);
+        *velocity = V3::from([p[0] + half * q[1], p[1] - half * q[0], p[2]]);
+    }
+
+    fn force<T: Scalar>(&self, time: T, q: &V3<T>, p: &V3<T>, force: &mut V3<T>) {
+        let mut velocity = *p;
+        Hamiltonian::velocity(self, time, q, p, &mut velocity);
+        let half = T::from_f64(10.0);
+        *force = V3::from([half * velocity[1], -(half * velocity[0]), -T::one()]);
+    }
+
+    fn energy<T: Scalar>(&self, time: T, q: &V3<T>, p: &V3<T>) -> Option<T> {
+        let mut velocity = *p;
+        Hamiltonian::velocity(self, time, q, p, &mut velocity);
+        Some(velocity.dot(&velocity) * T::from_f64(0.5) + q[2])
+    }
+
+    fn constraints(&self) -> usize {
+        1
+    }
+
+    fn constraint_values<T: Scalar>(&self, q: &V3<T>, values: &mut [T]) {
+        values[0] = q.dot(q) - (q[0] + q[0]);
+    }
+
+    fn constraint_gradients<T: Scalar>(&self, q: &V3<T>, gradients: &mut Gradients<T>) {
+        for k in 0..3 {
+            let centre = T::from_f64(if k == 0 { 1.0 } else { 0.0 });
+            gradients.set(0, k, (q[k] - centre) + (q[k] - centre));
+        }
+    }
+}
+
 /// A hanging chain of links in the plane, with unit masses.
 #[derive(Clone, Copy)]
 pub struct Links(pub usize);

@@ -27,7 +27,8 @@ pub struct ConstraintForce<V: Vector> {
 /// ```
 ///
 /// So it has the order of the state, where the multipliers inside a step of s stages have order s − 1 only (Jay, 1996). The derivative
-/// by time is a quotient of differences over five points, with about twelve correct digits.
+/// by time is a quotient of differences over five points, with about twelve correct digits, and about eight
+/// if the velocity is not linear in the momentum.
 ///
 /// # Errors
 ///

@@ -6,6 +6,7 @@ use core::array;
 
 use super::metric::{Metric, Point};
 use super::newton::StageJacobian;
+use super::resolution::Resolution;
 use crate::error::Quantity;
 use crate::method::storage::{first_mismatch, first_non_finite};
 use crate::method::{Method, StageStorage};
@@ -16,6 +17,8 @@ use crate::system::{Gradients, System, Terms};
 #[derive(Clone, Debug)]
 pub(super) struct Workspace<V: Vector> {
     pub(super) metric: Metric<V::Scalar>,
+    /// How well the values of the constraints resolve positions.
+    pub(super) resolution: Resolution,
     /// At the start of the step, once it has begun.
     pub(super) start: Point<V>,
     /// At its end; at the start of the next one.
@@ -40,7 +43,7 @@ pub(super) struct Workspace<V: Vector> {
     pub(super) rates: Vec<V::Scalar>,
     /// What the residuals of every constraint are compared with.
     pub(super) terms: Vec<Terms>,
-    /// `|G velocity|` before the impulses of the last stage, which these have to take away.
+    /// `|G velocity|` before the impulses of the last stage, which remove it.
     pub(super) drive: Vec<f64>,
     /// A velocity, a force, a momentum.
     pub(super) scratch: [V; 3],
@@ -66,6 +69,7 @@ impl<V: Vector> Workspace<V> {
         let numbers = |count: usize| vec![V::Scalar::from_f64(0.0); count];
         let gradients = point.gradients.clone();
         Self {
+            resolution: Resolution::new(system, q, &gradients),
             metric,
             start: point.clone(),
             end: point,
@@ -96,7 +100,10 @@ impl<V: Vector> StageStorage<V> for ConstrainedStages<V> {
 
     fn words(&mut self, visit: &mut Visit<'_>) {
         let Some(Workspace {
-            end, multipliers, ..
+            resolution,
+            end,
+            multipliers,
+            ..
         }) = &mut self.workspace
         else {
             return;
@@ -105,6 +112,7 @@ impl<V: Vector> StageStorage<V> for ConstrainedStages<V> {
         end.gradients.words(visit);
         end.normal.words(visit);
         scalar_words(multipliers, visit);
+        resolution.words(visit);
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {

@@ -5,7 +5,9 @@ use core::array;
 use alloc::vec::Vec;
 
 use super::normal_matrix::{NormalMatrix, Products};
+use crate::error::Quantity;
 use crate::method::Failure;
+use crate::method::storage::is_finite;
 use crate::number::{Scalar, Vector};
 use crate::system::linearity::non_linear_velocity;
 use crate::system::{Class, Gradients, System};
@@ -88,7 +90,13 @@ impl<T: Scalar> Metric<T> {
             return normal.factor();
         }
         let at = T::from_f64(time);
-        system.velocity(at, q, p, velocity);
+        self.reference(system, (at, q, p), velocity, moved);
+        if !is_finite(velocity) {
+            return Err(Failure::NonFinite {
+                what: Quantity::Velocity,
+                stage: None,
+            });
+        }
         for row in 0..gradients.constraints() {
             let mut largest = 0.0_f64;
             moved.as_mut_slice().fill(T::zero());
@@ -102,7 +110,25 @@ impl<T: Scalar> Metric<T> {
         normal.factor()
     }
 
-    /// `direction = M⁻¹ moved`, where `velocity` is that at a place and `largest` the largest component of `moved`, which is lost.
+    /// The velocity that others are compared with: at momentum zero if it is linear, where it was so at the start. It may be affine
+    /// elsewhere, as in a magnetic field.
+    fn reference<V: Vector<Scalar = T>, S: System<V>>(
+        &self,
+        system: &S,
+        (time, q, p): (T, &V, &V),
+        velocity: &mut V,
+        zero: &mut V,
+    ) {
+        if self.linear {
+            zero.as_mut_slice().fill(T::zero());
+            system.velocity(time, q, zero, velocity);
+        } else {
+            system.velocity(time, q, p, velocity);
+        }
+    }
+
+    /// `direction = M⁻¹ moved`, where `velocity` is the [reference](Self::reference) and `largest` the largest component of `moved`,
+    /// which is lost.
     fn direction<V: Vector<Scalar = T>, S: System<V>>(
         &self,
         system: &S,
@@ -112,10 +138,16 @@ impl<T: Scalar> Metric<T> {
     ) {
         if self.linear {
             system.velocity(time, q, moved, direction);
+            let pairs = direction.as_mut_slice().iter_mut();
+            for (direction, &velocity) in pairs.zip(velocity.as_slice()) {
+                *direction -= velocity;
+            }
             return;
         }
         let sizes = p.as_slice().iter().map(|x| x.magnitude());
-        let step = num_traits::Float::sqrt(T::EPSILON) * sizes.fold(1.0, f64::max);
+        let size = sizes.fold(0.0, f64::max);
+        let size = if size > 0.0 { size } else { 1.0 };
+        let step = num_traits::Float::sqrt(T::EPSILON) * size;
         let step = step / largest.max(f64::MIN_POSITIVE);
         let (by, back) = (T::from_f64(step), T::from_f64(step.recip()));
         for (moved, &p) in moved.as_mut_slice().iter_mut().zip(p.as_slice()) {
@@ -165,7 +197,7 @@ impl<T: Scalar> Metric<T> {
             }
             return;
         }
-        system.velocity(time, q, p, velocity);
+        self.reference(system, (time, q, p), velocity, moved);
         for column in 0..right.constraints() {
             let mut largest = 0.0_f64;
             moved.as_mut_slice().fill(T::zero());

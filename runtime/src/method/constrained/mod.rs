@@ -12,6 +12,7 @@ mod memory;
 mod metric;
 mod newton;
 mod normal_matrix;
+mod resolution;
 mod start;
 mod step;
 

@@ -24,7 +24,7 @@ pub(super) struct StageJacobian<T> {
 }
 
 impl<T: Scalar> StageJacobian<T> {
-    /// Memory for so many constraints and stages of multipliers.
+    /// Memory for this many constraints, and stages with multipliers.
     fn new(constraints: usize, stages: usize, half_bandwidth: usize) -> Self {
         let half = (half_bandwidth + 1) * stages - 1;
         Self {

@@ -4,6 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::metric::InverseMasses;
+use crate::error::Quantity;
 use crate::method::Failure;
 use crate::number::{Scalar, Visit, scalar_words};
 use crate::system::Gradients;
@@ -134,7 +135,7 @@ impl<T: Scalar> NormalMatrix<T> {
     ///
     /// # Errors
     /// [`Failure::DependentConstraints`], where a pivot is lost in rounding errors: the gradient of the constraint depends on those
-    /// of the constraints before it, or vanishes.
+    /// of the constraints before it, or vanishes; [`Failure::NonFinite`].
     pub(super) fn factor(&mut self) -> Result<(), Failure> {
         let (size, half) = (self.size, self.half_bandwidth);
         for k in 0..size {
@@ -155,8 +156,13 @@ impl<T: Scalar> NormalMatrix<T> {
                 self.rows[place] = entry;
             }
             let pivot = self.rows[self.place(k, k)].magnitude();
-            // NaN is not above the bound.
-            let regular = pivot > LOST * T::EPSILON * diagonal && pivot.is_finite();
+            if !(pivot.is_finite() && diagonal.is_finite()) {
+                return Err(Failure::NonFinite {
+                    what: Quantity::Constraint,
+                    stage: None,
+                });
+            }
+            let regular = pivot > LOST * T::EPSILON * diagonal;
             if !regular {
                 return Err(Failure::DependentConstraints {
                     constraint: k,
@@ -203,5 +209,5 @@ impl<T: Scalar> NormalMatrix<T> {
     }
 }
 
-/// A pivot below so many units of rounding of its diagonal entry has no digit that means anything.
+/// A pivot below this many units of rounding of its diagonal entry has no correct digit.
 const LOST: f64 = 4096.0;

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use core::array;
 
 use super::metric::{Metric, Point};
+use super::resolution::Resolution;
 use crate::error::{Error, Quantity};
 use crate::method::Failure;
 use crate::method::storage::is_finite;
@@ -24,12 +25,15 @@ struct Examined<V: Vector> {
     metric: Metric<V::Scalar>,
     point: Point<V>,
     scratch: [V; 3],
+    resolution: Resolution,
     /// `φ(q)`, and what each is compared with.
     values: Vec<V::Scalar>,
     terms: Vec<Terms>,
     /// `G velocity`, and what each is compared with.
     rates: Vec<V::Scalar>,
     rate_terms: Vec<Terms>,
+    /// What the force makes of each: `√(|G M⁻¹ force| |φ|)`, of the sizes of their terms. At rest there is no other rate.
+    rate_scales: Vec<f64>,
 }
 
 impl<V: Vector> Examined<V> {
@@ -51,6 +55,7 @@ impl<V: Vector> Examined<V> {
             });
         }
         let mut examined = Self {
+            resolution: Resolution::new(system, q, &point.gradients),
             metric,
             point,
             scratch: array::from_fn(|_| q.zeros_like()),
@@ -58,6 +63,7 @@ impl<V: Vector> Examined<V> {
             terms: vec![Terms::default(); constraints],
             rates: vec![V::Scalar::from_f64(0.0); constraints],
             rate_terms: vec![Terms::default(); constraints],
+            rate_scales: vec![0.0; constraints],
         };
         examined.look(system, time, q, p)?;
         Ok(examined)
@@ -81,6 +87,20 @@ impl<V: Vector> Examined<V> {
         for (terms, vector) in [(&mut self.terms, q), (&mut self.rate_terms, velocity)] {
             gradients.sizes(|k| vector.as_slice()[k].magnitude(), terms);
         }
+        let [_, force, _] = &mut self.scratch;
+        system.force(V::Scalar::from_f64(time), q, p, force);
+        metric.apply(system, time, (q, p), force);
+        let mut force_terms = vec![Terms::default(); self.rates.len()];
+        gradients.sizes(|k| force.as_slice()[k].magnitude(), &mut force_terms);
+        for (c, scale) in self.rate_scales.iter_mut().enumerate() {
+            let value = self.terms[c].size() + self.resolution.values[c];
+            let square = force_terms[c].size() * value;
+            *scale = if square.is_finite() {
+                num_traits::Float::sqrt(square)
+            } else {
+                0.0
+            };
+        }
         let finite = |numbers: &[V::Scalar]| numbers.iter().all(|x| x.is_finite());
         if finite(&self.values) && finite(&self.rates) && finite(gradients.values()) {
             return Ok(());
@@ -91,10 +111,14 @@ impl<V: Vector> Examined<V> {
     }
 
     /// The largest residual relative to its scale, with the number of the constraint.
-    fn largest(values: &[V::Scalar], terms: &[Terms]) -> (usize, f64) {
+    fn largest(
+        values: &[V::Scalar],
+        terms: &[Terms],
+        other: impl Fn(usize) -> f64,
+    ) -> (usize, f64) {
+        let pairs = values.iter().zip(terms).enumerate();
         let relative =
-            |(value, terms): (&V::Scalar, &Terms)| terms.relative(value.magnitude(), 0.0);
-        let relative = values.iter().zip(terms).map(relative).enumerate();
+            pairs.map(|(c, (value, terms))| (c, terms.relative(value.magnitude(), other(c))));
         relative.fold(
             (0, 0.0),
             |largest, next| {
@@ -104,11 +128,11 @@ impl<V: Vector> Examined<V> {
     }
 
     fn position(&self) -> (usize, f64) {
-        Self::largest(&self.values, &self.terms)
+        Self::largest(&self.values, &self.terms, |c| self.resolution.values[c])
     }
 
     fn momentum(&self) -> (usize, f64) {
-        Self::largest(&self.rates, &self.rate_terms)
+        Self::largest(&self.rates, &self.rate_terms, |c| self.rate_scales[c])
     }
 }
 
@@ -120,6 +144,7 @@ pub(super) const fn error(failure: Failure, time: f64) -> Error {
             constraint,
             pivot,
         },
+        Failure::NonFinite { what, .. } => Error::NonFiniteState { what },
         _ => Error::MovingGradients { time },
     }
 }
@@ -236,7 +261,7 @@ fn check_gradients<V: Vector, S: System<V>>(
 /// # }
 /// # fn main() -> Result<(), Error> {
 /// // A pendulum of length 1, |q|² − 1 = 0, that was read off a plot.
-/// let read = State::from_arrays(0.0, [0.6, -0.79], [0.8, 0.61]);
+/// let read: State<SVector<f64, 2>> = State::from_arrays(0.0, [0.6, -0.79], [0.8, 0.61]);
 /// let start = consistent(&Pendulum, read)?;
 /// assert!((start.q.norm() - 1.0).abs() < 1e-15 && start.q.dot(&start.p).abs() < 1e-15);
 /// # Ok(())
@@ -254,6 +279,11 @@ where
             position: q.dimension(),
             momentum: p.dimension(),
         });
+    }
+    for (vector, what) in [(&q, Quantity::Position), (&p, Quantity::Momentum)] {
+        if !is_finite(vector) {
+            return Err(Error::NonFiniteState { what });
+        }
     }
     let mut examined = Examined::new(system, time, &q, &p)?;
     let mut best = f64::INFINITY;

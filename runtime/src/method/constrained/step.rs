@@ -6,9 +6,9 @@ use crate::method::storage::is_finite;
 use crate::method::{ConstrainedTableau, Failure, Outcome, Step, StepStatistics, Stopping};
 use crate::number::summation::add;
 use crate::number::{Coefficient, Scalar, Summation, Vector};
-use crate::system::{Class, System};
+use crate::system::{Class, Gradients, System};
 
-/// A residual of so many units of rounding is as small as residuals become.
+/// A residual of this many units of rounding counts as zero.
 const ROUNDING: f64 = 2.0;
 /// A residual that no longer shrinks may be as large as this, in units of rounding.
 const NOISE: f64 = 256.0;
@@ -39,6 +39,8 @@ impl<V: Vector> Workspace<V> {
         let separable = S::Class::SEPARABLE;
         let mut work = StepStatistics::default();
         if !carried {
+            // Those of another state, or of a step that failed, are no start.
+            self.multipliers.fill(V::Scalar::from_f64(0.0));
             let Self {
                 metric,
                 end,
@@ -95,7 +97,7 @@ impl<V: Vector> Workspace<V> {
         );
     }
 
-    /// Sweeps until the stages are on the constraints and stand still. The position after the step is in `outcome`.
+    /// Sweeps until the stages are on the constraints and no longer move. The position after the step is in `outcome`.
     fn iterate<R: Summation, S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
@@ -111,7 +113,7 @@ impl<V: Vector> Workspace<V> {
             work.iterations += 1;
             self.kicks(tableau, step, system, work)?;
             self.drifts::<S>(tableau, step, system, work);
-            let [defect, movement] = self.positions::<R, S>(tableau, step, system, outcome);
+            let [defect, movement, noise] = self.positions::<R, S>(tableau, step, system, outcome);
             // What is left of a movement shrinks at least as the movements did.
             let rate = if sweep > 1 && movement < moved {
                 movement / moved
@@ -130,7 +132,7 @@ impl<V: Vector> Workspace<V> {
                 (best, since) = (residual, 0);
             } else {
                 since += 1;
-                if since >= PATIENCE && best <= NOISE {
+                if since >= PATIENCE && (best <= NOISE || noise <= NOISE) {
                     return Ok(());
                 }
                 if since >= PATIENCE * PATIENCE {
@@ -228,14 +230,14 @@ impl<V: Vector> Workspace<V> {
     }
 
     /// The positions of the stages. Returns how far they are from the constraints, and how far those have moved that forces depend on,
-    /// both in units of rounding.
+    /// both in units of rounding; and the larger of both in units of what the values of the constraints resolve.
     fn positions<R: Summation, S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
         system: &S,
         outcome: &mut Outcome<'_, V>,
-    ) -> [f64; 2] {
+    ) -> [f64; 3] {
         let (stages, constraints) = (tableau.weights.len(), self.multipliers.len());
         // No force inside the step of a separable system depends on the last one.
         let moving = if S::Class::SEPARABLE {
@@ -279,13 +281,17 @@ impl<V: Vector> Workspace<V> {
             system.constraint_values(&self.q[i], defects);
         }
         let defects = self.defects.chunks_exact(constraints).take(stages - 1);
-        let mut residual = 0.0;
+        let resolution = &self.resolution;
+        let (mut residual, mut noise) = (0.0, movement / (size + resolution.position));
         for defects in defects {
-            for (defect, terms) in defects.iter().zip(&self.terms) {
-                residual = maximum(residual, terms.relative(defect.magnitude(), 0.0));
+            let defects = defects.iter().zip(&self.terms).zip(&resolution.values);
+            for ((defect, terms), &resolved) in defects {
+                let defect = defect.magnitude();
+                residual = maximum(residual, terms.relative(defect, 0.0));
+                noise = maximum(noise, terms.relative(defect, resolved));
             }
         }
-        [residual, movement / size].map(|change| change / V::Scalar::EPSILON)
+        [residual, movement / size, noise].map(|change| change / V::Scalar::EPSILON)
     }
 
     /// New impulses of the constraints from the defects.
@@ -424,6 +430,20 @@ impl<V: Vector> Workspace<V> {
 
     /// What is not finite in the stages.
     fn not_finite(&self) -> Failure {
+        let finite = |gradients: &Gradients<V::Scalar>| {
+            let mut values = gradients.values().iter();
+            values.all(|value| value.is_finite())
+        };
+        if let Some(stage) = self
+            .gradients
+            .iter()
+            .position(|gradients| !finite(gradients))
+        {
+            return Failure::NonFinite {
+                what: Quantity::Constraint,
+                stage: Some(stage + 2),
+            };
+        }
         let kicks = self.kick.iter().position(|kick| !is_finite(kick));
         let drifts = self.drift.iter().position(|drift| !is_finite(drift));
         let (what, stage) = match (kicks, drifts) {
