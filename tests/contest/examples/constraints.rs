@@ -73,8 +73,8 @@ struct ByHand {
 }
 
 impl ByHand {
-    /// How far a bond may be off, relative to its length: rounding.
-    const TOLERANCE: f64 = 4e-16;
+    /// How far a bond may be off, relative to its length.
+    const TOLERANCE: f64 = 1e-14;
 
     fn kick(&mut self, h: f64) {
         for (p, force) in self.p.iter_mut().zip(&self.force) {
