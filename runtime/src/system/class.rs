@@ -43,6 +43,20 @@ impl Unconstrained for Damped {}
 
 impl Unconstrained for () {}
 
+/// A class whose steps have a generating function: [`General`] or [`Separable`].
+///
+/// With friction a step is not symplectic; with constraints it is symplectic on the constrained phase space only.
+#[diagnostic::on_unimplemented(
+    message = "steps of systems of class `{Self}` have no generating function",
+    label = "with friction or constraints there is none",
+    note = "code that is generic over the system says `S::Class: Conservative`"
+)]
+pub trait Conservative {}
+
+impl Conservative for General {}
+
+impl Conservative for Separable {}
+
 /// Velocity and force may depend on position and momentum both.
 #[derive(Clone, Copy, Debug)]
 pub struct General;

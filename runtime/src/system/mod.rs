@@ -19,7 +19,7 @@ pub(crate) mod strands;
 pub use chain::{Bonds, Chain};
 #[cfg(feature = "alloc")]
 pub use class::Constrained;
-pub use class::{Class, Damped, General, Separable, Unconstrained};
+pub use class::{Class, Conservative, Damped, General, Separable, Unconstrained};
 pub use closures::{
     HamiltonianClosures, Momentum, NoEnergy, SeparableClosures, acceleration, hamiltonian,
     separable,

@@ -17,7 +17,7 @@ use crate::method::{
 };
 use crate::number::{Coefficient, Coefficients, Plain, Scalar, Summation, Vector, Visit};
 use crate::solver::fixed_point::by_stages;
-use crate::system::{Class, System};
+use crate::system::{Class, Conservative, System};
 
 /// What [`generating_function`] returns: the value at `(q0, p1)`, and the step that it generates.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,6 +67,8 @@ pub struct GeneratingFunction<V: Vector> {
 /// [`Hamiltonian`](crate::Hamiltonian#time)). The energy is the sum of what belongs to both, so it has to be one time: where
 /// `c_i ≠ c̃_i`, the energies at the two have to be equal.
 ///
+/// With friction or constraints there is no such function, and the call does not compile.
+///
 /// # Errors
 ///
 /// [`Error::NoEnergy`] where the system gives none; [`Error::TwoClocks`] where it depends on time and the method
@@ -92,7 +94,11 @@ pub struct GeneratingFunction<V: Vector> {
 /// # Ok(())
 /// # }
 /// ```
-pub fn generating_function<M: Method + ProvedFor<S::Class>, S: System<V>, V: Vector>(
+pub fn generating_function<
+    M: Method + ProvedFor<S::Class>,
+    S: System<V, Class: Conservative>,
+    V: Vector,
+>(
     _method: M,
     system: &S,
     time: f64,
@@ -115,7 +121,9 @@ pub fn generating_function<M: Method + ProvedFor<S::Class>, S: System<V>, V: Vec
     generating::<M, S, V>(system, &step, 1, Stopping::DEFAULT)
 }
 
-impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
+impl<M: Method, S: System<V, Class: Conservative>, V: Vector, R: Summation, N: Solver<V, S>>
+    Integrator<M, S, V, R, N>
+{
     /// Takes one step and returns its generating function at the position before and the momentum after it, the
     /// `p0` and `q1` of which are the momentum before and the position after it, up to rounding.
     ///

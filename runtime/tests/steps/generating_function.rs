@@ -14,6 +14,7 @@ use crate::common::methods::{
 };
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::solver::{Coefficient, Coefficients};
+use symplectic::system::Conservative;
 use symplectic::variational::{GeneratingFunction, generating_function};
 use symplectic::{
     Error, General, Hamiltonian, Integrator, Method, Orders, ProvedFor, Quantity, Scalar, State,
@@ -66,7 +67,7 @@ fn defect<M, S, const N: usize>(
 ) -> Result<f64, Error>
 where
     M: Method + ProvedFor<S::Class>,
-    S: System<SVector<Dual, N>>,
+    S: System<SVector<Dual, N>, Class: Conservative>,
 {
     let mut worst = 0.0_f64;
     for i in 0..N {
@@ -91,7 +92,7 @@ fn defect_by_differences<M, S, const N: usize>(
 ) -> Result<f64, Error>
 where
     M: Method + ProvedFor<S::Class>,
-    S: System<SVector<f64, N>>,
+    S: System<SVector<f64, N>, Class: Conservative>,
 {
     const DISTANCE: f64 = 1e-3;
     let (q0, p1) = (SVector::from(q0), SVector::from(p1));
@@ -227,7 +228,7 @@ fn orbit<M, S, const N: usize>(
 ) -> Result<Orbit<N>, Error>
 where
     M: Method + ProvedFor<S::Class>,
-    S: System<SVector<Dual, N>>,
+    S: System<SVector<Dual, N>, Class: Conservative>,
 {
     let mut start = State::new(0.0, constants(q0), constants(p0));
     start.p[direction].derivative = 1.0;
