@@ -6,19 +6,19 @@ L = g (2 cos(a) + cos(b)) + va² + (1/2) vb² + va vb cos(a − b)
 pa = 2 va + vb cos(a − b)
 pb = vb + va cos(a − b)
 
-H = (1/2) (pa² − 2 pa pb cos(a − b) + 2 pb²)/(−cos(a − b)² + 2) − g (2 cos(a) + cos(b))
+H = (1/2) (pa² − 2 pa pb cos(a − b) + 2 pb²)/(2 − cos(a − b)²) − g (2 cos(a) + cos(b))
 
-a' = pa/(−cos(a − b)² + 2) − pb cos(a − b)/(−cos(a − b)² + 2)
-b' = 2 pb/(−cos(a − b)² + 2) − pa cos(a − b)/(−cos(a − b)² + 2)
-pa' = −2 g sin(a) − sin(a − b) (pa pb/(−cos(a − b)² + 2) − cos(a − b) ((pa² − 2 pa pb cos(a − b) + 2 pb²)/(−cos(a − b)² + 2)²))
-pb' = sin(a − b) (pa pb/(−cos(a − b)² + 2) − cos(a − b) ((pa² − 2 pa pb cos(a − b) + 2 pb²)/(−cos(a − b)² + 2)²)) − g sin(b)
+a' = pa/(2 − cos(a − b)²) − pb cos(a − b)/(2 − cos(a − b)²)
+b' = 2 pb/(2 − cos(a − b)²) − pa cos(a − b)/(2 − cos(a − b)²)
+pa' = −2 g sin(a) − sin(a − b) (pa pb/(2 − cos(a − b)²) − cos(a − b) ((pa² − 2 pa pb cos(a − b) + 2 pb²)/(2 − cos(a − b)²)²))
+pb' = sin(a − b) (pa pb/(2 − cos(a − b)²) − cos(a − b) ((pa² − 2 pa pb cos(a − b) + 2 pb²)/(2 − cos(a − b)²)²)) − g sin(b)
 ```
 
-$$H = \\tfrac{1}{2}\\,\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)} - g\\,\\left(2\\,\\cos\\left(a\\right) + \\cos\\left(b\\right)\\right)$$
-$$\\dot{a} = \\frac{\\mathrm{pa}}{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)} - \\frac{\\mathrm{pb}\\,\\cos\\left(a - b\\right)}{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)}$$
-$$\\dot{b} = 2\\,\\frac{\\mathrm{pb}}{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)} - \\frac{\\mathrm{pa}\\,\\cos\\left(a - b\\right)}{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)}$$
-$$\\dot{\\mathrm{pa}} = -2\\,g\\,\\sin\\left(a\\right) - \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)} - \\cos\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)}^{2}}\\right)\\right)$$
-$$\\dot{\\mathrm{pb}} = \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)} - \\cos\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)}^{2}}\\right)\\right) - g\\,\\sin\\left(b\\right)$$
+$$H = \\tfrac{1}{2}\\,\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - g\\,\\left(2\\,\\cos\\left(a\\right) + \\cos\\left(b\\right)\\right)$$
+$$\\dot{a} = \\frac{\\mathrm{pa}}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - \\frac{\\mathrm{pb}\\,\\cos\\left(a - b\\right)}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)}$$
+$$\\dot{b} = 2\\,\\frac{\\mathrm{pb}}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - \\frac{\\mathrm{pa}\\,\\cos\\left(a - b\\right)}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)}$$
+$$\\dot{\\mathrm{pa}} = -2\\,g\\,\\sin\\left(a\\right) - \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - \\cos\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)}^{2}}\\right)\\right)$$
+$$\\dot{\\mathrm{pb}} = \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - \\cos\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)}^{2}}\\right)\\right) - g\\,\\sin\\left(b\\right)$$
 
 Found in the formula: not separable; independent of time, so H is conserved; the mass matrix is regular at random points.
 */
