@@ -66,6 +66,8 @@ fn lagrangians_are_the_same_in_lanes_and_their_jacobians_are_exact() {
     consistent(&lagrangians::CartesianDoublePendulum::default(), 2);
     consistent(&lagrangians::ChargedParticle, 3);
     consistent(&lagrangians::Planets::new([1.0, 2.0, 3.0]), 9);
+    consistent(&lagrangians::FivePendulums::default(), 5);
+    consistent(&lagrangians::PolarSpringPendulum { omega: 3.0 }, 2);
 }
 
 /// The velocity of the momentum of a velocity is that velocity.

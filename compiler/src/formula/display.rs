@@ -298,6 +298,10 @@ impl System {
         };
         let alone = terms.len() == 1 && constant.is_zero();
         // What is added comes first.
+        let before = constant.is_positive() && terms.iter().all(|(factor, _)| factor.is_negative());
+        if before {
+            push(false, number(constant, notation).0);
+        }
         let first = terms
             .iter()
             .position(|(factor, _)| factor.is_positive())
@@ -317,7 +321,7 @@ impl System {
             };
             push(factor.is_negative(), term);
         }
-        if !constant.is_zero() {
+        if !constant.is_zero() && !before {
             push(constant.is_negative(), number(&constant.abs(), notation).0);
         }
         let product = alone && terms[0].0.is_positive();

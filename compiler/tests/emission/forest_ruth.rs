@@ -294,6 +294,7 @@ const _: () = {
     impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::Separable>
     for ForestRuth {}
     impl ::symplectic::emitted::ProvedFor<()> for ForestRuth {}
+    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::Damped> for ForestRuth {}
     pub struct ForestRuthGeneral;
     #[allow(unused_variables)]
     impl ::symplectic::emitted::StagePlan for ForestRuthGeneral {

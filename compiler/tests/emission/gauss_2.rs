@@ -103,9 +103,8 @@ const _: () = {
         type General = ::symplectic::emitted::Coupled<Gauss2General>;
         type Separable = ::symplectic::emitted::Coupled<Gauss2Separable>;
     }
-    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::Separable> for Gauss2 {}
-    impl ::symplectic::emitted::ProvedFor<()> for Gauss2 {}
-    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::General> for Gauss2 {}
+    impl<C: ::symplectic::emitted::Unconstrained> ::symplectic::emitted::ProvedFor<C>
+    for Gauss2 {}
     pub struct Gauss2General;
     #[allow(unused_variables)]
     impl ::symplectic::emitted::StagePlan for Gauss2General {

@@ -6,19 +6,19 @@ L = g (2 cos(a) + cos(b)) + va² + (1/2) vb² + va vb cos(a − b)
 pa = 2 va + vb cos(a − b)
 pb = vb + va cos(a − b)
 
-H = (1/2) (pa² − 2 pa pb cos(a − b) + 2 pb²)/(−cos(a − b)² + 2) − g (2 cos(a) + cos(b))
+H = (1/2) (pa² − 2 pa pb cos(a − b) + 2 pb²)/(2 − cos(a − b)²) − g (2 cos(a) + cos(b))
 
-a' = pa/(−cos(a − b)² + 2) − pb cos(a − b)/(−cos(a − b)² + 2)
-b' = 2 pb/(−cos(a − b)² + 2) − pa cos(a − b)/(−cos(a − b)² + 2)
-pa' = −2 g sin(a) − sin(a − b) (pa pb/(−cos(a − b)² + 2) − cos(a − b) ((pa² − 2 pa pb cos(a − b) + 2 pb²)/(−cos(a − b)² + 2)²))
-pb' = sin(a − b) (pa pb/(−cos(a − b)² + 2) − cos(a − b) ((pa² − 2 pa pb cos(a − b) + 2 pb²)/(−cos(a − b)² + 2)²)) − g sin(b)
+a' = pa/(2 − cos(a − b)²) − pb cos(a − b)/(2 − cos(a − b)²)
+b' = 2 pb/(2 − cos(a − b)²) − pa cos(a − b)/(2 − cos(a − b)²)
+pa' = −2 g sin(a) − sin(a − b) (pa pb/(2 − cos(a − b)²) − cos(a − b) ((pa² − 2 pa pb cos(a − b) + 2 pb²)/(2 − cos(a − b)²)²))
+pb' = sin(a − b) (pa pb/(2 − cos(a − b)²) − cos(a − b) ((pa² − 2 pa pb cos(a − b) + 2 pb²)/(2 − cos(a − b)²)²)) − g sin(b)
 ```
 
-$$H = \\tfrac{1}{2}\\,\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)} - g\\,\\left(2\\,\\cos\\left(a\\right) + \\cos\\left(b\\right)\\right)$$
-$$\\dot{a} = \\frac{\\mathrm{pa}}{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)} - \\frac{\\mathrm{pb}\\,\\cos\\left(a - b\\right)}{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)}$$
-$$\\dot{b} = 2\\,\\frac{\\mathrm{pb}}{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)} - \\frac{\\mathrm{pa}\\,\\cos\\left(a - b\\right)}{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)}$$
-$$\\dot{\\mathrm{pa}} = -2\\,g\\,\\sin\\left(a\\right) - \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)} - \\cos\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)}^{2}}\\right)\\right)$$
-$$\\dot{\\mathrm{pb}} = \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)} - \\cos\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{{\\left(-{\\cos\\left(a - b\\right)}^{2} + 2\\right)}^{2}}\\right)\\right) - g\\,\\sin\\left(b\\right)$$
+$$H = \\tfrac{1}{2}\\,\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - g\\,\\left(2\\,\\cos\\left(a\\right) + \\cos\\left(b\\right)\\right)$$
+$$\\dot{a} = \\frac{\\mathrm{pa}}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - \\frac{\\mathrm{pb}\\,\\cos\\left(a - b\\right)}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)}$$
+$$\\dot{b} = 2\\,\\frac{\\mathrm{pb}}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - \\frac{\\mathrm{pa}\\,\\cos\\left(a - b\\right)}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)}$$
+$$\\dot{\\mathrm{pa}} = -2\\,g\\,\\sin\\left(a\\right) - \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - \\cos\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)}^{2}}\\right)\\right)$$
+$$\\dot{\\mathrm{pb}} = \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - \\cos\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)}^{2}}\\right)\\right) - g\\,\\sin\\left(b\\right)$$
 
 Found in the formula: not separable; independent of time, so H is conserved; the mass matrix is regular at random points.
 */
@@ -133,30 +133,34 @@ const _: () = {
                 - T::from_f64(self.g) * (T::from_f64(2.0) * x2 + x3);
             ::core::option::Option::Some(result_1)
         }
-    }
-    ::symplectic::emitted::if_alloc! {
-        #[allow(unused_variables, non_snake_case, clippy::all)] impl < T : Scalar, >
-        ::symplectic::solver::Linearized < ::symplectic::nalgebra::SVector < T, 2 > > for
-        DoublePendulum { fn derivatives(& self, time : T, q : &
-        ::symplectic::nalgebra::SVector < T, 2 >, p : & ::symplectic::nalgebra::SVector <
-        T, 2 >, jacobian : & mut ::symplectic::solver::Jacobian < T >) { let q = & q.data
-        .0[0]; let p = & p.data.0[0]; let x1 = q[0] - q[1]; let [(x2, x3), (_, x4), (_,
-        x5)] = T::sin_cos_all([x1, q[0], q[1]]); let x6 = (T::from_f64(2.0) - x3 * x3)
-        .recip(); jacobian.velocity_by_momentum.add(0, 0, x6); let x7 = - x3 * x6;
-        jacobian.velocity_by_momentum.add(0, 1, x7); jacobian.velocity_by_momentum.add(1,
-        0, x7); jacobian.velocity_by_momentum.add(1, 1, T::from_f64(2.0) * x6); let x8 =
-        T::from_f64(2.0) * x3; let x9 = x6 * x6; let x10 = x2 * (p[1] * x6 - x8 * (p[0] *
-        x9 - p[1] * x3 * x9)); jacobian.velocity_by_position.add(0, 0, x10); jacobian
-        .velocity_by_position.add(0, 1, - x10); let x11 = x2 * (p[0] * x6 + x8 * (p[0] *
-        x3 * x9 - T::from_f64(2.0) * p[1] * x9)); jacobian.velocity_by_position.add(1, 0,
-        x11); jacobian.velocity_by_position.add(1, 1, - x11); let x12 = p[0] * p[1]; let
-        x13 = T::from_f64(2.0) * p[0] * p[1]; let x14 = p[0] * p[0] - x13 * x3 +
-        T::from_f64(2.0) * (p[1] * p[1]); let x15 = x9 * x14; let x16 = x3 * x2; let x17
-        = x3 * (x12 * x6 - x3 * x15) + x2 * (x2 * x15 - x13 * (x9 * x16) - x8 * (x12 * x9
-        * x2 - T::from_f64(2.0) * (x6 * x9) * x14 * x16)); jacobian.force_by_position
-        .add(0, 0, - (T::from_f64(2.0 * self.g) * x4 + x17)); jacobian.force_by_position
-        .add(0, 1, x17); jacobian.force_by_position.add(1, 0, x17); jacobian
-        .force_by_position.add(1, 1, - (x17 + T::from_f64(self.g) * x5)); } }
+        ::symplectic::emitted::if_alloc! {
+            fn second_derivatives < T : Scalar > (& self, time : T, q : &
+            ::symplectic::nalgebra::SVector < T, 2 >, p : &
+            ::symplectic::nalgebra::SVector < T, 2 >, jacobian : & mut
+            ::symplectic::system::Jacobian < T >) -> bool { let q = & q.data.0[0]; let p
+            = & p.data.0[0]; let x1 = q[0] - q[1]; let [(x2, x3), (_, x4), (_, x5)] =
+            T::sin_cos_all([x1, q[0], q[1]]); let x6 = (T::from_f64(2.0) - x3 * x3)
+            .recip(); jacobian.velocity_by_momentum.add(0, 0, x6); let x7 = - x3 * x6;
+            jacobian.velocity_by_momentum.add(0, 1, x7); jacobian.velocity_by_momentum
+            .add(1, 0, x7); jacobian.velocity_by_momentum.add(1, 1, T::from_f64(2.0) *
+            x6); let x8 = T::from_f64(2.0) * x3; let x9 = x6 * x6; let x10 = x2 * (p[1] *
+            x6 - x8 * (p[0] * x9 - p[1] * x3 * x9)); jacobian.velocity_by_position.add(0,
+            0, x10); jacobian.velocity_by_position.add(0, 1, - x10); let x11 = x2 * (p[0]
+            * x6 + x8 * (p[0] * x3 * x9 - T::from_f64(2.0) * p[1] * x9)); jacobian
+            .velocity_by_position.add(1, 0, x11); jacobian.velocity_by_position.add(1, 1,
+            - x11); let x12 = p[0] * p[1]; let x13 = T::from_f64(2.0) * p[0] * p[1]; let
+            x14 = p[0] * p[0] - x13 * x3 + T::from_f64(2.0) * (p[1] * p[1]); let x15 = x9
+            * x14; let x16 = x3 * x2; let x17 = x3 * (x12 * x6 - x3 * x15) + x2 * (x2 *
+            x15 - x13 * (x9 * x16) - x8 * (x12 * x9 * x2 - T::from_f64(2.0) * (x6 * x9) *
+            x14 * x16)); jacobian.force_by_position.add(0, 0, - (T::from_f64(2.0 * self
+            .g) * x4 + x17)); jacobian.force_by_position.add(0, 1, x17); jacobian
+            .force_by_position.add(1, 0, x17); jacobian.force_by_position.add(1, 1, -
+            (x17 + T::from_f64(self.g) * x5)); true }
+        }
+        #[allow(non_snake_case, clippy::all)]
+        fn half_bandwidth(&self) -> usize {
+            1
+        }
     }
     #[allow(unused_variables, non_snake_case, clippy::all)]
     impl DoublePendulum {

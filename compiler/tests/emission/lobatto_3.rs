@@ -259,12 +259,7 @@ const _: () = {
         type General = ::symplectic::emitted::Coupled<Lobatto3General>;
         type Separable = ::symplectic::emitted::Coupled<Lobatto3Separable>;
     }
-    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::Separable>
-    for Lobatto3 {}
-    impl ::symplectic::emitted::ProvedFor<()> for Lobatto3 {}
-    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::General> for Lobatto3 {}
-    impl<C> ::symplectic::emitted::ProvedFor<::symplectic::emitted::Constrained<C>>
-    for Lobatto3 {}
+    impl<C> ::symplectic::emitted::ProvedFor<C> for Lobatto3 {}
     pub struct Lobatto3General;
     #[allow(unused_variables)]
     impl ::symplectic::emitted::StagePlan for Lobatto3General {

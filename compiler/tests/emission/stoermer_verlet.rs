@@ -140,13 +140,7 @@ const _: () = {
         type General = ::symplectic::emitted::Coupled<StoermerVerletGeneral>;
         type Separable = ::symplectic::emitted::Splitting<StoermerVerletSeparable>;
     }
-    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::Separable>
-    for StoermerVerlet {}
-    impl ::symplectic::emitted::ProvedFor<()> for StoermerVerlet {}
-    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::General>
-    for StoermerVerlet {}
-    impl<C> ::symplectic::emitted::ProvedFor<::symplectic::emitted::Constrained<C>>
-    for StoermerVerlet {}
+    impl<C> ::symplectic::emitted::ProvedFor<C> for StoermerVerlet {}
     pub struct StoermerVerletGeneral;
     #[allow(unused_variables)]
     impl ::symplectic::emitted::StagePlan for StoermerVerletGeneral {

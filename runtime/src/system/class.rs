@@ -33,6 +33,13 @@ pub trait Class: sealed::Sealed + Sized + 'static {
 /// A class without constraints: [`General`], [`Separable`] or [`Damped`]. Every method that is proved for general Hamiltonians is proved for it.
 ///
 /// Code that is generic over the system and takes one such method says `S::Class: Unconstrained`.
+#[diagnostic::on_unimplemented(
+    message = "a system of class `{Self}` needs a method that is `constrained`",
+    label = "this method has no steps for holonomic constraints",
+    note = "take `basis: polynomial(s), nodes: lobatto(s)`, which with two stages is RATTLE, or a composition of such",
+    note = "`require: [constrained]` in `tableau!` checks that a method is",
+    note = "code that is generic over the system, and takes a method for systems without constraints, says `S::Class: Unconstrained`"
+)]
 pub trait Unconstrained {}
 
 impl Unconstrained for General {}

@@ -71,10 +71,13 @@ impl Look for Compare<'_> {
             Hamiltonian::slopes(&system, 0.3, &q, &p, (&mut *of_p, &mut *of_q));
             self.compare(1, name, of_p.as_slice(), &velocity);
             self.compare(1, name, of_q.as_slice(), &force);
+            let mut apart = [q, p];
+            let [of_p, of_q] = &mut apart;
             Hamiltonian::velocity(&system, 0.3, &q, &p, of_p);
             Hamiltonian::force(&system, 0.3, &q, &p, of_q);
             self.compare(1, name, of_p.as_slice(), &velocity);
             self.compare(1, name, of_q.as_slice(), &force);
+            assert_eq!(found, apart, "{name}: together and apart");
 
             let mut exact = Jacobian::new(D, Hamiltonian::half_bandwidth(&system));
             assert!(Hamiltonian::second_derivatives(

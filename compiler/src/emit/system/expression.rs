@@ -75,8 +75,10 @@ impl Writer<'_> {
         }
         order.sort();
         for (count, next) in order.into_iter().enumerate() {
-            let is_wanted =
-                next != op && block.here.contains(&next) && !self.operations.get(next).is_leaf();
+            let is_wanted = next != op
+                && block.here.contains(&next)
+                && !self.operations.get(next).is_leaf()
+                && !self.operations.is_division(next);
             let often = block.uses.get(&next).copied().unwrap_or(0) > 1;
             if is_wanted
                 && (often || count % MOST_DEPTH == 0)
@@ -203,29 +205,24 @@ impl Writer<'_> {
                 let (a, b) = (a.tokens, at_least(&b, Strength::Product));
                 (quote!(#a - #b), Strength::Sum)
             }
-            Operation::Multiply(a, b) => {
-                // A reciprocal that is used once is a division.
-                let known = block.scope.names.contains_key(&b);
-                let once = block.uses.get(&b).copied().unwrap_or(0) == 1;
-                match *self.operations.get(b) {
-                    Operation::Reciprocal(divisor) if once && !known && block.here.contains(&b) => {
-                        let [a, b] = both(self, block, a, divisor);
-                        let (a, b) = (
-                            at_least(&a, Strength::Product),
-                            at_least(&b, Strength::Sign),
-                        );
-                        (quote!(#a / #b), Strength::Product)
-                    }
-                    _ => {
-                        let [a, b] = both(self, block, a, b);
-                        let (a, b) = (
-                            at_least(&a, Strength::Product),
-                            at_least(&b, Strength::Sign),
-                        );
-                        (quote!(#a * #b), Strength::Product)
-                    }
+            Operation::Multiply(a, b) => match *self.operations.get(b) {
+                Operation::Reciprocal(divisor) if self.operations.is_division(b) => {
+                    let [a, b] = both(self, block, a, divisor);
+                    let (a, b) = (
+                        at_least(&a, Strength::Product),
+                        at_least(&b, Strength::Sign),
+                    );
+                    (quote!(#a / #b), Strength::Product)
                 }
-            }
+                _ => {
+                    let [a, b] = both(self, block, a, b);
+                    let (a, b) = (
+                        at_least(&a, Strength::Product),
+                        at_least(&b, Strength::Sign),
+                    );
+                    (quote!(#a * #b), Strength::Product)
+                }
+            },
             Operation::Reciprocal(a) => {
                 let a = self.require(block, a);
                 match fixed {

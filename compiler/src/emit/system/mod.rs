@@ -232,12 +232,14 @@ impl<'a> Emitter<'a> {
         quote!(if #length < #least { #outside })
     }
 
-    /// The statements that write derivatives.
-    fn derivatives(&mut self, read: &[&str], derivatives: &[Derivative]) -> TokenStream {
-        let written: Vec<&str> = derivatives
-            .iter()
-            .map(|derivative| derivative.into)
-            .collect();
+    /// The statements that write a derivative.
+    fn derivative(&mut self, read: &[&str], derivative: Derivative) -> TokenStream {
+        let into = derivative.into;
+        let parts = self.gradients(&[derivative]);
+        self.derivatives(read, &parts, &[into])
+    }
+
+    fn gradients(&mut self, derivatives: &[Derivative]) -> Vec<(&'static str, Vec<Scatter>)> {
         let mut parts: Vec<(&'static str, Vec<Scatter>)> = Vec::new();
         for derivative in derivatives {
             let sign = Number::from_integer(derivative.sign.into());
@@ -250,8 +252,18 @@ impl<'a> Emitter<'a> {
             );
             parts.push((derivative.into, all));
         }
-        let views = self.views(read, &written);
-        let outside = self.outside(&written);
+        parts
+    }
+
+    /// The statements that write some of the derivatives, with the operations for all: each has the same bits in every selection.
+    fn derivatives(
+        &self,
+        read: &[&str],
+        parts: &[(&'static str, Vec<Scatter>)],
+        written: &[&str],
+    ) -> TokenStream {
+        let views = self.views(read, written);
+        let outside = self.outside(written);
         let least = self.least(&outside);
         let roots: Vec<Id> = parts
             .iter()
@@ -260,7 +272,7 @@ impl<'a> Emitter<'a> {
         let operations = Operations::new(&self.system.graph, &roots);
         let mut clear = TokenStream::new();
         let mut tasks = Vec::new();
-        for (into, parts) in &parts {
+        for (into, parts) in parts.iter().filter(|(into, _)| written.contains(into)) {
             let vector = format_ident!("{into}");
             let vector = quote!(#vector);
             // What is set once needs no zero before it.
@@ -350,14 +362,14 @@ impl<'a> Emitter<'a> {
             of: split.kinetic,
             sign: 1,
         };
-        let velocity = self.derivatives(&["p"], &[velocity]);
+        let velocity = self.derivative(&["p"], velocity);
         let force = Derivative {
             into: "force",
             half: Half::Q,
             of: split.potential,
             sign: -1,
         };
-        let force = self.derivatives(&["q"], &[force]);
+        let force = self.derivative(&["q"], force);
         let energy = self.energy(self.system.energy);
         let jacobian = self.jacobian(Some(split));
         quote! {
@@ -395,13 +407,13 @@ impl<'a> Emitter<'a> {
         let energy = self.system.energy;
         let [kinetic, potential] =
             split.map_or([energy; 2], |split| [split.kinetic, split.potential]);
-        let velocity = || Derivative {
+        let velocity = Derivative {
             into: "velocity",
             half: Half::P,
             of: kinetic,
             sign: 1,
         };
-        let force = || Derivative {
+        let force = Derivative {
             into: "force",
             half: Half::Q,
             of: potential,
@@ -422,9 +434,11 @@ impl<'a> Emitter<'a> {
                 const UNIT_MASSES: bool = true;
             )
         });
+        let parts = self.gradients(&[velocity, force]);
+        let halves = ["q", "p"];
         // Where nothing is in common, one after the other.
         let both = split.is_none().then(|| {
-            let both = self.derivatives(&["q", "p"], &[velocity(), force()]);
+            let both = self.derivatives(&halves, &parts, &["velocity", "force"]);
             quote! {
                 #[inline(always)]
                 fn slopes<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, (velocity, force): (&mut #over, &mut #over)) {
@@ -432,8 +446,8 @@ impl<'a> Emitter<'a> {
                 }
             }
         });
-        let velocity = self.derivatives(&["q", "p"], &[velocity()]);
-        let force = self.derivatives(&["q", "p"], &[force()]);
+        let velocity = self.derivatives(&halves, &parts, &["velocity"]);
+        let force = self.derivatives(&halves, &parts, &["force"]);
         let energy = self.energy(energy);
         // Newton's iteration is for stages without constraints.
         let jacobian = self.system.is_free().then(|| self.jacobian(None));

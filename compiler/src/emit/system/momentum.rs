@@ -18,7 +18,7 @@ impl Emitter<'_> {
             of: lagrangian.formula,
             sign: 1,
         };
-        let statements = self.derivatives(&["q", "v"], &[momentum]);
+        let statements = self.derivative(&["q", "v"], momentum);
         let [generics, _, arguments] = self.generics();
         let name = &self.header.name;
         let scalar = &self.scalar;

@@ -3,7 +3,7 @@
 //! Terms and factors are taken in the order of the graph. Factors that depend on parameters only come first and are computed in double
 //! precision; what divides comes last, in one quotient. Whole powers are products, by squaring; halves of powers are square roots.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
@@ -90,6 +90,8 @@ pub struct Operations<'a> {
     known: HashMap<Id, Op>,
     /// Nodes by which is divided more than once.
     divisors: HashMap<Id, usize>,
+    /// Reciprocals that are used once, as the second factor of a product in the same loops: the product is written as a quotient.
+    quotients: HashSet<Op>,
 }
 
 impl<'a> Operations<'a> {
@@ -113,12 +115,44 @@ impl<'a> Operations<'a> {
             numbers: HashMap::new(),
             known: HashMap::new(),
             divisors,
+            quotients: HashSet::new(),
         };
         for id in order {
             let op = operations.lower(id);
             operations.known.insert(id, op);
         }
+        operations.quotients = operations.find_quotients(roots);
         operations
+    }
+
+    fn find_quotients(&self, roots: &[Id]) -> HashSet<Op> {
+        let mut uses: HashMap<Op, usize> = HashMap::new();
+        let mut open: Vec<Op> = roots.iter().map(|&root| self.of(root)).collect();
+        let mut reached = Vec::new();
+        while let Some(op) = open.pop() {
+            let count = uses.entry(op).or_insert(0);
+            *count += 1;
+            if *count == 1 {
+                reached.push(op);
+                open.extend(self.get(op).operands());
+            }
+        }
+        let once = reached.into_iter().filter_map(|op| match *self.get(op) {
+            Operation::Multiply(_, b) => {
+                let is_reciprocal = matches!(self.get(b), Operation::Reciprocal(_));
+                let same_loops = self.depends(b).loops == self.depends(op).loops;
+                (is_reciprocal && same_loops && uses[&b] == 1).then_some(b)
+            }
+            _ => None,
+        });
+        once.collect()
+    }
+
+    /// Whether a reciprocal is no operation of its own, but the division of the one product with it.
+    ///
+    /// It depends on all roots, and not on the function that is written: two functions with the same operations round alike.
+    pub fn is_division(&self, op: Op) -> bool {
+        self.quotients.contains(&op)
     }
 
     /// What a node has become.
