@@ -290,6 +290,15 @@ pub enum Error {
         found: usize,
     },
 
+    /// A system with constraints or friction whose class has none: its steps would leave them out.
+    #[error("the system has {what}, and its class does not: write `type Class = {class};`")]
+    OtherClass {
+        /// What it has.
+        what: &'static str,
+        /// The class that it should have.
+        class: &'static str,
+    },
+
     /// A system of class `Constrained` without a constraint, or with more constraints than positions.
     #[error(
         "the system has {constraints} constraints on {dimension} components of the position; write `constraints`, and at most as many \

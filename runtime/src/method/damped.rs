@@ -2,9 +2,10 @@
 
 use core::marker::PhantomData;
 
+use crate::error::Error;
 use crate::method::{
     Drift, EvaluationObserver, Evaluations, Failure, Force, Inside, Interpolation, KickDrift,
-    Method, Outcome, Plan, Solver, Step, StepStatistics, Stopping, WarmStart,
+    Method, Outcome, Plan, Solver, Step, StepStatistics, Stopping, WarmStart, check_no_constraints,
 };
 use crate::number::summation::add;
 use crate::number::{Coefficient, Scalar, Summation, Vector};
@@ -113,6 +114,14 @@ impl<F: Fn(usize) -> f64> KickDrift for DampedKicks<F> {
 impl<M: Method> Plan for DampedPlan<M> {
     type Class = Damped;
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = Evaluations<V>;
+
+    fn check<V, S>(system: &S, _time: f64, _q: &V, _p: &V) -> Result<(), Error>
+    where
+        V: Vector,
+        S: System<V, Class = Damped>,
+    {
+        check_no_constraints(system)
+    }
 
     #[inline(always)]
     fn take<R, V, S, N>(

@@ -147,14 +147,16 @@ pub trait Plan {
     ///
     /// # Errors
     ///
+    /// [`Error::OtherClass`], where the system has constraints or friction that steps of this class leave out;
     /// [`Error::InconsistentStart`] and others, where there are constraints.
     #[inline(always)]
-    fn check<V, S>(_system: &S, _time: f64, _q: &V, _p: &V) -> Result<(), Error>
+    fn check<V, S>(system: &S, _time: f64, q: &V, _p: &V) -> Result<(), Error>
     where
         V: Vector,
         S: System<V, Class = Self::Class>,
     {
-        Ok(())
+        check_no_constraints(system)?;
+        check_no_friction(system, q)
     }
 
     /// Takes `step` and writes its result into `outcome`; returns what that took.
@@ -272,6 +274,30 @@ pub trait Plan {
         V: Vector,
         S: System<V, Class = Self::Class>,
         N: Solver<V, S>;
+}
+
+/// Checks that a system whose class has no constraints has none.
+#[inline(always)]
+pub(crate) fn check_no_constraints<V: Vector, S: System<V>>(system: &S) -> Result<(), Error> {
+    if system.constraints() == 0 {
+        return Ok(());
+    }
+    Err(Error::OtherClass {
+        what: "constraints",
+        class: "Constrained<Separable>` or `Constrained<General>",
+    })
+}
+
+/// Checks that a system whose class has no friction has none.
+#[inline(always)]
+pub(crate) fn check_no_friction<V: Vector, S: System<V>>(system: &S, q: &V) -> Result<(), Error> {
+    if (0..q.dimension()).all(|component| system.friction(component) == 0.0) {
+        return Ok(());
+    }
+    Err(Error::OtherClass {
+        what: "friction",
+        class: "Damped",
+    })
 }
 
 /// How the stages of a [`Method`] are found for systems of one [`Class`].

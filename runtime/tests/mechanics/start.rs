@@ -327,3 +327,53 @@ fn a_run_goes_on_after_misplaced_gradients() {
     assert!(matches!(error, Error::MovingGradients { .. }), "{error}");
     run.step().expect("a step");
 }
+
+/// Constraints and friction of a system whose class has none are not left out in silence.
+#[test]
+fn the_class_says_what_there_is() {
+    struct Said {
+        constraints: usize,
+        friction: f64,
+    }
+
+    impl symplectic::System<Vector2<f64>> for Said {
+        type Class = Separable;
+        type Solver = symplectic::solver::FixedPoint;
+
+        fn velocity(
+            &self,
+            _: f64,
+            _: &Vector2<f64>,
+            p: &Vector2<f64>,
+            velocity: &mut Vector2<f64>,
+        ) {
+            *velocity = *p;
+        }
+
+        fn force(&self, _: f64, q: &Vector2<f64>, _: &Vector2<f64>, force: &mut Vector2<f64>) {
+            *force = -q;
+        }
+
+        fn constraints(&self) -> usize {
+            self.constraints
+        }
+
+        fn friction(&self, _component: usize) -> f64 {
+            self.friction
+        }
+    }
+
+    let made = |constraints, friction| {
+        let system = Said {
+            constraints,
+            friction,
+        };
+        let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.0]);
+        Integrator::new(Rattle, system, start, 0.1).map(|_| ())
+    };
+    assert_eq!(made(0, 0.0), Ok(()));
+    for (constraints, friction) in [(1, 0.0), (0, 0.5)] {
+        let error = made(constraints, friction);
+        assert!(matches!(error, Err(Error::OtherClass { .. })), "{error:?}");
+    }
+}

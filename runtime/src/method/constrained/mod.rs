@@ -26,7 +26,7 @@ use core::marker::PhantomData;
 use crate::error::Error;
 use crate::method::{
     EvaluationObserver, Failure, Inside, Interpolation, Method, Outcome, Plan, Solver, Step,
-    StepStatistics, Stopping, WarmStart,
+    StepStatistics, Stopping, WarmStart, check_no_friction,
 };
 use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, Constrained, System, Unconstrained};
@@ -54,6 +54,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         V: Vector,
         S: System<V, Class = Self::Class>,
     {
+        check_no_friction(system, q)?;
         check_start(system, time, q, p)
     }
 
