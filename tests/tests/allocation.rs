@@ -24,6 +24,19 @@ symplectic::composition! {
     TripleJump { base: gauss-2, weights: triple_jump(6) }
 }
 
+symplectic::composition! {
+    /// Constrained steps of three sizes.
+    TripleRattle { base: lobatto-2, weights: triple_jump(4) }
+}
+
+symplectic::hamiltonian! {
+    /// A hanging chain of links.
+    Links { rods: pairs }
+    q: [..; 2], p: [..; 2];
+    H = sum(i: |p[i]|^2/2 + q[i][1])
+    constraints: { anchor = |q[0]|^2 - 1, rod(s = (i, j) in rods) = |q[i] - q[j]|^2 - 1 }
+}
+
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
@@ -107,6 +120,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     assert_eq!(at_run_time(["polynomial(2)", "lobatto(2)"], chain())?, 0);
     assert_eq!(at_run_time(gauss, chain())?, 0);
     assert_eq!(at_run_time(gauss, coupled())?, 0);
+    let links = || Links::new((1..20).map(|k| (k - 1, k)).collect());
+    let sideways = DVector::from_fn(40, |k, _| ((k / 2 + 1) * (1 - k % 2)) as f64);
+    let start = || State::new(0.0, sideways.clone(), DVector::zeros(40));
+    assert_eq!(
+        counted(Integrator::new(StoermerVerlet, links(), start(), 0.01)?)?,
+        0
+    );
+    assert_eq!(
+        counted(Integrator::new(Lobatto3, links(), start(), 0.01)?)?,
+        0
+    );
+    assert_eq!(
+        counted(Integrator::new(TripleRattle, links(), start(), 0.01)?)?,
+        0
+    );
 
     // The count sees what a system allocates itself.
     let wasteful = separable::<DVector<f64>, _, _>(

@@ -3,6 +3,8 @@
 //! A plane box of rigid triangles in a trap, RATTLE, beside SHAKE and RATTLE as they are usually written: bond by bond until no bond is off by
 //! more than a tolerance. Then chains of links, the time for a link and step; and the double pendulum in coordinates and by its angles.
 
+#![allow(clippy::print_stdout, reason = "it prints")]
+
 use std::time::Instant;
 
 use symplectic::nalgebra::{DVector, SVector};
@@ -102,11 +104,11 @@ impl ByHand {
                     let old = [0, 1].map(|k| before[i][k] - before[j][k]);
                     let inverse = 1.0 / self.masses[i] + 1.0 / self.masses[j];
                     let factor = off / (2.0 * inverse * (d[0] * old[0] + d[1] * old[1]));
-                    for k in 0..2 {
-                        self.q[i][k] -= factor * old[k] / self.masses[i];
-                        self.q[j][k] += factor * old[k] / self.masses[j];
-                        self.p[i][k] -= factor * old[k] / h;
-                        self.p[j][k] += factor * old[k] / h;
+                    for (k, old) in old.into_iter().enumerate() {
+                        self.q[i][k] -= factor * old / self.masses[i];
+                        self.q[j][k] += factor * old / self.masses[j];
+                        self.p[i][k] -= factor * old / h;
+                        self.p[j][k] += factor * old / h;
                     }
                 }
                 if largest <= Self::TOLERANCE {
@@ -129,9 +131,9 @@ impl ByHand {
                     largest = largest.max(rate.abs() / length);
                     let inverse = 1.0 / self.masses[i] + 1.0 / self.masses[j];
                     let factor = rate / (inverse * length * length);
-                    for k in 0..2 {
-                        self.p[i][k] -= factor * d[k];
-                        self.p[j][k] += factor * d[k];
+                    for (k, d) in d.into_iter().enumerate() {
+                        self.p[i][k] -= factor * d;
+                        self.p[j][k] += factor * d;
                     }
                 }
                 if largest <= Self::TOLERANCE {
@@ -233,13 +235,13 @@ fn double_pendulum() -> Result<(), Error> {
     };
     let plane = |steps: u64| {
         let start = State::from_arrays(0.0, place(a, b), [0.0; 4]);
-        let mut run = Integrator::new(Lobatto4, Plane::default(), start, 10.0 / steps as f64)?;
+        let mut run = Integrator::new(Lobatto4, Plane, start, 10.0 / steps as f64)?;
         run.take_steps(steps)?;
         Ok::<_, Error>(run.state().to_arrays().0)
     };
     let angles = |steps: u64| {
         let start = State::new(0.0, SVector::from([a, b]), SVector::from([0.0, 0.0]));
-        let mut run = Integrator::new(Lobatto4, Angles::default(), start, 10.0 / steps as f64)?;
+        let mut run = Integrator::new(Lobatto4, Angles, start, 10.0 / steps as f64)?;
         run.take_steps(steps)?;
         let [a, b] = run.state().to_arrays().0;
         Ok::<_, Error>(place(a, b))

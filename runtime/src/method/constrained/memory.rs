@@ -33,8 +33,8 @@ pub(super) struct Workspace<V: Vector> {
     pub(super) gradients: Vec<Gradients<V::Scalar>>,
     /// `h b_k Λ_k`, stage by stage.
     pub(super) impulses: Vec<V::Scalar>,
-    /// Made when first needed.
-    pub(super) jacobian: Option<StageJacobian<V::Scalar>>,
+    /// One for each number of stages; that of a costly one is made when it is first needed.
+    pub(super) jacobians: Vec<StageJacobian<V::Scalar>>,
     /// `φ(Q_i)`, then `S⁻¹ φ(Q_i)`, i = 2..s, stage by stage.
     pub(super) defects: Vec<V::Scalar>,
     /// The multipliers at the end of the step before, from which those of a step start.
@@ -62,9 +62,20 @@ impl<V: Vector> Workspace<V> {
     /// Memory for steps of a method and of a system at this state.
     pub(super) fn new<M: Method, S: System<V>>(system: &S, time: f64, q: &V, p: &V) -> Self {
         let constraints = system.constraints();
-        let stages = M::CONSTRAINED.iter().map(|step| step.tableau.weights.len());
-        let stages = stages.max().unwrap_or(0);
         let (metric, point) = Metric::new(system, time, q, p);
+        let mut jacobians: Vec<StageJacobian<V::Scalar>> = Vec::new();
+        let mut stages = 0;
+        for step in M::CONSTRAINED {
+            let count = step.tableau.weights.len();
+            stages = stages.max(count);
+            let (own, half) = (count.saturating_sub(1), metric.half_bandwidth());
+            let known = jacobians
+                .iter()
+                .any(|known| known.fits(constraints, own, half));
+            if !known && !metric.is_full() {
+                jacobians.push(StageJacobian::new(constraints, own, half));
+            }
+        }
         let vectors = |count: usize| -> Vec<V> { (0..count).map(|_| q.zeros_like()).collect() };
         let numbers = |count: usize| vec![V::Scalar::from_f64(0.0); count];
         let gradients = point.gradients.clone();
@@ -79,7 +90,7 @@ impl<V: Vector> Workspace<V> {
             kick: vectors(stages),
             gradients: vec![gradients; stages.saturating_sub(2)],
             impulses: numbers(stages.saturating_sub(1) * constraints),
-            jacobian: None,
+            jacobians,
             defects: numbers(stages.saturating_sub(1) * constraints),
             multipliers: numbers(constraints),
             rates: numbers(constraints),

@@ -19,18 +19,27 @@ use crate::system::{Gradients, System};
 #[derive(Clone, Debug)]
 pub(super) struct StageJacobian<T> {
     elimination: Elimination<T>,
-    /// Blocks `G(Q_i) M⁻¹ G(Q_k)ᵀ` by rows, one after another.
+    /// Blocks `h Z_ik G(Q_i) M⁻¹ G(Q_k)ᵀ` by rows, one after another.
     blocks: Vec<T>,
 }
 
 impl<T: Scalar> StageJacobian<T> {
     /// Memory for this many constraints, and stages with multipliers.
-    fn new(constraints: usize, stages: usize, half_bandwidth: usize) -> Self {
+    pub(super) fn new(constraints: usize, stages: usize, half_bandwidth: usize) -> Self {
         let half = (half_bandwidth + 1) * stages - 1;
         Self {
             elimination: Elimination::new(constraints * stages, half),
-            blocks: vec![T::zero(); stages * stages * constraints * (2 * half_bandwidth + 1)],
+            blocks: vec![T::zero(); Self::entries(constraints, stages, half_bandwidth)],
         }
+    }
+
+    /// Whether it is the memory for these numbers.
+    pub(super) fn fits(&self, constraints: usize, stages: usize, half_bandwidth: usize) -> bool {
+        self.blocks.len() == Self::entries(constraints, stages, half_bandwidth)
+    }
+
+    const fn entries(constraints: usize, stages: usize, half_bandwidth: usize) -> usize {
+        stages * stages * constraints * (2 * half_bandwidth + 1)
     }
 }
 
@@ -54,16 +63,13 @@ impl<V: Vector> Workspace<V> {
     ) -> Result<(), Failure> {
         let (stages, constraints) = (tableau.weights.len() - 1, self.multipliers.len());
         let half = self.metric.half_bandwidth();
-        let length = stages * stages * constraints * (2 * half + 1);
-        let known = self.jacobian.take();
-        let known = known.filter(|jacobian| jacobian.blocks.len() == length);
-        let mut jacobian = match known {
-            Some(known) => known,
+        let fitting = |known: &StageJacobian<_>| known.fits(constraints, stages, half);
+        let place = self.jacobians.iter().position(fitting);
+        let mut jacobian = match place {
+            Some(place) => self.jacobians.swap_remove(place),
             None => StageJacobian::new(constraints, stages, half),
         };
-        if renew && !self.renew(tableau, step, system, &mut jacobian)? {
-            return Err(Failure::SingularMatrix);
-        }
+        let regular = !renew || self.renew(tableau, step, system, &mut jacobian)?;
         let elimination = &mut jacobian.elimination;
         for c in 0..constraints {
             for i in 0..stages {
@@ -76,8 +82,8 @@ impl<V: Vector> Workspace<V> {
                 self.impulses[k * constraints + c] += elimination.right[c * stages + k];
             }
         }
-        self.jacobian = Some(jacobian);
-        Ok(())
+        self.jacobians.push(jacobian);
+        regular.then_some(()).ok_or(Failure::SingularMatrix)
     }
 
     /// Computes and factors the matrix at the present stages; returns whether it is regular.
@@ -104,19 +110,6 @@ impl<V: Vector> Workspace<V> {
                 _ => &self.gradients[stage - 1],
             }
         };
-        for k in 0..stages {
-            let place = (step.at(tableau.momentum_nodes[k]), &self.q[k], &self.p[k]);
-            for i in 0..stages {
-                let block = (i * stages + k) * constraints * width;
-                let block = &mut jacobian.blocks[block..block + constraints * width];
-                let scratch = &mut self.scratch;
-                (self.metric).cross(system, place, at(i + 1), at(k), block, scratch);
-            }
-        }
-        let StageJacobian {
-            elimination,
-            blocks,
-        } = jacobian;
         let factor = |i: usize, k: usize| {
             let products = (0..=stages).map(|j| {
                 let positions = tableau.positions[i + 1][j].double();
@@ -124,6 +117,21 @@ impl<V: Vector> Workspace<V> {
             });
             V::Scalar::from_f64(step.size * products.sum::<f64>())
         };
+        for k in 0..stages {
+            let place = (step.at(tableau.momentum_nodes[k]), &self.q[k], &self.p[k]);
+            for i in 0..stages {
+                let block = (i * stages + k) * constraints * width;
+                let block = &mut jacobian.blocks[block..block + constraints * width];
+                let scratch = &mut self.scratch;
+                (self.metric).cross(system, place, at(i + 1), at(k), block, scratch);
+                let factor = factor(i, k);
+                block.iter_mut().for_each(|entry| *entry *= factor);
+            }
+        }
+        let StageJacobian {
+            elimination,
+            blocks,
+        } = jacobian;
         // Constraint by constraint, in each its stages.
         Ok(elimination.factor(|row, column| {
             let (c, i) = (row / stages, row % stages);
@@ -132,7 +140,7 @@ impl<V: Vector> Workspace<V> {
                 return V::Scalar::from_f64(0.0);
             }
             let block = (i * stages + k) * constraints * width;
-            factor(i, k) * blocks[block + c * width + d + half - c]
+            blocks[block + c * width + d + half - c]
         }))
     }
 }
