@@ -2,7 +2,7 @@
 //!
 //! M and A are derivatives of the graph of L, and H is a graph again, as if it had been written. M falls into blocks: a body of a sum over
 //! all bodies, and velocities that are not coupled. A block of up to three velocities is inverted by its adjugate, a larger one by
-//! elimination ([`inverse`]). M has to be regular ([`Regularity`]); otherwise positions and momenta obey a primary constraint.
+//! elimination. M has to be regular ([`Regularity`]); otherwise positions and momenta obey a primary constraint.
 
 mod inverse;
 mod masses;
