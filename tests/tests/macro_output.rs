@@ -35,7 +35,7 @@ symplectic::tableau! {
         nodes: lobatto(2),
         require: [
             symplectic, symmetric, consistent, explicit, first_row_zero, stiffly_accurate, first_same_as_last,
-            positive_weights,
+            positive_weights, constrained,
         ],
     }
     /// And what only a Runge–Kutta method has.
@@ -222,7 +222,7 @@ fn every_property_is_required_of_a_method_that_has_it() -> Result<(), symplectic
     assert_eq!(held, Properties::NAMES.iter().copied().collect());
     assert_eq!(
         Properties::NAMES.len(),
-        9,
+        10,
         "a new property belongs into the list of `Verlet` or `Midpoint`"
     );
     Ok(())

@@ -187,7 +187,7 @@ mod tests {
             ("basis: polynomial(3), nodes: lobatto(3)", "0.0208333"),
             ("basis: polynomial(4), nodes: lobatto(4)", "0.000277778"),
             ("basis: polynomial(5), nodes: lobatto(5)", "0.00000177154"),
-            ("basis: polynomial(6), nodes: lobatto(6)", "0.0000000065613"),
+            ("basis: polynomial(6), nodes: lobatto(6)", "6.56127e-9"),
             (
                 "basis: polynomial(4), nodes: newton-cotes(4)",
                 "0.000228624",
