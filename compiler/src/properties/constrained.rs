@@ -194,7 +194,7 @@ mod tests {
             ),
             (
                 "basis: polynomial(5), nodes: newton-cotes(5)",
-                "0.0000015984",
+                "0.0000015985",
             ),
             (
                 "basis: polynomial(4), nodes: clenshaw-curtis(4)",
