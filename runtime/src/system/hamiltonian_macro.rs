@@ -91,8 +91,8 @@
 /// # fn main() -> Result<(), Error> {
 /// let start = State::from_arrays(0.0, [0.6, -0.8], [0.0, 0.0]);
 /// let mut run = Integrator::new(Lobatto3, Pendulum::default(), start, 0.01)?;
-/// let [x, y] = run.integrate_to(10.0)?.to_arrays().0;
-/// assert!((x.hypot(y) - 1.0_f64).abs() < 1e-15);
+/// let [x, y]: [f64; 2] = run.integrate_to(10.0)?.to_arrays().0;
+/// assert!((x.hypot(y) - 1.0).abs() < 1e-15);
 /// # Ok(())
 /// # }
 /// ```
