@@ -58,6 +58,28 @@ symplectic::hamiltonian! {
     friction: gamma
 }
 
+symplectic::hamiltonian! {
+    /// A bead on a line, pushed against it where it is not at zero.
+    pub Line
+    q: [x, y], p: [px, py];
+    H = (px^2 + py^2)/2 - x y
+    constraints: { line = y }
+}
+
+/// The positions need one sweep and the last multiplier two: with one allowed that is an error, and no momentum off the line.
+#[test]
+fn too_few_sweeps_are_an_error() -> Result<(), Error> {
+    let start = State::from_arrays(0.0, [0.0, 0.0], [1.0, 0.0]);
+    let mut run = Integrator::new(Rattle, Line, start.clone(), 0.1)?;
+    run.set_max_iterations(1);
+    let error = run.step().map(|_| ()).expect_err("one sweep");
+    assert!(matches!(error, Error::NoConvergence { .. }), "{error}");
+    assert_eq!(run.state(), &start);
+    run.set_max_iterations(2);
+    assert_eq!(run.step()?.to_arrays(), ([0.1, 0.0], [1.0, 0.0]));
+    Ok(())
+}
+
 #[test]
 fn coordinates_and_angles_are_the_same_motion() -> Result<(), Error> {
     let (a, b) = (1.2_f64, 2.0_f64);

@@ -257,17 +257,8 @@ impl<V: Vector> Workspace<V> {
                     &self.drift,
                 );
             } else {
-                let drift = &self.drift;
-                let (q, low) = (step.q.as_slice(), step.q_low.as_slice());
-                let places = outcome.q.as_mut_slice().iter_mut();
-                let places = places.zip(outcome.q_low.as_mut_slice()).enumerate();
-                for (k, (out, out_low)) in places {
-                    let (sum, rest) = add::<R, _>(q[k], low[k], stages, |j| drift[j].as_slice()[k]);
-                    *out = sum;
-                    if R::COMPENSATED {
-                        *out_low = rest;
-                    }
-                }
+                let (q, start) = ((&mut *outcome.q, &mut *outcome.q_low), (step.q, step.q_low));
+                result::<R, V>(q, start, &self.drift[..stages]);
                 self.q[i].clone_from(outcome.q);
             }
             if i < moving {
@@ -350,9 +341,10 @@ impl<V: Vector> Workspace<V> {
         } = self;
         metric.look(system, end, (outcome.q, &p[last]), point, scratch)?;
         self.multipliers.fill(V::Scalar::from_f64(0.0));
-        let (mut best, mut since) = (f64::INFINITY, 0);
+        let (mut best, mut since, mut settled) = (f64::INFINITY, 0, false);
         for sweep in 1..=stopping.max_iterations {
-            self.momentum::<R>(step, last, outcome);
+            let (p, start) = ((&mut *outcome.p, &mut *outcome.p_low), (step.p, step.p_low));
+            result::<R, V>(p, start, &self.kick[..=last]);
             let velocity = &mut self.scratch[0];
             system.velocity(V::Scalar::from_f64(end), outcome.q, outcome.p, velocity);
             work.evaluations += 1;
@@ -361,6 +353,7 @@ impl<V: Vector> Workspace<V> {
                 return Err(self.not_finite());
             }
             if residual <= ROUNDING {
+                settled = true;
                 break;
             }
             if residual < 0.5 * best {
@@ -368,6 +361,7 @@ impl<V: Vector> Workspace<V> {
             } else {
                 since += 1;
                 if best <= NOISE {
+                    settled = true;
                     break;
                 }
                 if since > PATIENCE {
@@ -384,31 +378,17 @@ impl<V: Vector> Workspace<V> {
             }
             (self.end.gradients).subtract_transposed(&self.rates, self.kick[last].as_mut_slice());
         }
+        if !settled {
+            return Err(Failure::NoConvergence {
+                residual: best * V::Scalar::EPSILON,
+                iterations: stopping.max_iterations,
+            });
+        }
         let inverse = weight.recip();
         for multiplier in &mut self.multipliers {
             *multiplier *= inverse;
         }
         Ok(())
-    }
-
-    /// The momentum after the step, of all kicks.
-    fn momentum<R: Summation>(
-        &self,
-        step: &Step<'_, V>,
-        last: usize,
-        outcome: &mut Outcome<'_, V>,
-    ) {
-        let (p, low) = (step.p.as_slice(), step.p_low.as_slice());
-        let places = outcome.p.as_mut_slice().iter_mut();
-        let places = places.zip(outcome.p_low.as_mut_slice()).enumerate();
-        for (k, (out, out_low)) in places {
-            let kick = |j: usize| self.kick[j].as_slice()[k];
-            let (sum, rest) = add::<R, _>(p[k], low[k], last + 1, kick);
-            *out = sum;
-            if R::COMPENSATED {
-                *out_low = rest;
-            }
-        }
     }
 
     /// `G velocity` at the end of the step; returns the largest one, in units of its rounding errors.
@@ -452,6 +432,24 @@ impl<V: Vector> Workspace<V> {
             (None, None) => (Quantity::Constraint, None),
         };
         Failure::NonFinite { what, stage }
+    }
+}
+
+/// Position or momentum after a step, `base + low + Σ_j increment_j`, with what it leaves out.
+fn result<R: Summation, V: Vector>(
+    (out, out_low): (&mut V, &mut V),
+    (base, low): (&V, &V),
+    increments: &[V],
+) {
+    let (base, low) = (base.as_slice(), low.as_slice());
+    let places = out.as_mut_slice().iter_mut();
+    for (k, (out, out_low)) in places.zip(out_low.as_mut_slice()).enumerate() {
+        let increment = |j: usize| increments[j].as_slice()[k];
+        let (sum, rest) = add::<R, _>(base[k], low[k], increments.len(), increment);
+        *out = sum;
+        if R::COMPENSATED {
+            *out_low = rest;
+        }
     }
 }
 
