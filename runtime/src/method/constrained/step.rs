@@ -5,7 +5,7 @@ use crate::error::Quantity;
 use crate::method::storage::is_finite;
 use crate::method::{ConstrainedTableau, Failure, Outcome, Step, StepStatistics, Stopping};
 use crate::number::summation::add;
-use crate::number::{Coefficient, Scalar, Summation, Vector};
+use crate::number::{Coefficient, Scalar, Summation, Vector, copy};
 use crate::system::{Class, Gradients, System};
 
 /// A residual of this many units of rounding counts as zero.
@@ -80,8 +80,8 @@ impl<V: Vector> Workspace<V> {
         let velocity = &mut self.scratch[0];
         system.velocity(step.at(Coefficient::exact(0.0)), step.q, step.p, velocity);
         work.evaluations += 1;
-        self.q[0].clone_from(step.q);
-        self.p.iter_mut().for_each(|p| p.clone_from(step.p));
+        copy(&mut self.q[0], step.q);
+        self.p.iter_mut().for_each(|p| copy(p, step.p));
         for i in 1..stages {
             let factor = V::Scalar::weight(step.size, tableau.nodes[i]);
             let pairs = step.q.as_slice().iter().zip(velocity.as_slice());
@@ -259,7 +259,7 @@ impl<V: Vector> Workspace<V> {
             } else {
                 let (q, start) = ((&mut *outcome.q, &mut *outcome.q_low), (step.q, step.q_low));
                 result::<R, V>(q, start, &self.drift[..stages]);
-                self.q[i].clone_from(outcome.q);
+                copy(&mut self.q[i], outcome.q);
             }
             if i < moving {
                 let pairs = self.q[i].as_slice().iter().zip(old.as_slice());
@@ -329,7 +329,7 @@ impl<V: Vector> Workspace<V> {
             *kick = weight * force;
         }
         if S::Class::SEPARABLE {
-            self.end.force.clone_from(force);
+            copy(&mut self.end.force, force);
         }
         let end = step.time + step.size;
         let Self {
@@ -455,7 +455,7 @@ fn result<R: Summation, V: Vector>(
 
 /// `out = base + (low + Σ_j factor_j increment_j)`
 fn stage<V: Vector>(out: &mut V, (base, low): (&V, &V), factors: &[Coefficient], increments: &[V]) {
-    out.clone_from(low);
+    copy(out, low);
     for (&factor, increment) in factors.iter().zip(increments) {
         if factor.double() == 0.0 {
             continue;
