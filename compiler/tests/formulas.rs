@@ -186,8 +186,65 @@ fn wrong_formulas_are_refused_at_their_place() {
         refused("P q: [x], p: [px]; H = px^2 + x px friction: 1"),
         refused("P q: [x], p: [px]; H = px^2 friction: 1 invariants: { momentum = px }"),
         refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 friction: 1 constraints: { rod = x }"),
+        refused("P q: [x], p: [px]; H = px^2 force: { px = 1 }"),
+        refused("P q: [x], p: [px]; H = px^2 force: { z = 1 }"),
+        refused("P q: [x], p: [px]; H = px^2 force: -px"),
+        refused("P q: [x], p: [px]; H = px^2 force: { x = [1, 2] }"),
+        refused("P q: [x], p: [px]; H = px^2 force: { x + 1 = 2 }"),
+        refused("P q: [x], p: [px]; H = px^2 force: { x = |px| }"),
+        refused("P q: [N], p: [N]; H = |p|^2 force: { q[i] = 1 }"),
+        refused("P<N> q: [N; 2], p: [N; 2]; H = sum(i: |p[i]|^2) force: { q[i] = 1 }"),
+        refused("P<N> q: [N], p: [N]; H = sum(i: p[i]^2) force: { q[i](i in 1..N) = p[i-2] }"),
+        refused("P q: [3], p: [3]; H = |p|^2 force: { q[3] = 1 }"),
+        refused("P q: [x], p: [px]; H = px^2 friction: 1 force: { x = -px }"),
+        refused("P q: [x], p: [px]; H = px^2 force: { x = -px } require: [separable]"),
+        refused("P q: [x], p: [px]; H = px^2 force: { x = cos(t) } require: [time_independent]"),
+        refused("P q: [x], p: [px]; H = px^2 force: { x = 1 } invariants: { momentum = px }"),
+        refused(
+            "P<N> q: [N], p: [N]; H = sum(i: p[i]^2) force: { q[i] = -p[i] } invariants: { total = sum(i: p[i]) }",
+        ),
     ];
     expect_file!["data/formulas_refused.txt"].assert_eq(&(all.join("\n\n") + "\n"));
+}
+
+/// Dampers between pairs leave the total momentum alone, and a rotation does not see a central force.
+#[test]
+fn what_applied_forces_conserve() {
+    for (text, proved) in [
+        (
+            "P { dampers: pairs } q: [..], p: [..]; H = sum(i: p[i]^2/2)
+             force: { q[i]((i, j) in dampers) = p[j] - p[i], q[j]((i, j) in dampers) = p[i] - p[j] }
+             invariants: { total = sum(i: p[i]) }",
+            false,
+        ),
+        (
+            "P q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 - 1/|[x, y]|
+             force: { x = -x sin(t), y = -y sin(t) }
+             invariants: { angular_momentum = x py - y px }",
+            false,
+        ),
+        (
+            "P q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 force: { x = -px } invariants: { momentum = py }",
+            true,
+        ),
+    ] {
+        let (mut read, structure) = read(text);
+        read.check(&structure, text).expect("conserved");
+        assert_eq!(read.invariants[0].proved, proved, "{text}");
+        assert!(structure.translations.is_empty() && structure.rotations.is_empty());
+    }
+}
+
+/// The class, the equations and the second derivatives with a force.
+#[test]
+fn a_forced_system() {
+    let (read, structure) = read(
+        "Drone { c: 0.1, g: 9.81 } q: [x, y], p: [px, py];
+         H = (px^2 + py^2)/2 + g y force: { y = -c py |[px, py]|, x = -c px |[px, py]| + sin(t) }",
+    );
+    expect_file!["emission/formula_forced.rs"].assert_eq(&formula::code(&read, &structure));
+    expect_file!["data/forced.txt"].assert_eq(&description::text(&read, &structure));
+    expect_file!["data/forced.latex"].assert_eq(&description::latex(&read));
 }
 
 #[test]

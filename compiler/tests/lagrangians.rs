@@ -27,6 +27,21 @@ const DOUBLE_PENDULUM: &str = "DoublePendulum { g: 9.81 }
     let d = a - b;
     L = va^2 + vb^2/2 + va vb cos(d) + g (2 cos(a) + cos(b))";
 
+/// Velocities in a force are written with momenta.
+#[test]
+fn forces_of_velocities() {
+    let force = |text: &str| {
+        let (read, _) = lagrangian(text);
+        read.applied_forces(Notation::Text).join("; ")
+    };
+    expect!["force on r = −c (pr/m); force on a = −r² c (pa/(r² m))"].assert_eq(&force(
+        "S { c, m } q: [r, a], v: [vr, va]; L = m (vr^2 + r^2 va^2)/2 force: { r = -c vr, a = -c r^2 va }",
+    ));
+    expect!["force on q[i] = −p[i]/m[i]    (0 ≤ i < N)"].assert_eq(&force(
+        "S<N> { m: [N] } q: [N], v: [N]; L = sum(i: m[i] v[i]^2/2 - q[i]^2) force: { q[i] = -v[i] }",
+    ));
+}
+
 #[test]
 fn the_code_of_the_double_pendulum() {
     let (read, structure) = lagrangian(DOUBLE_PENDULUM);

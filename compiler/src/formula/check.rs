@@ -45,6 +45,14 @@ impl System {
         if self.friction.is_some() {
             self.check_friction(structure, input)?;
         }
+        if let (Some(force), true) = (self.force_of_momenta(), self.friction.is_some()) {
+            let kind = FormulaError::Unsupported {
+                what: "friction beside a force that depends on momenta".to_owned(),
+                instead: "write the friction as a force too",
+            };
+            let place = self.place_of(force).cloned().unwrap_or(0..0);
+            return Err(input.error(&place, kind.into()));
+        }
         for name in self.required.clone() {
             self.require(structure, &name, input)?;
         }
@@ -90,7 +98,17 @@ impl System {
             ),
         };
         match name.text.as_str() {
-            "separable" => mixed("separable"),
+            "separable" => {
+                mixed("separable")?;
+                match self.force_of_momenta() {
+                    None => Ok(()),
+                    Some(force) => fail(
+                        "separable",
+                        "this force depends on momenta".to_owned(),
+                        Some(force),
+                    ),
+                }
+            }
             "quadratic_kinetic" => {
                 mixed("of quadratic kinetic energy")?;
                 match structure.kinetic {
@@ -116,9 +134,10 @@ impl System {
             "time_independent" => match structure.time_dependent {
                 false => Ok(()),
                 true => {
+                    let applied = self.applied.iter().map(|part| part.value);
                     let time = self
                         .graph
-                        .below([self.energy])
+                        .below(applied.chain([self.energy]))
                         .into_iter()
                         .find(|&id| matches!(self.graph.node(id), Node::Time));
                     fail("independent of time", "here is the time".to_owned(), time)
@@ -156,7 +175,7 @@ impl System {
         all.extend(self.constraint_square().map(|square| ("Σφ²", square)));
         for &part in &invariant.parts {
             for &(of, formula) in &all {
-                if self.is_symmetry(part, formula) {
+                if self.is_symmetry(part, formula) && !(of == "H" && self.is_forced(part)) {
                     continue;
                 }
                 proved = false;
@@ -200,7 +219,22 @@ impl System {
         seen && self.graph.is_zero(speed)
     }
 
-    /// The Poisson bracket `{function, energy}` and the time derivative at a state, and the size of its terms.
+    /// Whether applied forces change a function, as far as it shows.
+    fn is_forced(&mut self, function: Id) -> bool {
+        let system = self.clone();
+        let mut seen = true;
+        let power = directional(&mut self.graph, function, None, |graph, coordinate| {
+            if coordinate.half != Half::P {
+                return graph.integer(0);
+            }
+            let force = at(&system, graph, &system.applied, coordinate);
+            seen &= force.is_some();
+            force.unwrap_or_else(|| graph.integer(0))
+        });
+        !(seen && self.graph.is_zero(power))
+    }
+
+    /// `{function, energy}`, the time derivative, and if `energy` is H what applied forces add, at a state, and the size of the terms.
     fn bracket(&mut self, function: Id, energy: Id, seed: u64) -> Option<(f64, f64)> {
         let mut derivatives = Vec::new();
         for (of, half) in [
@@ -221,7 +255,13 @@ impl System {
             .iter()
             .map(|parts| evaluator.sum(parts))
             .collect();
-        let [f_q, f_p, h_q, h_p] = <[_; 4]>::try_from(values?).ok()?;
+        let [f_q, f_p, mut h_q, h_p] = <[_; 4]>::try_from(values?).ok()?;
+        if energy == self.energy {
+            for (row, applied) in h_q.iter_mut().zip(evaluator.sum(&self.applied)?) {
+                let pairs = row.iter_mut().zip(applied);
+                pairs.for_each(|(slope, force)| *slope -= force);
+            }
+        }
         let mut sum = evaluator.value(by_time)?;
         let mut size = sum.abs();
         for (i, row) in f_q.iter().enumerate() {
@@ -293,7 +333,7 @@ impl System {
 }
 
 /// The derivative by a coordinate, from the parts of a derivative; `None` where that is not seen.
-fn at(
+pub(super) fn at(
     system: &System,
     graph: &mut Graph,
     parts: &[Scatter],

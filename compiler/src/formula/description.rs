@@ -29,7 +29,10 @@ impl System {
         let mut copy = self.clone();
         let mut lines = Vec::new();
         for (half, dotted, sign) in HALVES {
-            let parts = gradient(&mut copy.graph, self.energy, &[], integer(sign), half);
+            let mut parts = gradient(&mut copy.graph, self.energy, &[], integer(sign), half);
+            if half == Half::Q {
+                copy.add_applied(&mut parts);
+            }
             lines.extend(copy.equations(dotted, &parts, notation));
         }
         lines
@@ -56,6 +59,17 @@ impl System {
         );
         copy.lines(&parts, notation, |target| {
             copy.coordinate_name(&target.of(Half::P), notation)
+        })
+    }
+
+    /// The applied forces, a line for each.
+    pub fn applied_forces(&self, notation: Notation) -> Vec<String> {
+        self.lines(&self.applied, notation, |target| {
+            let target = self.coordinate_name(target, notation);
+            match notation {
+                Notation::Text => format!("force on {target}"),
+                Notation::Latex => format!("f_{{{target}}}"),
+            }
         })
     }
 
@@ -277,6 +291,9 @@ pub fn json(system: &System, structure: &Structure) -> Value {
     if !system.constraints.is_empty() {
         all["constraints"] = both(System::constraint_equations);
     }
+    if !system.applied.is_empty() {
+        all["applied_force"] = both(System::applied_forces);
+    }
     if let Some(rate) = system.friction {
         all["friction"] = json!({
             "text": system.formula(rate, Notation::Text),
@@ -328,11 +345,18 @@ pub fn facts(system: &System, structure: &Structure) -> Vec<String> {
         }
         (Ok(_), Kinetic::General) => "separable".to_owned(),
     });
-    facts.push(match (structure.time_dependent, system.friction) {
+    let conservative = system.friction.is_none() && system.applied.is_empty();
+    facts.push(match (structure.time_dependent, conservative) {
         (true, _) => "dependent on time".to_owned(),
-        (false, None) => "independent of time, so H is conserved".to_owned(),
-        (false, Some(_)) => "independent of time".to_owned(),
+        (false, true) => "independent of time, so H is conserved".to_owned(),
+        (false, false) => "independent of time".to_owned(),
     });
+    if !system.applied.is_empty() {
+        facts.push(match system.force_of_momenta() {
+            Some(_) => "with an applied force that depends on momenta, so steps are those for general systems".to_owned(),
+            None => "with an applied force".to_owned(),
+        });
+    }
     if let Some(rate) = system.friction {
         facts.push(format!(
             "the friction −γp with γ = {} is added to the force",

@@ -569,6 +569,16 @@ impl Graph {
         found.into_iter().collect()
     }
 
+    /// The loops of the sums in a formula.
+    pub fn totals(&self, root: Id) -> Vec<LoopId> {
+        let below = self.below([root]);
+        let loops = below.into_iter().filter_map(|id| match self.node(id) {
+            Node::Total(over, _) => Some(*over),
+            _ => None,
+        });
+        loops.collect()
+    }
+
     /// A node with the index of another loop in place of one.
     pub fn rename(&mut self, root: Id, from: LoopId, to: LoopId) -> Id {
         let index = |index: &Index| {

@@ -86,7 +86,8 @@ impl Structure {
         Structure {
             split,
             kinetic,
-            time_dependent: system.graph.depends(energy).time,
+            time_dependent: system.graph.depends(energy).time
+                || (system.applied.iter()).any(|part| system.graph.depends(part.value).time),
             cyclic: symmetries.cyclic,
             translations: symmetries.translations,
             rotations: symmetries.rotations,
@@ -107,8 +108,8 @@ struct Symmetries {
 impl Symmetries {
     fn of(system: &mut System) -> Self {
         let mut found = Self::of_energy(system);
-        if system.friction.is_some() {
-            // The momenta decay.
+        if system.friction.is_some() || !system.applied.is_empty() {
+            // The momenta change.
             found.keep(&Symmetries {
                 cyclic: Vec::new(),
                 translations: Vec::new(),

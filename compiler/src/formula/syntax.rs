@@ -90,6 +90,8 @@ pub struct Definition {
     pub function: Option<Expression>,
     /// Holonomic constraints.
     pub constraints: Vec<Constraint>,
+    /// Applied forces, without a potential.
+    pub forces: Vec<Force>,
     /// The rate γ of a friction `−γp`.
     pub friction: Option<Expression>,
     /// What is said to be conserved.
@@ -106,6 +108,17 @@ pub struct Constraint {
     /// The indices for each of which there is one.
     pub over: Option<Over>,
     /// What is zero.
+    pub value: Expression,
+}
+
+/// `x = f`, `q[i] = f` or `q[i](over) = f`: f is added to the force on a coordinate.
+#[derive(Debug, Clone)]
+pub struct Force {
+    /// The coordinate: a name, or `q` with an index.
+    pub target: Expression,
+    /// The indices for each of which there is one.
+    pub over: Option<Over>,
+    /// The force.
     pub value: Expression,
 }
 

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::derivative::Scatter;
 use super::graph::{Coordinate, Graph, Half, Id, LoopId, Number, integer};
 use super::syntax::{Ends, Length, Name, Span};
 
@@ -30,6 +31,8 @@ pub struct System {
     pub lagrangian: Option<Lagrangian>,
     /// Holonomic constraints.
     pub constraints: Vec<Constraint>,
+    /// Applied forces: each value is added to the force on its coordinate.
+    pub applied: Vec<Scatter>,
     /// The rate γ of a friction `−γp`.
     pub friction: Option<Id>,
     /// What is said to be conserved.
@@ -131,9 +134,30 @@ impl Layout {
 }
 
 impl System {
-    /// Whether there is nothing but H: no constraint, no friction.
+    /// Whether there is nothing but H: no constraint, no applied force, no friction.
     pub fn is_free(&self) -> bool {
-        self.constraints.is_empty() && self.friction.is_none()
+        self.constraints.is_empty() && self.applied.is_empty() && self.friction.is_none()
+    }
+
+    /// Adds the applied forces to the parts of `−∂H/∂q`: in one term where the same loops go to the same coordinate.
+    pub fn add_applied(&mut self, force: &mut Vec<Scatter>) {
+        for applied in &self.applied {
+            let same =
+                |part: &&mut Scatter| part.loops == applied.loops && part.target == applied.target;
+            match force.iter_mut().find(same) {
+                Some(part) => {
+                    let terms = [part.value, applied.value].map(|value| (integer(1), value));
+                    part.value = self.graph.sum(terms);
+                }
+                None => force.push(applied.clone()),
+            }
+        }
+    }
+
+    /// An applied force that depends on momenta, if there is one.
+    pub fn force_of_momenta(&self) -> Option<Id> {
+        let mut values = self.applied.iter().map(|part| part.value);
+        values.find(|&value| self.graph.depends(value).p)
     }
 
     /// The sum of the squares of all constraints, which changes wherever one of them does; none where there is no constraint.

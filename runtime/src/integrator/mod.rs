@@ -292,25 +292,31 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         outcome.map(|()| &self.course.state)
     }
 
-    /// A step whose stages `solve` finds from the momentum after it, with its number.
+    /// A step whose stages `solve` finds from the step and the momentum after it, with its number.
     #[cfg(feature = "alloc")]
     pub(crate) fn step_solved_by<T>(
         &mut self,
-        solve: impl FnOnce(&S, &Step<'_, V>, u64, Stopping) -> Result<T, Error>,
+        solve: impl FnOnce(&S, &Step<'_, V>, &V, u64, Stopping) -> Result<T, Error>,
     ) -> Result<T, Error> {
         let (size, time) = (self.step_size, self.clock.next());
         self.prepare(size, time)?;
+        let number = self.course.statistics.steps + 1;
         let step = Step {
             time: self.course.state.time,
             size,
             q: &self.course.state.q,
             q_low: &self.course.low.0,
-            p: &self.course.next.1,
-            p_low: &self.course.next_low.1,
+            p: &self.course.state.p,
+            p_low: &self.course.low.1,
             linear_velocity: self.course.linear_velocity,
         };
-        let number = self.course.statistics.steps + 1;
-        let outcome = solve(&self.system, &step, number, self.stopping);
+        let outcome = solve(
+            &self.system,
+            &step,
+            &self.course.next.1,
+            number,
+            self.stopping,
+        );
         if outcome.is_ok() {
             self.accept(size, time);
             self.clock.tick();

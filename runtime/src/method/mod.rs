@@ -46,7 +46,7 @@ pub use separable_only::{SeparableOnly, rows, staircase};
 pub use solver::Solver;
 pub use splitting::{Splitting, SplittingPlan};
 pub use splitting_macros::{composition, splitting};
-pub use step::{EvaluationCounts, EvaluationObserver, Outcome, Span, Step, WarmStart};
+pub use step::{EvaluationCounts, EvaluationObserver, Outcome, Span, StageView, Step, WarmStart};
 pub use stopping::Stopping;
 pub use storage::{Evaluations, StageStorage, Stages};
 pub use tableau::{
@@ -253,6 +253,23 @@ pub trait Plan {
         S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
         W: EvaluationObserver;
+
+    /// Takes a step once more, with new memory, and shows its stages; `None` where these follow from the position at its start and the
+    /// momentum at its end.
+    #[inline]
+    fn show_stages<R, V, S>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _stopping: Stopping,
+        _show: &mut dyn FnMut(StageView<'_, V>),
+    ) -> Option<Result<(), Failure>>
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        None
+    }
 
     /// Writes p' at a state into `rate`: the force, and that of constraints.
     #[inline]

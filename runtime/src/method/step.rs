@@ -90,6 +90,21 @@ impl Span {
     }
 }
 
+/// A stage of a step that was taken.
+#[derive(Clone, Copy, Debug)]
+pub struct StageView<'a, V> {
+    /// `h b_i`
+    pub weight: f64,
+    /// `t0 + c_i h`
+    pub time: f64,
+    /// `t0 + c̃_i h`
+    pub momentum_time: f64,
+    /// Position `Q_i`.
+    pub q: &'a V,
+    /// Momentum `P_i`.
+    pub p: &'a V,
+}
+
 /// Where the result of a step is written; the old values mean nothing.
 #[derive(Debug)]
 pub struct Outcome<'a, V> {

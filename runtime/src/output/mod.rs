@@ -1,6 +1,7 @@
 //! What is seen of a run: states, dense output, events, invariants, progress.
 
 pub(crate) mod at_times;
+pub(crate) mod balance;
 pub(crate) mod brent;
 pub(crate) mod dense;
 pub(crate) mod event;
@@ -9,6 +10,7 @@ pub(crate) mod progress;
 pub(crate) mod states;
 
 pub use crate::method::{Inside, Interpolation};
+pub use balance::Balance;
 pub use dense::DenseOutput;
 pub use event::{Event, Events, Moment};
 pub use invariant::Invariant;

@@ -70,6 +70,9 @@ pub trait Hamiltonian {
     /// Whether the velocity is the momentum, as with unit masses: see [`SeparableHamiltonian::UNIT_MASSES`].
     const UNIT_MASSES: bool = false;
 
+    /// Whether the force has a part without a potential: [`applied_force`](Self::applied_force).
+    const FORCED: bool = false;
+
     /// Writes ∂H/∂p at `(time, q, p)` into `velocity`.
     fn velocity<T: Scalar>(
         &self,
@@ -79,7 +82,7 @@ pub trait Hamiltonian {
         velocity: &mut Self::Vector<T>,
     );
 
-    /// Writes −∂H/∂q at `(time, q, p)` into `force`.
+    /// Writes −∂H/∂q at `(time, q, p)`, and what is [applied](Self::applied_force), into `force`.
     fn force<T: Scalar>(
         &self,
         time: T,
@@ -142,8 +145,70 @@ pub trait Hamiltonian {
         None
     }
 
+    /// Writes f, the part of the force that has no potential, into `applied`, with [`FORCED`](Self::FORCED) `= true`:
+    ///
+    /// ```text
+    /// p' = force(t, q, p) = −∂H/∂q + f(t, q, p)
+    /// ```
+    ///
+    /// [`force`](Self::force) contains f already, so steps need nothing else; [balances](crate::variational::step_with_stages) of energy and
+    /// momentum, and Newton's iteration, take it from here. A force that depends on momenta makes the class
+    /// [`General`](crate::General), where a method has its order for general Hamiltonians (Marsden & West, 2001, Example 3.2.5); one that
+    /// depends on time and positions only leaves a separable system separable.
+    ///
+    /// ```
+    /// use symplectic::nalgebra::SVector;
+    /// use symplectic::{Error, General, Hamiltonian, Integrator, Scalar, State};
+    ///
+    /// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
+    ///
+    /// /// Van der Pol's oscillator: q'' = −q + (1 − q²) q'.
+    /// struct VanDerPol;
+    ///
+    /// type Vector1<T> = SVector<T, 1>;
+    ///
+    /// impl Hamiltonian for VanDerPol {
+    ///     type Class = General;
+    ///     type Vector<T: Scalar> = Vector1<T>;
+    ///     const FORCED: bool = true;
+    ///
+    ///     fn velocity<T: Scalar>(&self, _: T, _: &Vector1<T>, p: &Vector1<T>, velocity: &mut Vector1<T>) {
+    ///         *velocity = *p;
+    ///     }
+    ///
+    ///     fn force<T: Scalar>(&self, time: T, q: &Vector1<T>, p: &Vector1<T>, force: &mut Vector1<T>) {
+    ///         self.applied_force(time, q, p, force);
+    ///         *force -= q;
+    ///     }
+    ///
+    ///     fn applied_force<T: Scalar>(&self, _: T, q: &Vector1<T>, p: &Vector1<T>, applied: &mut Vector1<T>) {
+    ///         applied[0] = (T::one() - q[0] * q[0]) * p[0];
+    ///     }
+    /// }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let start = State::from_arrays(0.0, [2.0], [0.0]);
+    /// let mut run = Integrator::new(Gauss3, VanDerPol, start, 0.05)?;
+    /// // The period of the limit cycle is 6.6632868593…
+    /// let end = run.integrate_to(20.0 * 6.663_286_859_323)?.clone();
+    /// let next = run.integrate_to(21.0 * 6.663_286_859_323)?;
+    /// assert!((end.q[0] - next.q[0]).abs() < 1e-6);
+    /// # Ok(())
+    /// # }
+    /// ```
+    fn applied_force<T: Scalar>(
+        &self,
+        _time: T,
+        _q: &Self::Vector<T>,
+        _p: &Self::Vector<T>,
+        applied: &mut Self::Vector<T>,
+    ) {
+        applied.as_mut_slice().fill(T::zero());
+    }
+
     /// Writes the second derivatives of H at `(time, q, p)` into `jacobian`, which is zero before, and returns `true`; `false` where the
-    /// system does not know them. [Newton](crate::solver::Newton)'s iteration takes differences then.
+    /// system does not know them. [Newton](crate::solver::Newton)'s iteration takes differences then. Derivatives of an
+    /// [applied force](Self::applied_force) by positions are added to `force_by_position`, those by momenta have a matrix of their own.
     #[cfg(feature = "alloc")]
     fn second_derivatives<T: Scalar>(
         &self,

@@ -112,7 +112,8 @@ impl<T: Scalar> BandMatrix<T> {
 
 /// The derivatives of the velocity and the force of a system, at one time, position and momentum.
 ///
-/// That of the force by the momentum is not among them: it is −(∂velocity/∂q)ᵀ, for both are second derivatives of H.
+/// For a Hamiltonian ∂force/∂p is −(∂velocity/∂q)ᵀ, for both are second derivatives of H. Only what an applied force adds to that is
+/// stored.
 #[derive(Clone, Debug)]
 pub struct Jacobian<T> {
     /// ∂velocity_i/∂q_j = ∂²H/∂p_i∂q_j; zero for a separable system.
@@ -121,6 +122,8 @@ pub struct Jacobian<T> {
     pub velocity_by_momentum: BandMatrix<T>,
     /// ∂force_i/∂q_j = −∂²H/∂q_i∂q_j
     pub force_by_position: BandMatrix<T>,
+    /// ∂f_i/∂p_j of the [applied force](crate::Hamiltonian::applied_force) f; zero for every other system.
+    pub applied_force_by_momentum: BandMatrix<T>,
 }
 
 impl<T: Scalar> Jacobian<T> {
@@ -130,7 +133,8 @@ impl<T: Scalar> Jacobian<T> {
         Self {
             velocity_by_position: zero.clone(),
             velocity_by_momentum: zero.clone(),
-            force_by_position: zero,
+            force_by_position: zero.clone(),
+            applied_force_by_momentum: zero,
         }
     }
 
@@ -139,6 +143,7 @@ impl<T: Scalar> Jacobian<T> {
         self.velocity_by_position.clear();
         self.velocity_by_momentum.clear();
         self.force_by_position.clear();
+        self.applied_force_by_momentum.clear();
     }
 
     /// Whether all entries are finite.
@@ -146,5 +151,12 @@ impl<T: Scalar> Jacobian<T> {
         self.velocity_by_position.is_finite()
             && self.velocity_by_momentum.is_finite()
             && self.force_by_position.is_finite()
+            && self.applied_force_by_momentum.is_finite()
+    }
+
+    /// ∂force_i/∂p_j
+    #[inline(always)]
+    pub(crate) fn force_by_momentum(&self, i: usize, j: usize) -> T {
+        self.applied_force_by_momentum.get(i, j) - self.velocity_by_position.get(j, i)
     }
 }

@@ -1,5 +1,7 @@
 //! A system over one type of vectors: what a step evaluates.
 
+use num_traits::Zero;
+
 use crate::method::Solver;
 use crate::number::{F64x2, F64x4, F64x8, Vector};
 use crate::solver::Automatic;
@@ -56,7 +58,10 @@ pub trait System<V: Vector>: Sized {
     /// Writes ∂H/∂p at `(time, q, p)` into `velocity`.
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V);
 
-    /// Writes −∂H/∂q at `(time, q, p)` into `force`.
+    /// Whether the force has a part without a potential: see [`Hamiltonian::applied_force`].
+    const FORCED: bool = false;
+
+    /// Writes −∂H/∂q at `(time, q, p)`, and what is [applied](Self::applied_force), into `force`.
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V);
 
     /// Both at once, with the same bits: see [`Hamiltonian::slopes`].
@@ -69,6 +74,11 @@ pub trait System<V: Vector>: Sized {
     /// H at `(time, q, p)`, where the system knows it. No method needs it.
     fn energy(&self, _time: V::Scalar, _q: &V, _p: &V) -> Option<V::Scalar> {
         None
+    }
+
+    /// Writes the part of the force that has no potential: see [`Hamiltonian::applied_force`].
+    fn applied_force(&self, _time: V::Scalar, _q: &V, _p: &V, applied: &mut V) {
+        applied.as_mut_slice().fill(V::Scalar::zero());
     }
 
     /// Writes the second derivatives of H into `jacobian`, where the system knows them: see
@@ -168,6 +178,12 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     #[inline(always)]
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
         Hamiltonian::force::<V::Scalar>(self, time, q, p, force);
+    }
+
+    const FORCED: bool = H::FORCED;
+
+    fn applied_force(&self, time: V::Scalar, q: &V, p: &V, applied: &mut V) {
+        Hamiltonian::applied_force::<V::Scalar>(self, time, q, p, applied);
     }
 
     #[inline(always)]

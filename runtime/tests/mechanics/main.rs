@@ -1,5 +1,6 @@
 //! Systems with constraints, and with friction.
 
+mod forces;
 mod formulas;
 mod friction;
 mod holonomic;

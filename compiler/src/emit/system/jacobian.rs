@@ -53,6 +53,21 @@ impl Emitter<'_> {
                 }
             }
         }
+        for applied in self.system.applied.clone() {
+            let matrices = [
+                ("force_by_position", Half::Q),
+                ("applied_force_by_momentum", Half::P),
+            ];
+            for (matrix, column) in matrices {
+                let (value, loops) = (applied.value, &applied.loops);
+                let all = gradient(&mut self.system.graph, value, loops, Number::one(), column);
+                let target = &applied.target;
+                parts.extend(
+                    all.into_iter()
+                        .map(|second| (matrix, target.clone(), second)),
+                );
+            }
+        }
         let third = |id: &Id| {
             let nodes = self.system.graph.below([*id]);
             nodes

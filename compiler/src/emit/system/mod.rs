@@ -419,7 +419,9 @@ impl<'a> Emitter<'a> {
             of: potential,
             sign: -1,
         };
-        let class = if split.is_some() {
+        let applied = self.system.applied.clone();
+        let forced = self.system.force_of_momenta().is_some();
+        let class = if split.is_some() && !forced {
             quote!(::symplectic::Separable)
         } else {
             quote!(::symplectic::General)
@@ -434,10 +436,11 @@ impl<'a> Emitter<'a> {
                 const UNIT_MASSES: bool = true;
             )
         });
-        let parts = self.gradients(&[velocity, force]);
+        let mut parts = self.gradients(&[velocity, force]);
+        self.system.add_applied(&mut parts[1].1);
         let halves = ["q", "p"];
         // Where nothing is in common, one after the other.
-        let both = split.is_none().then(|| {
+        let both = (split.is_none() || forced).then(|| {
             let both = self.derivatives(&halves, &parts, &["velocity", "force"]);
             quote! {
                 #[inline(always)]
@@ -450,7 +453,21 @@ impl<'a> Emitter<'a> {
         let force = self.derivatives(&halves, &parts, &["force"]);
         let energy = self.energy(energy);
         // Newton's iteration is for stages without constraints.
-        let jacobian = self.system.is_free().then(|| self.jacobian(None));
+        let jacobian = match (self.system.constraints.is_empty(), self.system.friction) {
+            (true, None) => self.jacobian(split),
+            _ => TokenStream::new(),
+        };
+        let applied = (!applied.is_empty()).then(|| {
+            let parts = [("applied", applied)];
+            let statements = self.derivatives(&halves, &parts, &["applied"]);
+            quote! {
+                const FORCED: bool = true;
+
+                fn applied_force<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, applied: &mut #over) {
+                    #statements
+                }
+            }
+        });
         let beside_energy = self.beside_energy();
         quote! {
             #[allow(unused_variables, non_snake_case, clippy::all)]
@@ -475,6 +492,8 @@ impl<'a> Emitter<'a> {
                 fn energy<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over) -> ::core::option::Option<#scalar> {
                     #energy
                 }
+
+                #applied
 
                 #jacobian
 

@@ -1,7 +1,7 @@
-//! Holonomic constraints and friction.
+//! Holonomic constraints.
 
 use super::{Elaborator, Value};
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
 use crate::formula::error::FormulaError;
 use crate::formula::graph::{Base, Id, LoopRange};
 use crate::formula::syntax::{Expression, Length};
@@ -84,28 +84,5 @@ impl Elaborator<'_> {
             return self.error(written, kind);
         }
         Ok(parts)
-    }
-
-    /// The rate of the friction, a number of parameters.
-    pub(super) fn friction(&mut self) -> Result<Option<Id>, Error> {
-        let Some(written) = &self.definition.friction else {
-            return Ok(None);
-        };
-        let rate = self.scalar(written)?;
-        if !self.graph.depends(rate).is_fixed() {
-            let kind = ErrorKind::Type {
-                found: format!("the friction `{}`", self.text(written)),
-                expected: "a rate γ of numbers and parameters, for the force −γp".to_owned(),
-            };
-            return self.error(written, kind);
-        }
-        if !self.definition.constraints.is_empty() {
-            let kind = FormulaError::Unsupported {
-                what: "friction with constraints".to_owned(),
-                instead: "leave out one of them",
-            };
-            return self.error(written, kind);
-        }
-        Ok(Some(rate))
     }
 }

@@ -3,6 +3,7 @@
 mod arithmetic;
 mod constraints;
 mod declarations;
+mod forces;
 mod indices;
 mod totals;
 mod values;
@@ -153,6 +154,7 @@ impl Elaborator<'_> {
         let energy = self.scalar(written)?;
         self.momenta_hidden = false;
         let constraints = self.constraints()?;
+        let applied = self.forces()?;
         let friction = self.friction()?;
         let mut invariants: Vec<Invariant> = Vec::new();
         for (name, written) in &definition.invariants {
@@ -221,6 +223,7 @@ impl Elaborator<'_> {
             energy,
             lagrangian,
             constraints,
+            applied,
             friction,
             invariants,
             required: definition.required.clone(),

@@ -7,16 +7,17 @@
 mod inverse;
 mod masses;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 use num_traits::One;
 
 use self::inverse::Block;
 use self::masses::Masses;
-use super::derivative::gradient;
+use super::check::at;
+use super::derivative::{Scatter, gradient};
 use super::display::Notation;
 use super::error::FormulaError;
-use super::graph::{Coordinate, Graph, Half, Id, Number, integer};
+use super::graph::{Coordinate, Graph, Half, Id, Node, Number, integer};
 use super::modular::Points;
 use super::rewrite::{Copier, at_rest, flat};
 use super::structure::terms;
@@ -94,6 +95,9 @@ pub(super) fn transform(
     if let Some(rate) = &mut system.friction {
         *rate = copier.copy(*rate, graph);
     }
+    for part in &mut system.applied {
+        part.value = copier.copy(part.value, graph);
+    }
     system.energy = energy;
     if let Some(lagrangian) = &mut system.lagrangian {
         lagrangian.formula = formula;
@@ -109,7 +113,64 @@ pub(super) fn transform(
             system.places.entry(*copy).or_insert(span);
         }
     }
+    forces_of_momenta(&mut system, definition, input)?;
     Ok(system)
+}
+
+/// Puts `∂H/∂p` for the velocities in applied forces.
+fn forces_of_momenta(
+    system: &mut System,
+    definition: &Definition,
+    input: Input<'_>,
+) -> Result<(), Error> {
+    let energy = system.energy;
+    let velocity = gradient(&mut system.graph, energy, &[], Number::one(), Half::P);
+    let mut applied = std::mem::take(&mut system.applied);
+    for part in &mut applied {
+        let found = with_velocities(system, &velocity, part);
+        (system.graph, part.value) = found.ok_or_else(|| {
+            let kind = FormulaError::Unsupported {
+                what: "a velocity in this force".to_owned(),
+                instead: "write the force with the momenta",
+            };
+            let whole = definition.forces.first().map(|force| &force.value.span);
+            let place = system.place_of(part.value).or(whole);
+            input.error(place.unwrap_or(&(0..0)), kind.into())
+        })?;
+    }
+    system.applied = applied;
+    Ok(())
+}
+
+/// The value of a part with velocities given by their parts of a derivative; `None` where these have sums with an index that has a meaning
+/// already, or where that is not seen.
+fn with_velocities(system: &System, velocity: &[Scatter], part: &Scatter) -> Option<(Graph, Id)> {
+    let mut graph = system.graph.clone();
+    let mut around = part.loops.clone();
+    around.extend(graph.totals(part.value));
+    let mut known: HashMap<Id, Id> = HashMap::new();
+    let mut seen = true;
+    for id in graph.below([part.value]) {
+        if !graph.depends(id).v {
+            continue;
+        }
+        let with = match graph.node(id).clone() {
+            Node::Coordinate(coordinate) => {
+                let value = at(system, &mut graph, velocity, &coordinate);
+                let apart = |value: &Id| {
+                    let totals = graph.totals(*value);
+                    totals.iter().all(|over| !around.contains(over))
+                };
+                let value = value.filter(apart);
+                seen &= value.is_some();
+                value.unwrap_or(id)
+            }
+            _ => graph.rebuild(id, |part| known.get(&part).copied().unwrap_or(part)),
+        };
+        known.insert(id, with);
+    }
+    let value = known.get(&part.value).copied().unwrap_or(part.value);
+    seen.then_some((graph, value))
 }
 
 /// A part of L that has a third derivative by velocities, as far as it shows.

@@ -9,6 +9,7 @@
 //!            | "let" name [ "(" names ")" ] "=" expression ";"
 //!            | ( "H" | "L" ) "=" expression
 //!            | "constraints" ":" "{" name [ "(" over ")" ] "=" expression { "," … } "}"
+//!            | "force" ":" "{" ( name | "q" "[" expression "]" [ "(" over ")" ] ) "=" expression { "," … } "}"
 //!            | "friction" ":" expression
 //!            | "invariants" ":" "{" name "=" expression { "," … } "}"
 //!            | "require" ":" "[" names "]"
@@ -54,7 +55,7 @@ const KEYWORDS: [&str; 12] = [
 ];
 
 /// Words with which a statement begins, if `:` follows, and which are names elsewhere.
-const STATEMENTS: [&str; 2] = ["constraints", "friction"];
+const STATEMENTS: [&str; 3] = ["constraints", "force", "friction"];
 
 /// Reads a definition.
 ///

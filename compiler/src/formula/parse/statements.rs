@@ -7,8 +7,8 @@ use super::{Parser, constant};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::syntax::{
-    Abbreviation, Constraint, Coordinates, CoordinatesKind, Definition, Ends, Form, Length, Name,
-    Parameter, ParameterKind,
+    Abbreviation, Constraint, Coordinates, CoordinatesKind, Definition, Ends, Expression, Force,
+    Form, Kind, Length, Name, Parameter, ParameterKind,
 };
 
 impl Parser<'_> {
@@ -24,6 +24,7 @@ impl Parser<'_> {
             abbreviations: Vec::new(),
             function: None,
             constraints: Vec::new(),
+            forces: Vec::new(),
             friction: None,
             invariants: Vec::new(),
             required: Vec::new(),
@@ -262,6 +263,7 @@ impl Parser<'_> {
                 }
             }
             "constraints" => self.constraints(definition)?,
+            "force" => self.forces(definition)?,
             "friction" => {
                 self.expect(':', "`:` and a rate: `friction: gamma;`")?;
                 if definition.friction.is_some() {
@@ -350,6 +352,49 @@ impl Parser<'_> {
         Ok(())
     }
 
+    fn forces(&mut self, definition: &mut Definition) -> Result<(), Error> {
+        const FORM: &str = "`force: { x = -c px, y = 0 }` or `force: { q[i] = -c p[i] }`";
+        self.expect(':', FORM)?;
+        let open = self.span();
+        self.expect('{', FORM)?;
+        while !self.is('}') {
+            let name = self.name("a coordinate, or `}`")?;
+            let mut target = Expression {
+                kind: Kind::Name(name.text),
+                span: name.span.clone(),
+            };
+            if self.accept('[') {
+                let index = self.expression()?;
+                self.expect(']', "`]`")?;
+                target = Expression {
+                    kind: Kind::Entry(Box::new(target), vec![index]),
+                    span: name.span.start..self.end(),
+                };
+            }
+            let over = match self.accept('(') {
+                true => {
+                    let over = self.over()?;
+                    self.expect(')', "`)`")?;
+                    Some(over)
+                }
+                false => None,
+            };
+            self.expect('=', "`=` and the force")?;
+            let value = self.expression()?;
+            definition.forces.push(Force {
+                target,
+                over,
+                value,
+            });
+            if !self.accept(',') {
+                break;
+            }
+        }
+        self.close(&open, ['{', '}'])?;
+        self.accept(';');
+        Ok(())
+    }
+
     fn coordinates(&mut self, definition: &Definition) -> Result<Coordinates, Error> {
         let open = self.span();
         self.expect('[', "`[`: `[a, b]`, `[N]`, `[N; 3]` or `[..]`")?;
@@ -393,10 +438,10 @@ impl Parser<'_> {
 fn statement(form: Form) -> &'static str {
     match form {
         Form::Hamiltonian => {
-            "`q: […], p: […];`, `let …;`, `H = …`, `bonds: …;`, `extern fn …;`, `constraints: {…}`, `friction: …;`, `invariants: {…}` or `require: […]`"
+            "`q: […], p: […];`, `let …;`, `H = …`, `bonds: …;`, `extern fn …;`, `constraints: {…}`, `force: {…}`, `friction: …;`, `invariants: {…}` or `require: […]`"
         }
         Form::Lagrangian => {
-            "`q: […], v: […];`, `let …;`, `L = …`, `bonds: …;`, `extern fn …;`, `constraints: {…}`, `friction: …;`, `invariants: {…}` or `require: […]`"
+            "`q: […], v: […];`, `let …;`, `L = …`, `bonds: …;`, `extern fn …;`, `constraints: {…}`, `force: {…}`, `friction: …;`, `invariants: {…}` or `require: […]`"
         }
     }
 }

@@ -25,8 +25,8 @@ use core::marker::PhantomData;
 
 use crate::error::Error;
 use crate::method::{
-    EvaluationObserver, Failure, Inside, Interpolation, Method, Outcome, Plan, Solver, Step,
-    StepStatistics, Stopping, WarmStart, check_no_friction,
+    EvaluationObserver, Failure, Inside, Interpolation, Method, Outcome, Plan, Solver,
+    StageStorage, StageView, Step, StepStatistics, Stopping, WarmStart, check_no_friction,
 };
 use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, Constrained, System, Unconstrained};
@@ -64,7 +64,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         memory: &mut ConstrainedStages<V>,
         kept: WarmStart,
         stopping: Stopping,
-        mut outcome: Outcome<'_, V>,
+        outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure>
     where
         R: Summation,
@@ -72,43 +72,30 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
     {
-        let ConstrainedStages {
-            workspace,
-            between: [q, q_low, p, p_low],
-        } = memory;
-        let workspace = workspace
-            .get_or_insert_with(|| Workspace::new::<M, S>(system, step.time, step.q, step.p));
-        let mut between = Outcome { q, q_low, p, p_low };
-        let mut outcome = outcome.reborrow();
-        let mut work = StepStatistics::default();
-        let count = M::CONSTRAINED.len();
-        for (number, substep) in M::CONSTRAINED.iter().enumerate() {
-            // Results go to one of two places in turn, the last one to where it belongs.
-            let (here, there) = if (count - number) % 2 == 1 {
-                (&mut outcome, &between)
-            } else {
-                (&mut between, &outcome)
-            };
-            let (q, q_low, p, p_low) = if number == 0 {
-                (step.q, step.q_low, step.p, step.p_low)
-            } else {
-                (&*there.q, &*there.q_low, &*there.p, &*there.p_low)
-            };
-            let part = Step {
-                time: step.time + substep.start.double() * step.size,
-                size: substep.fraction.double() * step.size,
-                q,
-                q_low,
-                p,
-                p_low,
-                linear_velocity: step.linear_velocity,
-            };
-            let carried = number > 0 || kept.evaluation;
-            let taken =
-                workspace.take::<R, S>(substep.tableau, &part, system, carried, stopping, here);
-            work += taken?;
-        }
-        Ok(work)
+        memory.take::<M, R, S>(step, system, kept.evaluation, stopping, outcome, |_| {})
+    }
+
+    fn show_stages<R, V, S>(
+        step: &Step<'_, V>,
+        system: &S,
+        stopping: Stopping,
+        show: &mut dyn FnMut(StageView<'_, V>),
+    ) -> Option<Result<(), Failure>>
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        let mut memory = ConstrainedStages::like(step.q);
+        let [mut q, mut q_low, mut p, mut p_low] = core::array::from_fn(|_| step.q.zeros_like());
+        let outcome = Outcome {
+            q: &mut q,
+            q_low: &mut q_low,
+            p: &mut p,
+            p_low: &mut p_low,
+        };
+        let taken = memory.take::<M, R, S>(step, system, false, stopping, outcome, show);
+        Some(taken.map(|_| ()))
     }
 
     /// The stages are in the memory.
@@ -144,5 +131,57 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
     {
+    }
+}
+
+impl<V: Vector> ConstrainedStages<V> {
+    /// Takes a step of the method `M`, of one tableau or of several; `carried` says that the step before ended where this one starts.
+    fn take<M: Method, R: Summation, S: System<V>>(
+        &mut self,
+        step: &Step<'_, V>,
+        system: &S,
+        carried: bool,
+        stopping: Stopping,
+        mut outcome: Outcome<'_, V>,
+        mut show: impl FnMut(StageView<'_, V>),
+    ) -> Result<StepStatistics, Failure> {
+        let ConstrainedStages {
+            workspace,
+            between: [q, q_low, p, p_low],
+        } = self;
+        let workspace = workspace
+            .get_or_insert_with(|| Workspace::new::<M, S>(system, step.time, step.q, step.p));
+        let mut between = Outcome { q, q_low, p, p_low };
+        let mut outcome = outcome.reborrow();
+        let mut work = StepStatistics::default();
+        let count = M::CONSTRAINED.len();
+        for (number, substep) in M::CONSTRAINED.iter().enumerate() {
+            // Results go to one of two places in turn, the last one to where it belongs.
+            let (here, there) = if (count - number) % 2 == 1 {
+                (&mut outcome, &between)
+            } else {
+                (&mut between, &outcome)
+            };
+            let (q, q_low, p, p_low) = if number == 0 {
+                (step.q, step.q_low, step.p, step.p_low)
+            } else {
+                (&*there.q, &*there.q_low, &*there.p, &*there.p_low)
+            };
+            let part = Step {
+                time: step.time + substep.start.double() * step.size,
+                size: substep.fraction.double() * step.size,
+                q,
+                q_low,
+                p,
+                p_low,
+                linear_velocity: step.linear_velocity,
+            };
+            let carried = number > 0 || carried;
+            let taken =
+                workspace.take::<R, S>(substep.tableau, &part, system, carried, stopping, here);
+            work += taken?;
+            workspace.show::<S>(substep.tableau, &part, &mut show);
+        }
+        Ok(work)
     }
 }

@@ -3,7 +3,9 @@
 use super::memory::Workspace;
 use crate::error::Quantity;
 use crate::method::storage::is_finite;
-use crate::method::{ConstrainedTableau, Failure, Outcome, Step, StepStatistics, Stopping};
+use crate::method::{
+    ConstrainedTableau, Failure, Outcome, StageView, Step, StepStatistics, Stopping,
+};
 use crate::number::summation::add;
 use crate::number::{Coefficient, Scalar, Summation, Vector, copy};
 use crate::system::{Class, Gradients, System};
@@ -95,6 +97,29 @@ impl<V: Vector> Workspace<V> {
             |k| q[k].magnitude() + size * velocity[k].magnitude(),
             &mut self.terms,
         );
+    }
+
+    /// Shows the stages of the step that was taken.
+    #[inline]
+    pub(super) fn show<S: System<V>>(
+        &self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        show: &mut impl FnMut(StageView<'_, V>),
+    ) {
+        let mut last = 0;
+        for i in 0..tableau.weights.len() {
+            if !same_momentum::<V, S>(tableau, i) {
+                last = i;
+            }
+            show(StageView {
+                weight: step.size * tableau.weights[i].double(),
+                time: step.at(tableau.nodes[i]),
+                momentum_time: step.at(tableau.momentum_nodes[i]),
+                q: &self.q[i],
+                p: &self.p[last],
+            });
+        }
     }
 
     /// Sweeps until the stages are on the constraints and no longer move. The position after the step is in `outcome`.
@@ -208,14 +233,8 @@ impl<V: Vector> Workspace<V> {
         work: &mut StepStatistics,
     ) {
         for i in 0..tableau.weights.len() {
-            // Of a separable system the velocity is that of the stage before where the momentum is.
-            let row = tableau.momenta[i];
-            let time = tableau.momentum_nodes[i];
-            let again = i > 0
-                && row == tableau.momenta[i - 1]
-                && time == tableau.momentum_nodes[i - 1]
-                && S::Class::SEPARABLE;
-            if !again {
+            if !same_momentum::<V, S>(tableau, i) {
+                let (row, time) = (tableau.momenta[i], tableau.momentum_nodes[i]);
                 stage(&mut self.p[i], (step.p, step.p_low), row, &self.kick);
                 let velocity = &mut self.scratch[0];
                 system.velocity(step.at(time), &self.q[i], &self.p[i], velocity);
@@ -433,6 +452,14 @@ impl<V: Vector> Workspace<V> {
         };
         Failure::NonFinite { what, stage }
     }
+}
+
+/// Whether momentum and velocity of a stage are those of the stage before: of a separable system, where the rows are the same.
+fn same_momentum<V: Vector, S: System<V>>(tableau: &ConstrainedTableau, i: usize) -> bool {
+    i > 0
+        && S::Class::SEPARABLE
+        && tableau.momenta[i] == tableau.momenta[i - 1]
+        && tableau.momentum_nodes[i] == tableau.momentum_nodes[i - 1]
 }
 
 /// Position or momentum after a step, `base + low + Σ_j increment_j`, with what it leaves out.

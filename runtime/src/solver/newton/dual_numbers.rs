@@ -146,6 +146,16 @@ where
                 groups,
                 derivative,
             );
+            if <S as System<V>>::FORCED {
+                System::<V::With<Dual64>>::applied_force(system, time, q, p, out);
+                let derivative = |i: usize| out.as_slice().get(i).map(|dual| dual.eps);
+                scatter(
+                    &mut jacobian.applied_force_by_momentum,
+                    group,
+                    groups,
+                    derivative,
+                );
+            }
         }
     }
 }

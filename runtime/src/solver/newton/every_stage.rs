@@ -152,7 +152,7 @@ impl<T: Scalar> AllStages<T> {
                 (0, 0) => jacobian.velocity_by_position.get(k, l),
                 (0, _) => jacobian.velocity_by_momentum.get(k, l),
                 (_, 0) => jacobian.force_by_position.get(k, l),
-                _ => -jacobian.velocity_by_position.get(l, k),
+                _ => jacobian.force_by_momentum(k, l),
             };
             let coupling = if c % 2 == 0 {
                 stages.positions

@@ -101,6 +101,18 @@ impl<V: Vector, S: System<V>> Derivatives<V, S> for Differences {
             scatter(&mut jacobian.velocity_by_momentum, group, groups, |i| {
                 quotient(velocity, other_velocity, by_p, i)
             });
+            if S::FORCED {
+                shift(next, p, -by_p, group, groups);
+                system.applied_force(time, q, next, other_force);
+                shift(next, p, by_p, group, groups);
+                system.applied_force(time, q, next, force);
+                scatter(
+                    &mut jacobian.applied_force_by_momentum,
+                    group,
+                    groups,
+                    |i| quotient(force, other_force, by_p, i),
+                );
+            }
         }
     }
 }

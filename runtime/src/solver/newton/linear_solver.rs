@@ -217,11 +217,13 @@ impl<T: Scalar, D> Matrices<T, D> {
             velocity_by_position,
             velocity_by_momentum,
             force_by_position,
+            applied_force_by_momentum,
         } = &mut self.jacobian;
         for matrix in [
             velocity_by_position,
             velocity_by_momentum,
             force_by_position,
+            applied_force_by_momentum,
             &mut self.matrix,
         ] {
             scalar_words(matrix.entries_mut(), visit);
@@ -240,6 +242,7 @@ impl<T: Scalar, D> Matrices<T, D> {
             velocity_by_position,
             velocity_by_momentum,
             force_by_position,
+            ..
         } = &self.jacobian;
         for i in 0..self.matrix.size() {
             for j in self.matrix.columns(i) {
@@ -254,7 +257,7 @@ impl<T: Scalar, D> Matrices<T, D> {
                         (0, 0) => velocity_by_position.get(k, l),
                         (0, _) => velocity_by_momentum.get(k, l),
                         (_, 0) => force_by_position.get(k, l),
-                        _ => -velocity_by_position.get(l, k),
+                        _ => self.jacobian.force_by_momentum(k, l),
                     }
                 };
                 self.matrix.set(i, j, entry);

@@ -1,0 +1,107 @@
+//! Applied forces and friction.
+
+use super::{Elaborator, Value};
+use crate::error::{Error, ErrorKind};
+use crate::formula::derivative::Scatter;
+use crate::formula::error::FormulaError;
+use crate::formula::graph::{Coordinate, Half, Id, Node};
+use crate::formula::syntax::{Force, Kind, Name, Over};
+
+impl Elaborator<'_> {
+    /// The applied forces, each with its coordinate.
+    pub(super) fn forces(&mut self) -> Result<Vec<Scatter>, Error> {
+        let mut forces = Vec::new();
+        for written in &self.definition.forces {
+            let parts = match self.indices(written) {
+                None => self.force(written)?,
+                Some(over) => self.under(&over, &written.target, |this| this.force(written))?,
+            };
+            let loops = std::mem::take(&mut self.loops);
+            forces.extend(parts.into_iter().map(|(target, value)| Scatter {
+                loops: loops.clone(),
+                target,
+                value,
+            }));
+        }
+        Ok(forces)
+    }
+
+    /// The indices for each of which there is a force: those that are written, or all where the index of the coordinate is a new name.
+    fn indices(&self, written: &Force) -> Option<Over> {
+        if written.over.is_some() {
+            return written.over.clone();
+        }
+        let Kind::Entry(_, indices) = &written.target.kind else {
+            return None;
+        };
+        match &indices[0].kind {
+            Kind::Name(text) if !self.names.contains_key(text) => {
+                let name = Name {
+                    text: text.clone(),
+                    span: indices[0].span.clone(),
+                };
+                Some(Over::Range(name, None))
+            }
+            _ => None,
+        }
+    }
+
+    /// The components of a coordinate, each with the force on it.
+    fn force(&mut self, written: &Force) -> Result<Vec<(Coordinate, Id)>, Error> {
+        let (target, value) = (&written.target, &written.value);
+        let coordinates: Option<Vec<Coordinate>> = match self.value(target)? {
+            Value::Scalar(id) => self.position(id).map(|coordinate| vec![coordinate]),
+            Value::Vector(parts) => parts.iter().map(|&part| self.position(part)).collect(),
+            _ => None,
+        };
+        let Some(coordinates) = coordinates else {
+            let kind = ErrorKind::Type {
+                found: format!("`{}`", self.text(target)),
+                expected: "a position, on which the force is: `x` or `q[i]`".to_owned(),
+            };
+            return self.error(target, kind);
+        };
+        let parts = match self.value(value)? {
+            Value::Scalar(id) => vec![id],
+            value => self.components(value, &written.value)?,
+        };
+        if parts.len() != coordinates.len() {
+            let kind = ErrorKind::Type {
+                found: format!("a force with {} components", parts.len()),
+                expected: format!("as many as the position has, {}", coordinates.len()),
+            };
+            return self.error(value, kind);
+        }
+        Ok(coordinates.into_iter().zip(parts).collect())
+    }
+
+    fn position(&self, id: Id) -> Option<Coordinate> {
+        match self.graph.node(id) {
+            Node::Coordinate(coordinate) if coordinate.half == Half::Q => Some(coordinate.clone()),
+            _ => None,
+        }
+    }
+
+    /// The rate of the friction, a number of parameters.
+    pub(super) fn friction(&mut self) -> Result<Option<Id>, Error> {
+        let Some(written) = &self.definition.friction else {
+            return Ok(None);
+        };
+        let rate = self.scalar(written)?;
+        if !self.graph.depends(rate).is_fixed() {
+            let kind = ErrorKind::Type {
+                found: format!("the friction `{}`", self.text(written)),
+                expected: "a rate γ of numbers and parameters, for the force −γp".to_owned(),
+            };
+            return self.error(written, kind);
+        }
+        if !self.definition.constraints.is_empty() {
+            let kind = FormulaError::Unsupported {
+                what: "friction with constraints".to_owned(),
+                instead: "write it as a force: `force: { q[i] = -gamma p[i] }`",
+            };
+            return self.error(written, kind);
+        }
+        Ok(Some(rate))
+    }
+}

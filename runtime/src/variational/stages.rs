@@ -1,0 +1,206 @@
+//! The stages of a step, and the balances of energy and momentum that they give.
+
+use alloc::vec::Vec;
+
+use super::two_ends::{dot, solve};
+use crate::error::Error;
+use crate::integrator::Integrator;
+use crate::method::diagnosis::{Attempt, FirstFault};
+use crate::method::{Failure, Method, Plan, Solver, StageView, Step, Stopping};
+use crate::number::{Scalar, Summation, Vector};
+use crate::system::{Class, System};
+
+/// A stage of a step, with what is evaluated there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StageOfStep<V> {
+    /// `h b_i`
+    pub weight: f64,
+    /// The time of the position and of the force, `t0 + c_i h`.
+    pub time: f64,
+    /// The time of the momentum and of the velocity, `t0 + c̃_i h`.
+    pub momentum_time: f64,
+    /// The position `Q_i`.
+    pub q: V,
+    /// The momentum `P_i`.
+    pub p: V,
+    /// `∂H/∂p` there.
+    pub velocity: V,
+    /// The force there, with what is applied and without that of constraints.
+    pub force: V,
+    /// The [applied force](crate::Hamiltonian::applied_force) f there.
+    pub applied: V,
+}
+
+/// What [`Integrator::step_with_stages`] returns: every stage of the tableau, of a composition those of all its steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StagesOfStep<V> {
+    stages: Vec<StageOfStep<V>>,
+}
+
+impl<V: Vector> StagesOfStep<V> {
+    /// The stages, in the order of the tableau.
+    pub fn stages(&self) -> &[StageOfStep<V>] {
+        &self.stages
+    }
+
+    /// The work of the applied force, `h Σ b_i f_i·v_i`.
+    ///
+    /// The exact flow changes the energy by the integral of `f·v`; a step changes it by the work up to an error of the order of the method.
+    pub fn work(&self) -> V::Scalar {
+        self.sum(|stage| dot(&stage.applied, &stage.velocity))
+    }
+
+    /// The impulse of the applied force in the direction of a symmetry with the generator `ξ_Q`, `h Σ b_i f_i·ξ_Q(Q_i)`; `generator(q, out)`
+    /// writes `ξ_Q(q)` into `out`.
+    ///
+    /// Where H, and constraints if there are any, have this symmetry and `ξ_Q` is linear in q, the momentum map `J = p·ξ_Q(q)` changes
+    /// in a step by exactly that (Marsden & West, 2001, 3.2.3), up to rounding.
+    pub fn impulse(&self, mut generator: impl FnMut(&V, &mut V)) -> V::Scalar {
+        let Some(first) = self.stages.first() else {
+            return V::Scalar::from_f64(0.0);
+        };
+        let mut direction = first.q.zeros_like();
+        self.sum(|stage| {
+            generator(&stage.q, &mut direction);
+            dot(&stage.applied, &direction)
+        })
+    }
+
+    /// The discrete Lagrangian `L_d(q0, q1) = h Σ b_i (P_i·v_i − H(Q_i, P_i))`, the action of the step.
+    ///
+    /// # Errors
+    /// [`Error::NoEnergy`] where the system gives none.
+    pub fn action<S: System<V>>(&self, system: &S) -> Result<V::Scalar, Error> {
+        let mut action = V::Scalar::from_f64(0.0);
+        for stage in &self.stages {
+            let time = V::Scalar::from_f64(stage.time);
+            let energy = system.energy(time, &stage.q, &stage.p);
+            let lagrangian = dot(&stage.p, &stage.velocity) - energy.ok_or(Error::NoEnergy)?;
+            action += V::Scalar::from_f64(stage.weight) * lagrangian;
+        }
+        Ok(action)
+    }
+
+    fn sum(&self, mut term: impl FnMut(&StageOfStep<V>) -> V::Scalar) -> V::Scalar {
+        let mut sum = V::Scalar::from_f64(0.0);
+        for stage in &self.stages {
+            sum += V::Scalar::from_f64(stage.weight) * term(stage);
+        }
+        sum
+    }
+}
+
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
+    /// Takes one step and returns its stages, for balances of energy and momentum, and for the discrete action.
+    ///
+    /// The stages are solved for once more, to rounding, by fixed-point iteration, and memory is allocated: for tests and reports, not for
+    /// every step of a long run.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`step`](Self::step); [`Error::OtherClass`] for a system of class [`Damped`](crate::Damped), whose kicks are exact flows and
+    /// no stages. The state is untouched then.
+    ///
+    /// ```
+    /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
+    /// # use symplectic::{Error, Integrator, State};
+    /// symplectic::hamiltonian! {
+    ///     /// A particle in a central field, with friction.
+    ///     Ring { gamma: 0.1 }
+    ///     q: [x, y], p: [px, py];
+    ///     let r2 = x^2 + y^2;
+    ///     H = (px^2 + py^2)/2 + r2 (r2 - 1)^2
+    ///     force: { x = -gamma px, y = -gamma py }
+    /// }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let start = State::from_arrays(0.0, [1.25, 0.0], [0.0, 0.5]);
+    /// let mut run = Integrator::new(Gauss2, Ring::new(), start, 0.1)?;
+    /// let angular_momentum = |state: &State<_>| {
+    ///     let State { q, p, .. }: &State<symplectic::nalgebra::Vector2<f64>> = state;
+    ///     q[0] * p[1] - q[1] * p[0]
+    /// };
+    /// let before = angular_momentum(run.state());
+    /// let stages = run.step_with_stages()?;
+    /// // The torque of the friction is all that changes it.
+    /// let impulse = stages.impulse(|q, turned| *turned = [-q[1], q[0]].into());
+    /// let change = angular_momentum(run.state()) - before;
+    /// assert!((change - impulse).abs() < 1e-15 && change < -0.005);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn step_with_stages(&mut self) -> Result<StagesOfStep<V>, Error> {
+        self.step_solved_by(stages::<M, S, V, R>)
+    }
+}
+
+/// The stages of a step of which the position at its start, the momentum at its start, and that at its end are known.
+fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
+    system: &S,
+    step: &Step<'_, V>,
+    p1: &V,
+    number: u64,
+    stopping: Stopping,
+) -> Result<StagesOfStep<V>, Error> {
+    if S::Class::FRICTION {
+        return Err(Error::OtherClass {
+            what: "friction whose kicks are exact flows, so that there are no stages",
+            class: "General",
+        });
+    }
+    let mut stages = Vec::new();
+    let mut add = |view: StageView<'_, V>| {
+        let [mut velocity, mut force, mut applied] = core::array::from_fn(|_| step.q.zeros_like());
+        let (q, p) = (view.q, view.p);
+        let [time, momentum_time] = [view.time, view.momentum_time].map(V::Scalar::from_f64);
+        system.velocity(momentum_time, q, p, &mut velocity);
+        system.force(time, q, p, &mut force);
+        system.applied_force(time, q, p, &mut applied);
+        stages.push(StageOfStep {
+            weight: view.weight,
+            time: view.time,
+            momentum_time: view.momentum_time,
+            q: q.clone(),
+            p: p.clone(),
+            velocity,
+            force,
+            applied,
+        });
+    };
+    let shown =
+        <S::Class as Class>::Plan::<M>::show_stages::<R, V, S>(step, system, stopping, &mut add);
+    match shown {
+        Some(Ok(())) => {}
+        Some(Err(failure)) => return Err(error(step, number, failure)),
+        None => {
+            let step = Step { p: p1, ..*step };
+            let (found, _) = solve::<M, S, V>(system, &step, number, stopping)?;
+            let coefficients = M::COEFFICIENTS;
+            let nodes = coefficients.c.iter().zip(coefficients.c_tilde);
+            let places = found.q.iter().zip(&found.p);
+            for ((&c, &c_tilde), ((q, p), &b)) in nodes.zip(places.zip(coefficients.b)) {
+                add(StageView {
+                    weight: step.size * b.double(),
+                    time: step.at(c),
+                    momentum_time: step.at(c_tilde),
+                    q,
+                    p,
+                });
+            }
+        }
+    }
+    Ok(StagesOfStep { stages })
+}
+
+/// A step that could be taken cannot be taken again.
+fn error<V: Vector>(step: &Step<'_, V>, number: u64, failure: Failure) -> Error {
+    let attempt = Attempt {
+        time: step.time,
+        step_size: step.size,
+        step: number,
+        dimension: step.q.dimension(),
+    };
+    let observed = FirstFault::new(attempt.dimension);
+    let nothing: crate::method::Evaluations<V> = crate::method::StageStorage::like(step.q);
+    attempt.error(Some(failure), &observed, &nothing, step.q)
+}

@@ -1,0 +1,256 @@
+//! The stages of a step, solved for from the position at its start and the momentum at its end.
+
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+
+use num_traits::Zero;
+
+use crate::error::{Error, Quantity};
+use crate::method::diagnosis::{Attempt, FirstFault};
+use crate::method::storage::{first_mismatch, first_non_finite, first_non_finite_of, is_finite};
+use crate::method::{
+    EvaluationCounts, EvaluationObserver, HalfChange, Method, Outcome, StageChange, StagePlan,
+    StageStorage, Step, Stopping, WarmStart,
+};
+use crate::number::{Coefficient, Coefficients, Plain, Scalar, Summation, Vector, Visit};
+use crate::solver::fixed_point::by_stages;
+use crate::system::{Class, System};
+
+/// The stages of the step whose position at the start and momentum at the end are `q` and `p` of `step`, with the momentum at the start and
+/// the position at the end. `number` is for errors.
+pub(super) fn solve<M: Method, S: System<V>, V: Vector>(
+    system: &S,
+    step: &Step<'_, V>,
+    number: u64,
+    stopping: Stopping,
+) -> Result<(Unknowns<M, V>, [V; 2]), Error> {
+    const {
+        assert!(
+            M::STAGES > 0,
+            "the stages of a tableau at run time are not solved for from both ends: let a macro emit the method"
+        );
+    }
+    let mut stages = Unknowns::<M, V>::like(step.q);
+    let zeros = || step.q.zeros_like();
+    let (mut q1, mut p0) = (zeros(), zeros());
+    let outcome = by_stages::<TypeTwo<M, S::Class>, Plain, V, S>(
+        step,
+        system,
+        &mut stages,
+        WarmStart::default(),
+        stopping,
+        Outcome {
+            q: &mut q1,
+            q_low: &mut zeros(),
+            p: &mut p0,
+            p_low: &mut zeros(),
+        },
+    );
+    let attempt = Attempt {
+        time: step.time,
+        step_size: step.size,
+        step: number,
+        dimension: step.q.dimension(),
+    };
+    let mismatch = stages.mismatch(attempt.dimension);
+    let sound = mismatch.is_none() && is_finite(&q1) && is_finite(&p0);
+    if outcome.is_err() || !sound {
+        // The stages are there to tell.
+        let observed = FirstFault::new(attempt.dimension);
+        return Err(attempt.error(outcome.err(), &observed, &stages, &q1));
+    }
+    Ok((stages, [p0, q1]))
+}
+
+/// The plan that goes from `(q0, p1)` to `(q1, p0)`: for it the position and the momentum of the [`Step`] are the two
+/// that are known, and of its results the second is `p0`.
+struct TypeTwo<M, C>(PhantomData<(M, C)>);
+
+impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
+    type Class = C;
+    type Stages<V: Vector> = Unknowns<M, V>;
+
+    const EVALUATIONS: EvaluationCounts = EvaluationCounts {
+        begin: 0,
+        start: 1,
+        sweep: 2 * M::STAGES as u32,
+        finish: 0,
+        carried: 0,
+    };
+
+    fn begin<R: Summation, V: Vector, S: System<V, Class = C>>(
+        step: &Step<'_, V>,
+        system: &S,
+        stages: &mut Unknowns<M, V>,
+        _kept: WarmStart,
+    ) {
+        stages.weights = Weights::new(&M::COEFFICIENTS, step.size);
+        stages.q.iter_mut().for_each(|q| q.clone_from(step.q));
+        stages.p.iter_mut().for_each(|p| p.clone_from(step.p));
+        // One evaluation for all: the iteration finds the rest.
+        if let Some((first, others)) = stages.velocity.split_first_mut() {
+            system.velocity(V::Scalar::from_f64(step.time), step.q, step.p, first);
+            others.iter_mut().for_each(|other| other.clone_from(first));
+        }
+    }
+
+    fn sweep<R: Summation, V: Vector, S: System<V, Class = C>>(
+        step: &Step<'_, V>,
+        system: &S,
+        stages: &mut Unknowns<M, V>,
+    ) -> StageChange {
+        let Unknowns {
+            q,
+            p,
+            velocity,
+            force,
+            increment,
+            weights,
+            ..
+        } = stages;
+        let mut change = StageChange::default();
+        for (q, weights) in q.iter_mut().zip(&weights.a) {
+            sum(increment, weights, velocity);
+            settle(q, step.q, increment, &mut change.q);
+        }
+        let arguments = q.iter().zip(&*p).zip(M::COEFFICIENTS.c);
+        for (((q, p), &c), force) in arguments.zip(force.iter_mut()) {
+            system.force(step.at(c), q, p, force);
+        }
+        for (p, weights) in p.iter_mut().zip(&weights.rest) {
+            sum(increment, weights, force);
+            settle(p, step.p, increment, &mut change.p);
+        }
+        let arguments = q.iter().zip(&*p).zip(M::COEFFICIENTS.c_tilde);
+        for (((q, p), &c), velocity) in arguments.zip(velocity.iter_mut()) {
+            system.velocity(step.at(c), q, p, velocity);
+        }
+        change
+    }
+
+    fn finish<R: Summation, V: Vector, S: System<V, Class = C>, W: EvaluationObserver>(
+        step: &Step<'_, V>,
+        _system: &S,
+        stages: &mut Unknowns<M, V>,
+        _kept: WarmStart,
+        outcome: Outcome<'_, V>,
+        _witness: &mut W,
+    ) {
+        let Unknowns {
+            velocity,
+            force,
+            increment,
+            weights,
+            ..
+        } = stages;
+        let mut unused = HalfChange::default();
+        sum(increment, &weights.b, velocity);
+        settle(outcome.q, step.q, increment, &mut unused);
+        sum(increment, &weights.back, force);
+        settle(outcome.p, step.p, increment, &mut unused);
+    }
+}
+
+/// The stages, one of each for every stage of the tableau.
+#[derive(Clone)]
+pub(super) struct Unknowns<M, V: Vector> {
+    pub(super) q: Vec<V>,
+    pub(super) p: Vec<V>,
+    pub(super) velocity: Vec<V>,
+    pub(super) force: Vec<V>,
+    /// What is added to the base.
+    pub(super) increment: V,
+    pub(super) weights: Weights<V::Scalar>,
+    method: PhantomData<M>,
+}
+
+/// The coefficients times the step size.
+#[derive(Clone)]
+pub(super) struct Weights<T> {
+    /// `h a_ij`
+    pub(super) a: Vec<Vec<T>>,
+    /// `−h (b̃_j − ã_ij)`
+    rest: Vec<Vec<T>>,
+    /// `h b_i`
+    pub(super) b: Vec<T>,
+    /// `−h b̃_i`
+    back: Vec<T>,
+}
+
+impl<T: Scalar> Weights<T> {
+    fn new(coefficients: &Coefficients, h: f64) -> Self {
+        let weights =
+            |h: f64, list: &[Coefficient]| list.iter().map(|&c| T::weight(h, c)).collect();
+        let rest = |row: &&[Coefficient]| {
+            let pairs = coefficients.b_tilde.iter().zip(*row);
+            pairs
+                .map(|(&b, &a)| T::weight(-h, difference(b, a)))
+                .collect()
+        };
+        Self {
+            a: coefficients.a.iter().map(|row| weights(h, row)).collect(),
+            rest: coefficients.a_tilde.iter().map(rest).collect(),
+            b: weights(h, coefficients.b),
+            back: weights(-h, coefficients.b_tilde),
+        }
+    }
+}
+
+/// `b − a`, also where the two nearly cancel.
+fn difference(b: Coefficient, a: Coefficient) -> Coefficient {
+    Coefficient::exact((b.double() - a.double()) + (b.low() - a.low()))
+}
+
+impl<M: Method, V: Vector> StageStorage<V> for Unknowns<M, V> {
+    fn like(prototype: &V) -> Self {
+        let vectors = || (0..M::STAGES).map(|_| prototype.zeros_like()).collect();
+        Self {
+            q: vectors(),
+            p: vectors(),
+            velocity: vectors(),
+            force: vectors(),
+            increment: prototype.zeros_like(),
+            weights: Weights::new(&M::COEFFICIENTS, 0.0),
+            method: PhantomData,
+        }
+    }
+
+    /// Nothing is left for another step.
+    fn words(&mut self, _visit: &mut Visit<'_>) {}
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        first_non_finite((&self.q, &self.force), (&self.p, &self.velocity))
+    }
+
+    fn non_finite_force(&self) -> Option<usize> {
+        first_non_finite_of(&self.force)
+    }
+
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        first_mismatch(&self.force, &self.velocity, dimension)
+    }
+}
+
+/// `out = Σ_j weights_j terms_j`.
+pub(super) fn sum<V: Vector>(out: &mut V, weights: &[V::Scalar], terms: &[V]) {
+    out.as_mut_slice().fill(V::Scalar::zero());
+    for (&weight, term) in weights.iter().zip(terms) {
+        let components = out.as_mut_slice().iter_mut().zip(term.as_slice());
+        components.for_each(|(out, &term)| *out += weight * term);
+    }
+}
+
+/// `out = base + increment`; notes in `change` how far `out` moved.
+fn settle<V: Vector>(out: &mut V, base: &V, increment: &V, change: &mut HalfChange) {
+    let ends = base.as_slice().iter().zip(increment.as_slice());
+    for (out, (&base, &increment)) in out.as_mut_slice().iter_mut().zip(ends) {
+        let new = base + increment;
+        change.record(base, *out, new);
+        *out = new;
+    }
+}
+
+pub(super) fn dot<V: Vector>(a: &V, b: &V) -> V::Scalar {
+    let products = a.as_slice().iter().zip(b.as_slice()).map(|(&a, &b)| a * b);
+    products.fold(V::Scalar::zero(), |sum, product| sum + product)
+}

@@ -1,0 +1,426 @@
+//! Applied forces: orders, balances of energy and momentum, Newton's method, forces in formulas.
+
+use symplectic::nalgebra::{DVector, SVector, Vector2, Vector3};
+use symplectic::variational::{StagesOfStep, generating_function};
+use symplectic::{Error, Integrator, Method, ProvedFor, Scalar, State, System, hamiltonian};
+
+symplectic::tableau! {
+    pub Midpoint { basis: polynomial(1), nodes: gauss(1) }
+    pub Gauss2 { basis: polynomial(2), nodes: gauss(2) }
+    pub Gauss3 { basis: polynomial(3), nodes: gauss(3) }
+    pub Gauss4 { basis: polynomial(4), nodes: gauss(4) }
+    pub Lobatto2 { basis: polynomial(2), nodes: lobatto(2) }
+    pub Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
+    pub Lobatto4 { basis: polynomial(4), nodes: lobatto(4) }
+    pub ForestRuth { base: forest-ruth-1990 }
+}
+
+symplectic::hamiltonian! {
+    /// The ring of Marsden & West (2001), Figure 2, with friction.
+    pub Ring { gamma: 1e-3 }
+    q: [x, y], p: [px, py];
+    let r = x^2 + y^2;
+    H = (px^2 + py^2)/2 + r (r - 1)^2
+    force: { x = -gamma px, y = -gamma py }
+}
+
+symplectic::hamiltonian! {
+    /// An oscillator of frequency 1 that is driven.
+    pub Driven { f: 1, omega: 0.5 }
+    q: [x], p: [px];
+    H = (px^2 + x^2)/2
+    force: { x = f cos(omega t) }
+}
+
+symplectic::hamiltonian! {
+    /// Friction that depends on time, and drives where it is negative.
+    pub Pumped
+    q: [x], p: [px];
+    H = (px^2 + x^4)/2
+    force: { x = -0.5 sin(2 t) px }
+}
+
+fn ring_start() -> State<Vector2<f64>> {
+    State::from_arrays(0.0, [1.25, 0.0], [0.0, 0.5])
+}
+
+fn distance<const N: usize>(a: &State<SVector<f64, N>>, b: &State<SVector<f64, N>>) -> f64 {
+    (a.q - b.q).norm() + (a.p - b.p).norm()
+}
+
+/// How the error of steps of a method falls from one number of steps to twice as many.
+fn slope<M, S, const N: usize>(
+    method: M,
+    system: impl Fn() -> S,
+    start: &State<SVector<f64, N>>,
+    end: &State<SVector<f64, N>>,
+    steps: u32,
+) -> f64
+where
+    M: Method + ProvedFor<S::Class>,
+    S: System<SVector<f64, N>>,
+{
+    let errors = [steps, 2 * steps].map(|steps| {
+        let size = (end.time - start.time) / f64::from(steps);
+        let mut run = Integrator::new(method, system(), start.clone(), size).expect("a run");
+        distance(run.integrate_to(end.time).expect("steps"), end)
+    });
+    (errors[0] / errors[1]).log2()
+}
+
+/// The order is that for general Hamiltonians, and not one higher.
+#[test]
+fn orders_with_a_force_of_momenta() {
+    let ring = || Ring { gamma: 0.25 };
+    let mut run = Integrator::new(Gauss4, ring(), ring_start(), 1.0 / 256.0).expect("a run");
+    let end = run.integrate_to(2.0).expect("steps").clone();
+    let start = ring_start();
+    for (found, order) in [
+        (slope(Midpoint, ring, &start, &end, 128), 2.0),
+        (slope(Gauss2, ring, &start, &end, 48), 4.0),
+        (slope(Gauss3, ring, &start, &end, 64), 6.0),
+        (slope(Gauss4, ring, &start, &end, 48), 8.0),
+        (slope(Lobatto2, ring, &start, &end, 64), 2.0),
+        (slope(Lobatto3, ring, &start, &end, 64), 4.0),
+        (slope(Lobatto4, ring, &start, &end, 64), 6.0),
+    ] {
+        assert!((found - order).abs() < 0.05, "{found} instead of {order}");
+    }
+}
+
+/// A force of the time leaves the system separable, and splittings explicit: against the closed form.
+#[test]
+fn orders_with_a_force_of_the_time() {
+    let exact = |time: f64| {
+        // x = F/(1 − ω²) (cos ωt − cos t)
+        let (omega, factor) = (0.5, 1.0 / 0.75);
+        let x = factor * ((omega * time).cos() - time.cos());
+        let p = factor * (time.sin() - omega * (omega * time).sin());
+        State::from_arrays(time, [x], [p])
+    };
+    let driven = Driven::new;
+    for (found, order) in [
+        (slope(Lobatto2, driven, &exact(0.0), &exact(5.0), 100), 2.0),
+        (
+            slope(ForestRuth, driven, &exact(0.0), &exact(5.0), 100),
+            4.0,
+        ),
+        (slope(Gauss3, driven, &exact(0.0), &exact(5.0), 20), 6.0),
+    ] {
+        assert!((found - order).abs() < 0.05, "{found} instead of {order}");
+    }
+}
+
+/// Störmer–Verlet reads two clocks, and keeps its order with a force of time and momentum: the time of the force is a position.
+#[test]
+fn two_clocks_keep_the_order() {
+    let start = State::from_arrays(0.0, [1.0], [0.5]);
+    let mut run = Integrator::new(Gauss4, Pumped, start.clone(), 1.0 / 64.0).expect("a run");
+    let end = run.integrate_to(4.0).expect("steps").clone();
+    let found = slope(Lobatto2, || Pumped, &start, &end, 256);
+    assert!((found - 2.0).abs() < 0.05, "{found}");
+}
+
+/// The mean energy of the five units of time before t = 500, 1000, 1500 with h = 0.1, less the energy at t: Figure 2.
+#[test]
+fn the_energies_of_figure_two() {
+    let mut run = Integrator::new(Gauss3, Ring::new(), ring_start(), 0.1).expect("a run");
+    let exact = [500.0, 1000.0, 1500.0].map(|time| {
+        run.integrate_to(time).expect("steps");
+        run.energy().expect("known")
+    });
+    for (energy, printed) in exact.iter().zip([0.298, 0.160, 0.092]) {
+        assert!((energy - printed).abs() < 5e-4, "{energy} {printed}");
+    }
+    fn means<M: Method + ProvedFor<symplectic::General>>(method: M) -> [f64; 3] {
+        let mut run = Integrator::new(method, Ring::new(), ring_start(), 0.1).expect("a run");
+        [500.0, 1000.0, 1500.0].map(|time| {
+            run.integrate_to(time - 5.0).expect("steps");
+            let energies = (0..50).map(|_| {
+                run.step().expect("a step");
+                run.energy().expect("known")
+            });
+            energies.sum::<f64>() / 50.0
+        })
+    }
+    for (found, printed) in [
+        (means(Midpoint), [-1.3e-3, 2e-4, 7e-4]),
+        (means(Lobatto2), [-4.9e-3, -3.0e-3, -2.1e-3]),
+    ] {
+        for k in 0..3 {
+            let error = found[k] - exact[k];
+            assert!(
+                (error - printed[k]).abs() < 1e-4,
+                "{error:e} {:e}",
+                printed[k]
+            );
+        }
+    }
+}
+
+fn turned(q: &Vector2<f64>, out: &mut Vector2<f64>) {
+    *out = Vector2::new(-q[1], q[0]);
+}
+
+fn angular_momentum(state: &State<Vector2<f64>>) -> f64 {
+    state.q.perp(&state.p)
+}
+
+/// `J1 − J0 = h Σ b_i f_i·ξ_Q(Q_i)` in every step, whatever the method.
+#[test]
+fn the_balance_of_angular_momentum_is_exact() {
+    fn check<M: Method + ProvedFor<symplectic::General>>(method: M) {
+        let mut run =
+            Integrator::new(method, Ring { gamma: 0.25 }, ring_start(), 0.1).expect("a run");
+        for _ in 0..50 {
+            let before = angular_momentum(run.state());
+            let stages = run.step_with_stages().expect("a step");
+            let change = angular_momentum(run.state()) - before;
+            assert!(
+                (change - stages.impulse(turned)).abs() < 2e-15,
+                "{change:e}"
+            );
+            assert!(change.abs() > 1e-4, "{change:e}");
+        }
+    }
+    check(Midpoint);
+    check(Gauss3);
+    check(Lobatto2);
+    check(Lobatto4);
+}
+
+/// The work differs from the change of the energy by an error of the order of the method.
+#[test]
+fn the_balance_of_energy_has_the_order() {
+    let defect = |size: f64| -> f64 {
+        let start = State::from_arrays(0.0, [0.9, 0.2], [0.3, 0.5]);
+        let mut run = Integrator::new(Gauss2, Ring { gamma: 0.25 }, start, size).expect("a run");
+        let before = run.energy().expect("known");
+        let stages = run.step_with_stages().expect("a step");
+        run.energy().expect("known") - before - stages.work()
+    };
+    let found = (defect(0.02) / defect(0.01)).log2();
+    assert!((found - 5.0).abs() < 0.1, "{found}");
+}
+
+/// `H_d⁺(q0, p1) = p1·q1 − L_d(q0, q1)`
+#[test]
+fn the_action_is_that_of_the_generating_function() -> Result<(), Error> {
+    let pendulum = hamiltonian::<SVector<f64, 1>, _, _>(
+        |_, _, p, velocity| *velocity = *p,
+        |_, q, _, force| force[0] = -q[0].sin(),
+    )
+    .with_energy(|_, q, p| p[0] * p[0] / 2.0 - q[0].cos());
+    let start = State::from_arrays(0.0, [0.4], [0.9]);
+    let mut run = Integrator::new(Gauss3, pendulum, start.clone(), 0.25)?;
+    let stages: StagesOfStep<_> = run.step_with_stages()?;
+    let end = run.state().clone();
+    let generating = generating_function(Gauss3, &pendulum, 0.0, &start.q, &end.p, 0.25)?;
+    let legendre = end.p.dot(&end.q) - generating.value;
+    assert!((stages.action(&pendulum)? - legendre).abs() < 1e-15);
+    assert!(legendre.abs() > 0.1);
+    Ok(())
+}
+
+symplectic::hamiltonian! {
+    /// A spherical pendulum of length 1 in a resisting medium.
+    pub Resisted { gamma: 0.3, g: 1 }
+    q: [x, y, z], p: [px, py, pz];
+    H = (px^2 + py^2 + pz^2)/2 + g z
+    constraints: { rod = x^2 + y^2 + z^2 - 1 }
+    force: { x = -gamma px, y = -gamma py, z = -gamma pz }
+}
+
+symplectic::composition! {
+    pub FourthRattle { base: lobatto-2, weights: triple_jump(4) }
+}
+
+fn swing() -> State<Vector3<f64>> {
+    State::from_arrays(0.0, [0.6, 0.0, -0.8], [0.4, 0.7, 0.3])
+}
+
+/// With constraints the balance is exact too, and the orders are those without a force.
+#[test]
+fn forces_and_constraints() {
+    let mut run = Integrator::new(Lobatto4, Resisted::new(), swing(), 1.0 / 128.0).expect("a run");
+    let end = run.integrate_to(1.0).expect("steps").clone();
+    let start = swing();
+    for (found, order) in [
+        (slope(Lobatto2, Resisted::new, &start, &end, 64), 2.0),
+        (slope(Lobatto3, Resisted::new, &start, &end, 16), 4.0),
+        (slope(Lobatto4, Resisted::new, &start, &end, 8), 6.0),
+        (slope(FourthRattle, Resisted::new, &start, &end, 64), 4.0),
+    ] {
+        assert!((found - order).abs() < 0.1, "{found} instead of {order}");
+    }
+    fn check<M: Method + ProvedFor<symplectic::Constrained<symplectic::General>>>(method: M) {
+        let mut run = Integrator::new(method, Resisted::new(), swing(), 0.1).expect("a run");
+        let vertical =
+            |state: &State<Vector3<f64>>| state.q[0] * state.p[1] - state.q[1] * state.p[0];
+        for _ in 0..20 {
+            let before = vertical(run.state());
+            let stages = run.step_with_stages().expect("a step");
+            let change = vertical(run.state()) - before;
+            let impulse = stages.impulse(|q, out| *out = Vector3::new(-q[1], q[0], 0.0));
+            assert!((change - impulse).abs() < 2e-15, "{change:e} {impulse:e}");
+            assert!(change.abs() > 1e-5, "{change:e}");
+        }
+    }
+    check(Lobatto2);
+    check(Lobatto3);
+    check(FourthRattle);
+}
+
+symplectic::lagrangian! {
+    /// A particle in the plane with drag, in polar coordinates.
+    pub Polar { c: 0.2 }
+    q: [r, a], v: [vr, va];
+    let speed2 = vr^2 + (r va)^2;
+    L = (vr^2 + r^2 va^2)/2 + 1/r
+    // Drag −c |v|² v, as the covector of r and a.
+    force: { r = -c speed2 vr, a = -c speed2 r^2 va }
+}
+
+symplectic::hamiltonian! {
+    /// The same in Cartesian coordinates.
+    pub Cartesian { c: 0.2 }
+    q: [x, y], p: [px, py];
+    H = (px^2 + py^2)/2 - 1/|[x, y]|
+    force: { x = -c (px^2 + py^2) px, y = -c (px^2 + py^2) py }
+}
+
+#[test]
+fn a_force_of_velocities_is_one_of_momenta() -> Result<(), Error> {
+    let polar = Polar::new();
+    let (q, v) = ([1.2, 0.3].into(), [0.1, 0.7].into());
+    let p = polar.momentum_of_velocity(0.0, &q, &v);
+    let start: State<Vector2<f64>> = State::new(0.0, q, p);
+    let end = Integrator::new(Gauss4, polar, start, 1.0 / 64.0)?
+        .integrate_to(3.0)?
+        .clone();
+    let place = |r: f64, a: f64| Vector2::new(r * a.cos(), r * a.sin());
+    let (sin, cos) = 0.3_f64.sin_cos();
+    let p = Vector2::new(0.1 * cos - 0.84 * sin, 0.1 * sin + 0.84 * cos);
+    let start = State::new(0.0, place(1.2, 0.3), p);
+    let other = Integrator::new(Gauss4, Cartesian::new(), start, 1.0 / 64.0)?
+        .integrate_to(3.0)?
+        .clone();
+    assert!((place(end.q[0], end.q[1]) - other.q).norm() < 1e-11);
+    Ok(())
+}
+
+symplectic::hamiltonian! {
+    /// Beads in the plane: dampers between pairs of them, drag on each, a push on the first.
+    pub Beads { dampers: pairs, c: 0.3, drag: 0.1 }
+    q: [..; 2], p: [..; 2];
+    H = sum(i: |p[i]|^2/2 + |q[i]|^2/2)
+    force: {
+        q[i] = -drag |p[i]|^2 p[i],
+        q[i](s = (i, j) in dampers) = -c (p[i] - p[j]),
+        q[j](s = (i, j) in dampers) = c (p[i] - p[j]),
+        q[0] = [cos(t), 0],
+    }
+}
+
+#[test]
+fn forces_on_numbered_coordinates() -> Result<(), Error> {
+    let pairs = [(0, 1), (1, 2), (3, 0)];
+    let beads = Beads::new(pairs.to_vec());
+    let q = DVector::from_fn(8, |k, _| (0.3 * k as f64).sin());
+    let p = DVector::from_fn(8, |k, _| 1.0 - 0.2 * k as f64);
+    let (mut force, mut applied) = (q.clone(), q.clone());
+    System::<DVector<f64>>::force(&beads, 0.7, &q, &p, &mut force);
+    System::<DVector<f64>>::applied_force(&beads, 0.7, &q, &p, &mut applied);
+    let mut expected = DVector::zeros(8);
+    for i in 0..4 {
+        let square = p[2 * i] * p[2 * i] + p[2 * i + 1] * p[2 * i + 1];
+        for k in 0..2 {
+            expected[2 * i + k] -= 0.1 * square * p[2 * i + k];
+        }
+    }
+    for (i, j) in pairs {
+        for k in 0..2 {
+            let relative = 0.3 * (p[2 * i + k] - p[2 * j + k]);
+            expected[2 * i + k] -= relative;
+            expected[2 * j + k] += relative;
+        }
+    }
+    expected[0] += 0.7_f64.cos();
+    assert!((&applied - &expected).norm() < 1e-15);
+    assert!((&force + &q - &expected).norm() < 1e-14);
+    // Pushed and damped, all of them come to a motion with the period of the push.
+    let start = State::new(0.0, q, p);
+    let mut run = Integrator::new(Gauss3, beads, start, 0.1)?;
+    let one = run.integrate_to(400.0)?.clone();
+    let next = run.integrate_to(400.0 + core::f64::consts::TAU)?;
+    assert!(
+        (&one.q - &next.q).norm() < 1e-3,
+        "{}",
+        (&one.q - &next.q).norm()
+    );
+    Ok(())
+}
+
+symplectic::hamiltonian! {
+    /// Friction that is far too stiff for a fixed-point iteration.
+    pub Stiff { gamma: 1e6 }
+    q: [x], p: [px];
+    H = (px^2 + x^2)/2
+    force: { x = -gamma px }
+}
+
+/// Newton's matrix contains the derivative of the force by the momentum.
+#[test]
+fn newton_with_stiff_friction() -> Result<(), Error> {
+    let start = State::from_arrays(0.0, [1.0], [-1e-6]);
+    let mut run = Integrator::new(Gauss3, Stiff::new(), start, 0.1)?.by_newton();
+    run.integrate_to(10.0)?;
+    // x' = −x/γ on the slow manifold.
+    assert!((run.state().q[0] - (-10.0 / 1e6_f64).exp()).abs() < 1e-9);
+    assert!(run.statistics().mean_iterations() < 6.0);
+    let mut run = Integrator::new(Gauss3, Differenced, run.into_state(), 0.1)?.by_newton();
+    run.integrate_to(20.0)?;
+    assert!((run.state().q[0] - (-20.0 / 1e6_f64).exp()).abs() < 1e-9);
+    assert!(run.statistics().mean_iterations() < 8.0);
+    Ok(())
+}
+
+/// The same without second derivatives: differences.
+struct Differenced;
+
+impl symplectic::Hamiltonian for Differenced {
+    type Class = symplectic::General;
+    type Vector<T: Scalar> = SVector<T, 1>;
+    const FORCED: bool = true;
+
+    fn velocity<T: Scalar>(
+        &self,
+        _: T,
+        _: &SVector<T, 1>,
+        p: &SVector<T, 1>,
+        velocity: &mut SVector<T, 1>,
+    ) {
+        *velocity = *p;
+    }
+
+    fn force<T: Scalar>(
+        &self,
+        time: T,
+        q: &SVector<T, 1>,
+        p: &SVector<T, 1>,
+        force: &mut SVector<T, 1>,
+    ) {
+        symplectic::Hamiltonian::applied_force(self, time, q, p, force);
+        *force -= q;
+    }
+
+    fn applied_force<T: Scalar>(
+        &self,
+        _: T,
+        _: &SVector<T, 1>,
+        p: &SVector<T, 1>,
+        applied: &mut SVector<T, 1>,
+    ) {
+        *applied = p * T::from_f64(-1e6);
+    }
+}
