@@ -3,6 +3,7 @@
 mod formulas;
 mod friction;
 mod holonomic;
+mod rotation;
 mod scales;
 mod start;
 mod systems;
