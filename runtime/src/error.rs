@@ -408,6 +408,25 @@ pub enum Error {
         iterations: u32,
     },
 
+    /// The matrix D1D2 of a discrete Lagrangian is singular: the position at the end of the step does not follow from the momentum at its
+    /// start.
+    #[error(
+        "step {step} of size {step_size} at time {time}: D1D2 of the discrete Lagrangian is singular (pivot {pivot:e} for component \
+         {component}); take a Lagrangian that determines every velocity, or keep away from this position"
+    )]
+    IrregularLagrangian {
+        /// Time at the start of the step.
+        time: f64,
+        /// Step size.
+        step_size: f64,
+        /// Number of the step, from 1.
+        step: u64,
+        /// The component of the position that is not determined, from 0.
+        component: usize,
+        /// The pivot, relative to the largest entry of its column.
+        pivot: f64,
+    },
+
     /// A rigid body turns by π or more in a step, where the rotation of the step is no longer unique.
     #[error(
         "step {step} of size {step_size} at time {time}: the body turns by {angle} rad, and a step is for less than half a turn; take a \
@@ -470,6 +489,8 @@ pub enum Quantity {
     Attitude,
     /// A torque on a rigid body.
     Torque,
+    /// A discrete Lagrangian, its derivatives or its forces.
+    DiscreteLagrangian,
 }
 
 impl fmt::Display for Quantity {
@@ -485,6 +506,7 @@ impl fmt::Display for Quantity {
             Self::Constraint => "constraint",
             Self::Attitude => "attitude",
             Self::Torque => "torque",
+            Self::DiscreteLagrangian => "discrete Lagrangian",
         })
     }
 }

@@ -79,8 +79,8 @@ impl<B: RigidBody> RotationIntegrator<B> {
         Self::by(SymmetricSteps::ONE, body, state, step_size)
     }
 
-    /// [`new`](Self::new) with the steps of a composition that [`composition!`](crate::composition) makes of Störmer–Verlet steps, and with its
-    /// order.
+    /// [`new`](Self::new) with the steps of a composition that [`composition!`](crate::composition) makes of Störmer–Verlet steps, and with the
+    /// order that it has for general Hamiltonians, `M::ORDERS.general`.
     ///
     /// # Errors
     ///

@@ -1,7 +1,15 @@
 //! Discrete mechanics: what generates a step.
+//!
+//! A method has a [generating function](generating_function()) for each of its steps; and a [`DiscreteLagrangian`] that is given has steps that it generates, by
+//! a [`VariationalIntegrator`]. What holds for it is asked of a [`DiscretePath`].
 
-#[cfg(feature = "alloc")]
+mod checks;
+mod discrete_lagrangian;
 pub(crate) mod generating_function;
+mod integrator;
+mod regular;
 
-#[cfg(feature = "alloc")]
+pub use checks::DiscretePath;
+pub use discrete_lagrangian::DiscreteLagrangian;
 pub use generating_function::{GeneratingFunction, generating_function};
+pub use integrator::VariationalIntegrator;

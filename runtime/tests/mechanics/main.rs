@@ -1,5 +1,6 @@
 //! Systems with constraints, and with friction.
 
+mod discrete_lagrangians;
 mod formulas;
 mod friction;
 mod holonomic;
