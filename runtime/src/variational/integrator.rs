@@ -206,7 +206,9 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
                 step_size: size,
             });
         }
-        self.next.clone_from(&self.state);
+        let (from, to) = (&self.state, &mut self.next);
+        to.q.as_mut_slice().copy_from_slice(from.q.as_slice());
+        to.p.as_mut_slice().copy_from_slice(from.p.as_slice());
         let mut action = 0.0;
         for part in self.steps.parts(start, size, end) {
             self.part(part)
