@@ -4,10 +4,12 @@ use symplectic::nalgebra::{DVector, SVector, Vector2};
 use symplectic::variational::{DiscreteLagrangian, DiscretePath, VariationalIntegrator};
 use symplectic::{
     Error, Integrator, Method, ProvedFor, Quantity, Scalar, State, System, Vector, hamiltonian,
+    separable,
 };
 
 symplectic::tableau! {
     StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) }
+    Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
     Midpoint { basis: polynomial(1), nodes: gauss(1) }
     Gauss6 { basis: polynomial(6), nodes: gauss(6) }
 }
@@ -222,6 +224,51 @@ impl DiscreteLagrangian for Pendulum {
         let (q, v) = (q0[0] * before + q1[0] * after, (q1[0] - q0[0]) / h);
         h * (v * v * T::from_f64(0.5) + q.cos())
     }
+}
+
+/// The pendulum by the parabola through q0, q, q1 and Simpson's rule, with the q in the middle for which that action is extremal.
+#[derive(Clone, Copy)]
+struct Simpson;
+
+impl DiscreteLagrangian for Simpson {
+    type Vector<T: Scalar> = V1<T>;
+
+    fn value<T: Scalar>(&self, _: T, h: T, q0: &V1<T>, q1: &V1<T>) -> T {
+        let number = T::from_f64;
+        let (q0, q1) = (q0[0], q1[0]);
+        // The action is extremal where q = (q0 + q1)/2 + (h²/8) sin q; the derivatives converge as q does.
+        let middle = (q0 + q1) * number(0.5);
+        let q = (0..30).fold(middle, |q, _| middle + h * h * number(0.125) * q.sin());
+        let three = number(3.0);
+        let velocities = [
+            (q * number(4.0) - q0 * three - q1) / h,
+            (q1 - q0) / h,
+            (q1 * three - q * number(4.0) + q0) / h,
+        ];
+        let lagrangian = |v: T, q: T| v * v * number(0.5) + q.cos();
+        let [start, middle, end] = velocities;
+        let sum = lagrangian(start, q0) + lagrangian(end, q1) + number(4.0) * lagrangian(middle, q);
+        h * sum / number(6.0)
+    }
+}
+
+/// A Galerkin method whose inner point is found in the code of Ld: Lobatto IIIA–IIIB with three stages, of order 4.
+#[test]
+fn an_extremum_inside() {
+    let start = State::from_arrays(0.0, [1.0], [0.4]);
+    let pendulum = || {
+        separable::<V1<f64>, _, _>(
+            |_, p, velocity| *velocity = *p,
+            |_, q, force| force[0] = -q[0].sin(),
+        )
+    };
+    let found = difference(Lobatto3, pendulum(), Simpson, start.clone());
+    assert!(found < 1e-12, "{found:e}");
+    let mut run = Integrator::new(Gauss6, pendulum(), start.clone(), 0.02).expect("a run");
+    let reference = &run.integrate_to(1.0).expect("steps").clone();
+    assert_order(4.0, reference, &start, 10, |state, size| {
+        VariationalIntegrator::new(Simpson, state, size)
+    });
 }
 
 /// Along an orbit Ld is the action up to h^{r+1}, and −D1 Ld and D2 Ld are its momenta up to h^r, r the order of the map (Theorem 2.3.1).
