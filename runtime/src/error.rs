@@ -390,6 +390,68 @@ pub enum Error {
         pivot: f64,
     },
 
+    /// Newton's iteration for the end of a step of a discrete Lagrangian or a rigid body does not converge.
+    #[error(
+        "step {step} of size {step_size} at time {time}: no end of the step was found in {iterations} iterations (relative change \
+         {residual:e} in the last one); take a smaller step"
+    )]
+    NoEndOfStep {
+        /// Time at the start of the step.
+        time: f64,
+        /// Step size.
+        step_size: f64,
+        /// Number of the step, from 1.
+        step: u64,
+        /// Relative change in the last iteration.
+        residual: f64,
+        /// Iterations made.
+        iterations: u32,
+    },
+
+    /// The matrix D1D2 of a discrete Lagrangian is singular: the position at the end of the step does not follow from the momentum at its
+    /// start.
+    #[error(
+        "step {step} of size {step_size} at time {time}: D1D2 of the discrete Lagrangian is singular (pivot {pivot:e} for component \
+         {component}); take a Lagrangian that determines every velocity, or keep away from this position"
+    )]
+    IrregularLagrangian {
+        /// Time at the start of the step.
+        time: f64,
+        /// Step size.
+        step_size: f64,
+        /// Number of the step, from 1.
+        step: u64,
+        /// The component of the position that is not determined, from 0.
+        component: usize,
+        /// The pivot, relative to the largest entry of its column.
+        pivot: f64,
+    },
+
+    /// A rigid body turns by π or more in a step, where the rotation of the step is no longer unique.
+    #[error(
+        "step {step} of size {step_size} at time {time}: the body turns by {angle} rad, and a step is for less than half a turn; take a \
+         smaller step"
+    )]
+    HalfTurn {
+        /// Time at the start of the step.
+        time: f64,
+        /// Step size.
+        step_size: f64,
+        /// Number of the step, from 1.
+        step: u64,
+        /// The angle in radians.
+        angle: f64,
+    },
+
+    /// A principal moment of inertia is not finite, or not above 0.
+    #[error("moment of inertia {axis} is {value}; all three must be finite and positive")]
+    MomentOfInertia {
+        /// The principal axis, from 0.
+        axis: usize,
+        /// The moment given.
+        value: f64,
+    },
+
     /// The step is so small that it does not change the time.
     #[error(
         "a step of size {step_size} does not change the time {time}, which has 53 bits; take a larger step, or \
@@ -423,6 +485,12 @@ pub enum Quantity {
     Energy,
     /// A holonomic constraint φ.
     Constraint,
+    /// The attitude R of a rigid body.
+    Attitude,
+    /// A torque on a rigid body.
+    Torque,
+    /// A discrete Lagrangian, its derivatives or its forces.
+    DiscreteLagrangian,
 }
 
 impl fmt::Display for Quantity {
@@ -436,6 +504,9 @@ impl fmt::Display for Quantity {
             Self::Derivative => "derivative of the velocity or the force",
             Self::Energy => "energy",
             Self::Constraint => "constraint",
+            Self::Attitude => "attitude",
+            Self::Torque => "torque",
+            Self::DiscreteLagrangian => "discrete Lagrangian",
         })
     }
 }

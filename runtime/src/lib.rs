@@ -22,6 +22,8 @@
 //! | The system: a formula, closures or a trait | [`hamiltonian!`], [`lagrangian!`]; [`separable`], [`hamiltonian()`], [`acceleration`]; [`SeparableHamiltonian`], [`Hamiltonian`]; [`system`] |
 //! | Numbers and vectors | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors), [`simd`] |
 //! | Constraints and friction | [`Constrained`], [`consistent`], [`constraint_force`]; [`Damped`] |
+//! | A rigid body that turns about a point | [`rotation`] |
+//! | Discrete Lagrangians, generating functions | [`variational`] |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`RunTimeTableau`] |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
 //! | What is seen of a run | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
@@ -79,6 +81,7 @@ mod integrator;
 mod method;
 mod number;
 pub mod output;
+pub mod rotation;
 pub mod solver;
 pub mod system;
 #[cfg(feature = "alloc")]
@@ -164,6 +167,10 @@ mod book {
     struct Constraints;
     #[doc = include_str!("../../docs/src/guide/forces.md")]
     struct Forces;
+    #[doc = include_str!("../../docs/src/guide/rigid-bodies.md")]
+    struct RigidBodies;
+    #[doc = include_str!("../../docs/src/guide/discrete-lagrangians.md")]
+    struct DiscreteLagrangians;
     #[doc = include_str!("../../docs/src/guide/newton.md")]
     struct Newton;
     #[doc = include_str!("../../docs/src/guide/speed.md")]

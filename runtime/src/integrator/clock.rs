@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::number::words::{Visit, Words, words};
 
 /// The times `start + k size`.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Clock {
     start: f64,
     size: f64,

@@ -21,6 +21,7 @@ pub(crate) mod splitting_macros;
 pub(crate) mod step;
 pub(crate) mod stopping;
 pub(crate) mod storage;
+pub(crate) mod symmetric_steps;
 pub(crate) mod tableau;
 pub(crate) mod tableau_macro;
 pub(crate) mod work;

@@ -178,6 +178,14 @@ impl<E: Entry> Elimination<E> {
 
     /// Factors the matrix with these entries; returns whether every pivot is finite and not zero.
     pub(crate) fn factor(&mut self, entry: impl Fn(usize, usize) -> E) -> bool {
+        self.first_without_pivot(entry).is_none()
+    }
+
+    /// [`factor`](Self::factor) that returns the first column whose pivot is zero or not finite, if there is one.
+    pub(crate) fn first_without_pivot(
+        &mut self,
+        entry: impl Fn(usize, usize) -> E,
+    ) -> Option<usize> {
         self.entries.fill(E::zero());
         for i in 0..self.size {
             for j in self.band(i) {
@@ -185,7 +193,12 @@ impl<E: Entry> Elimination<E> {
                 self.entries[place] = entry(i, j);
             }
         }
-        (0..self.size).all(|k| self.eliminate(k))
+        (0..self.size).find(|&k| !self.eliminate(k))
+    }
+
+    /// The pivot of a column.
+    pub(crate) fn pivot(&self, column: usize) -> E {
+        self.entries[self.place(column, column)].inverse()
     }
 
     /// Eliminates one column; returns whether it has a pivot.

@@ -5,6 +5,8 @@ pub(crate) mod coefficient;
 pub(crate) mod elementary;
 #[cfg(feature = "alloc")]
 pub(crate) mod elimination;
+#[cfg(feature = "alloc")]
+pub(crate) mod hyper_dual;
 pub(crate) mod lanes;
 pub(crate) mod linear_combination;
 pub(crate) mod rows;

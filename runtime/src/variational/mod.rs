@@ -1,13 +1,19 @@
 //! Discrete mechanics: what generates a step, its stages, and the balances of energy and momentum.
+//!
+//! A method has a [generating function](generating_function()) for each of its steps, and [stages](StagesOfStep) with the work and the impulse
+//! of applied forces. A [`DiscreteLagrangian`] that is given has steps that it generates, by a [`VariationalIntegrator`]; what holds for it
+//! is asked of a [`DiscretePath`].
 
-#[cfg(feature = "alloc")]
+mod checks;
+mod discrete_lagrangian;
 pub(crate) mod generating_function;
-#[cfg(feature = "alloc")]
+mod integrator;
+mod regular;
 pub(crate) mod stages;
-#[cfg(feature = "alloc")]
 mod two_ends;
 
-#[cfg(feature = "alloc")]
+pub use checks::DiscretePath;
+pub use discrete_lagrangian::DiscreteLagrangian;
 pub use generating_function::{GeneratingFunction, generating_function};
-#[cfg(feature = "alloc")]
+pub use integrator::VariationalIntegrator;
 pub use stages::{StageOfStep, StagesOfStep};

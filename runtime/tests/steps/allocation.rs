@@ -11,6 +11,7 @@ use crate::common::systems::Pendulum;
 
 use crate::common::methods::{Midpoint, StoermerVerlet};
 use symplectic::system::{Bonds, Chain};
+use symplectic::variational::{DiscreteLagrangian, VariationalIntegrator};
 use symplectic::{Error, Event, Integrator, Method, Moment, Scalar, State, Vector};
 
 thread_local! {
@@ -194,5 +195,44 @@ fn steps_of_a_chain_make_no_vectors() -> Result<(), Error> {
     });
     outcome?;
     assert_eq!(count, 0);
+    Ok(())
+}
+
+/// A particle on a line with drag, by its discrete Lagrangian.
+struct Particle;
+
+impl DiscreteLagrangian for Particle {
+    type Vector<T: Scalar> = Counted<T>;
+
+    fn value<T: Scalar>(&self, _time: T, h: T, q0: &Counted<T>, q1: &Counted<T>) -> T {
+        let way = q1.0[0] - q0.0[0];
+        let half = T::from_f64(0.5);
+        way * way * half / h + h * (q0.0[0] + way * half).cos()
+    }
+
+    const FORCED: bool = true;
+
+    fn forces<T: Scalar>(
+        &self,
+        _time: T,
+        _step_size: T,
+        q0: &Counted<T>,
+        q1: &Counted<T>,
+        minus: &mut Counted<T>,
+        _plus: &mut Counted<T>,
+    ) {
+        minus.0[0] = (q0.0[0] - q1.0[0]) * T::from_f64(0.1);
+    }
+}
+
+#[test]
+fn steps_of_a_discrete_lagrangian_make_no_vectors() -> Result<(), Error> {
+    let start = || State::new(0.0, Counted::new(vec![1.0]), Counted::new(vec![0.0]));
+    let (made_by_new, run) = made(|| VariationalIntegrator::new(Particle, start(), 0.1));
+    assert!(made_by_new > 4);
+    let mut run = run?;
+    let (made_by_steps, outcome) = made(|| run.integrate_to(10.0).map(|_| ()));
+    outcome?;
+    assert_eq!(made_by_steps, 0);
     Ok(())
 }

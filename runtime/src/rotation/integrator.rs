@@ -1,0 +1,310 @@
+//! Steps of a rigid body.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::attitude::{Attitude, Precise};
+use super::body::RigidBody;
+use super::free_step::{NoRotation, rotation};
+use super::state::RotationState;
+use crate::error::{Error, Quantity};
+use crate::integrator::clock::{Clock, uniform};
+use crate::integrator::validation::check_step_size;
+use crate::method::Method;
+use crate::method::symmetric_steps::{Part, SymmetricSteps};
+
+/// Steps a [`RigidBody`] by the symplectic method on SO(3) that [`rotation`](crate::rotation) describes. A step allocates nothing, and evaluates
+/// the torque once, in a composition once for each of its steps. A step that fails leaves the state as it was.
+///
+/// ```
+/// symplectic::composition! { Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] } }
+/// use symplectic::nalgebra::{UnitQuaternion, Vector3};
+/// use symplectic::rotation::{HeavyTop, RotationIntegrator, RotationState};
+///
+/// # fn main() -> Result<(), symplectic::Error> {
+/// let top = HeavyTop { moments: Vector3::new(1.0, 1.0, 0.5), weight: 1.0, centre: Vector3::new(0.0, 0.0, 1.0) };
+/// let tilted = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), 0.5);
+/// let start = RotationState::new(0.0, tilted, Vector3::new(0.0, 0.0, 3.0));
+/// let mut run = RotationIntegrator::composed(Suzuki4, top, start, 0.05)?;
+/// let (energy, momentum) = (run.energy().expect("it is known"), run.spatial_momentum());
+/// run.integrate_to(100.0)?;
+/// assert!((run.energy().expect("it is known") - energy).abs() < 1e-6);
+/// assert!((run.spatial_momentum().z - momentum.z).abs() < 1e-14);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct RotationIntegrator<B> {
+    body: B,
+    moments: Vector3<f64>,
+    steps: SymmetricSteps,
+    step_size: f64,
+    clock: Clock,
+    course: Course,
+    taken: u64,
+    state: RotationState,
+}
+
+/// What a step changes.
+#[derive(Clone, Copy, Debug)]
+struct Course {
+    attitude: Attitude,
+    /// The angular momentum in space.
+    momentum: Precise<3>,
+    /// The torque in space, where it is known.
+    torque: Option<Vector3<f64>>,
+}
+
+impl Course {
+    fn new(state: &RotationState) -> Self {
+        Self {
+            attitude: Attitude::new(&state.attitude),
+            momentum: Precise::new(state.spatial_momentum().into()),
+            torque: None,
+        }
+    }
+
+    /// The angular momentum in space.
+    fn spatial(&self) -> Vector3<f64> {
+        Vector3::from(self.momentum.high)
+    }
+}
+
+impl<B: RigidBody> RotationIntegrator<B> {
+    /// An integrator of order 2 at `state`, with steps of size `step_size`, negative to go backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`], [`Error::MomentOfInertia`], [`Error::NonFiniteState`].
+    pub fn new(body: B, state: RotationState, step_size: f64) -> Result<Self, Error> {
+        Self::by(SymmetricSteps::ONE, body, state, step_size)
+    }
+
+    /// [`new`](Self::new) with the steps of a composition that [`composition!`](crate::composition) makes of Störmer–Verlet steps, and with the
+    /// order that it has for general Hamiltonians, `M::ORDERS.general`.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Self::new). With another method it does not compile:
+    ///
+    /// ```compile_fail,E0080
+    /// symplectic::composition! { Sixth { base: lobatto-3, weights: triple_jump(6) } }
+    /// use symplectic::nalgebra::{UnitQuaternion, Vector3};
+    /// use symplectic::rotation::{FreeBody, RotationIntegrator, RotationState};
+    ///
+    /// let start = RotationState::new(0.0, UnitQuaternion::identity(), Vector3::z());
+    /// RotationIntegrator::composed(Sixth, FreeBody::new(1.0, 2.0, 3.0), start, 0.1).unwrap();
+    /// ```
+    pub fn composed<M: Method>(
+        _method: M,
+        body: B,
+        state: RotationState,
+        step_size: f64,
+    ) -> Result<Self, Error> {
+        Self::by(SymmetricSteps::of::<M>(), body, state, step_size)
+    }
+
+    fn by(
+        steps: SymmetricSteps,
+        body: B,
+        state: RotationState,
+        step_size: f64,
+    ) -> Result<Self, Error> {
+        check_step_size(step_size)?;
+        let moments = body.moments();
+        for (axis, &value) in moments.iter().enumerate() {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Error::MomentOfInertia { axis, value });
+            }
+        }
+        check_state(&state)?;
+        Ok(Self {
+            body,
+            moments,
+            steps,
+            step_size,
+            clock: Clock::new(state.time, step_size),
+            course: Course::new(&state),
+            taken: 0,
+            state,
+        })
+    }
+
+    /// Takes one step and returns the state after it. The time after `k` steps is `start + k h`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::HalfTurn`], [`Error::NoEndOfStep`], [`Error::NonFinite`] for a torque, [`Error::TimeResolution`]; the state is untouched.
+    pub fn step(&mut self) -> Result<&RotationState, Error> {
+        self.advance(self.step_size, self.clock.next())?;
+        self.clock.tick();
+        Ok(&self.state)
+    }
+
+    /// Goes to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last good step.
+    pub fn integrate_to(&mut self, end: f64) -> Result<&RotationState, Error> {
+        let (count, size) = uniform(self.state.time, end, self.step_size)?;
+        let mut clock = Clock::new(self.state.time, size);
+        let mut outcome = Ok(());
+        for number in 1..=count {
+            let time = if number == count { end } else { clock.next() };
+            outcome = self.advance(size, time);
+            if outcome.is_err() {
+                break;
+            }
+            clock.tick();
+        }
+        self.clock = Clock::new(self.state.time, self.step_size);
+        outcome.map(|()| &self.state)
+    }
+
+    /// The present state, rounded.
+    pub const fn state(&self) -> &RotationState {
+        &self.state
+    }
+
+    /// The angular momentum `RΠ`, along the axes of space: without torque the same number, to the last bit, after every step.
+    pub fn spatial_momentum(&self) -> Vector3<f64> {
+        self.course.spatial()
+    }
+
+    /// `Π·I⁻¹Π/2 + V(t, R)`; `None` if the body gives no potential.
+    pub fn energy(&self) -> Option<f64> {
+        let RotationState {
+            time,
+            attitude,
+            momentum,
+        } = &self.state;
+        let kinetic = momentum.dot(&momentum.component_div(&self.moments)) / 2.0;
+        Some(kinetic + self.body.potential(*time, attitude)?)
+    }
+
+    /// The body.
+    pub const fn body(&self) -> &B {
+        &self.body
+    }
+
+    /// The step size.
+    pub const fn step_size(&self) -> f64 {
+        self.step_size
+    }
+
+    /// Steps taken.
+    pub const fn steps(&self) -> u64 {
+        self.taken
+    }
+
+    /// Changes the step size; negative to go backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`]; the one before then holds.
+    pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
+        check_step_size(step_size)?;
+        self.step_size = step_size;
+        self.clock = Clock::new(self.state.time, step_size);
+        Ok(())
+    }
+
+    /// One step of size `size`, to the time `end`.
+    fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
+        let start = self.state.time;
+        if end == start {
+            return Err(Error::TimeResolution {
+                time: end,
+                step_size: size,
+            });
+        }
+        let mut course = self.course;
+        for part in self.steps.parts(start, size, end) {
+            self.kick_free_step_kick(&mut course, part)
+                .map_err(|failure| failure.error(start, size, self.taken + 1))?;
+        }
+        let attitude = course.attitude.rounded();
+        let momentum = attitude.inverse_transform_vector(&course.spatial());
+        self.course = course;
+        self.state = RotationState::new(end, attitude, momentum);
+        self.taken += 1;
+        Ok(())
+    }
+
+    /// A step of order 2.
+    fn kick_free_step_kick(&self, course: &mut Course, part: Part) -> Result<(), Failure> {
+        let before = match course.torque {
+            Some(torque) => torque,
+            None => self.torque(part.time, &course.attitude.rounded())?,
+        };
+        course.momentum.add((before * (part.size / 2.0)).into());
+        let attitude = course.attitude.rounded();
+        let momentum = attitude.inverse_transform_vector(&course.spatial());
+        let rotation = rotation(&self.moments, &momentum, part.size).map_err(Failure::Rotation)?;
+        course.attitude.turn(&rotation);
+        let after = self.torque(part.end, &course.attitude.rounded())?;
+        course.momentum.add((after * (part.size / 2.0)).into());
+        course.torque = Some(after);
+        Ok(())
+    }
+
+    /// The torque in space.
+    fn torque(&self, time: f64, attitude: &UnitQuaternion<f64>) -> Result<Vector3<f64>, Failure> {
+        let torque = self.body.torque(time, attitude);
+        if torque.iter().all(|component| component.is_finite()) {
+            Ok(attitude * torque)
+        } else {
+            Err(Failure::Torque)
+        }
+    }
+}
+
+/// Why a step was not taken.
+enum Failure {
+    Torque,
+    Rotation(NoRotation),
+}
+
+impl Failure {
+    fn error(self, time: f64, step_size: f64, step: u64) -> Error {
+        match self {
+            Self::Torque => Error::NonFinite {
+                time,
+                step_size,
+                step,
+                what: Quantity::Torque,
+                stage: None,
+            },
+            Self::Rotation(NoRotation::HalfTurn { angle }) => Error::HalfTurn {
+                time,
+                step_size,
+                step,
+                angle,
+            },
+            Self::Rotation(NoRotation::NotFound {
+                residual,
+                iterations,
+            }) => Error::NoEndOfStep {
+                time,
+                step_size,
+                step,
+                residual,
+                iterations,
+            },
+        }
+    }
+}
+
+fn check_state(state: &RotationState) -> Result<(), Error> {
+    let finite = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
+    let what = if !state.time.is_finite() {
+        Quantity::Time
+    } else if !finite(state.attitude.coords.as_slice()) {
+        Quantity::Attitude
+    } else if !finite(state.momentum.as_slice()) {
+        Quantity::Momentum
+    } else {
+        return Ok(());
+    };
+    Err(Error::NonFiniteState { what })
+}

@@ -1,0 +1,40 @@
+//! Where a rigid body is.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// The attitude and the angular momentum of a rigid body at a time.
+///
+/// ```
+/// use symplectic::nalgebra::{UnitQuaternion, Vector3};
+/// use symplectic::rotation::RotationState;
+///
+/// // The first axis of the body is along the y axis of space.
+/// let quarter_turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), core::f64::consts::FRAC_PI_2);
+/// let state = RotationState::new(0.0, quarter_turn, Vector3::new(1.0, 0.0, 0.0));
+/// assert!((state.spatial_momentum() - Vector3::y()).norm() < 1e-15);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RotationState {
+    /// Time t.
+    pub time: f64,
+    /// The attitude R, from the axes of the body to those of space.
+    pub attitude: UnitQuaternion<f64>,
+    /// The angular momentum Π, along the axes of the body.
+    pub momentum: Vector3<f64>,
+}
+
+impl RotationState {
+    /// The state `(R, Π)` at `time`.
+    pub const fn new(time: f64, attitude: UnitQuaternion<f64>, momentum: Vector3<f64>) -> Self {
+        Self {
+            time,
+            attitude,
+            momentum,
+        }
+    }
+
+    /// The angular momentum `RΠ`, along the axes of space.
+    pub fn spatial_momentum(&self) -> Vector3<f64> {
+        self.attitude * self.momentum
+    }
+}

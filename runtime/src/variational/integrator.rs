@@ -1,0 +1,319 @@
+//! Steps of a discrete Lagrangian.
+
+use num_traits::Float;
+
+use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
+use super::regular::{Factors, Singular};
+use crate::error::{Error, Quantity};
+use crate::integrator::clock::{Clock, uniform};
+use crate::integrator::validation::{check_state, check_step_size};
+use crate::method::Method;
+use crate::method::symmetric_steps::{Part, SymmetricSteps};
+use crate::number::Vector;
+use crate::state::State;
+
+/// Takes the steps of a [`DiscreteLagrangian`], with its forces if there are any (Marsden & West 2001, 2.1.1 and 3.2.5):
+///
+/// ```text
+/// p0 = −D1 Ld(q0, q1) − f_d⁻(q0, q1)      p1 = D2 Ld(q0, q1) + f_d⁺(q0, q1)
+/// ```
+///
+/// $$ p_0 = -D_1 L_d(q_0, q_1) - f_d^-(q_0, q_1) \qquad p_1 = D_2 L_d(q_0, q_1) + f_d^+(q_0, q_1) $$
+///
+/// Newton's iteration with the exact matrix `D1D2 Ld` solves the first equation for `q1`, from `q1 = q0`; for `L = v·Mv/2 − U(q)` its first iterate is about
+/// `q0 + h M⁻¹p0`. What rounding leaves of that equation is added to `p1`: so
+/// `p1 − p0 = D1 Ld + D2 Ld + f_d⁻ + f_d⁺` holds to rounding, and with it the balance of every momentum map.
+///
+/// Without forces a step is symplectic, its order is that of `Ld` as an approximation of the action (Theorem 2.3.1), and it conserves the momentum maps of the symmetries
+/// of `Ld` (Theorem 1.3.3).
+///
+/// # Cost
+///
+/// For n components, an iteration takes n² evaluations of `Ld` with its derivatives and the elimination of a full matrix, and the end of the step n evaluations. A
+/// step allocates nothing. A step that fails leaves the state as it was.
+///
+/// ```
+/// use symplectic::nalgebra::SVector;
+/// use symplectic::variational::{DiscreteLagrangian, VariationalIntegrator};
+/// use symplectic::{Scalar, State};
+///
+/// /// Kepler's problem, L = |v|²/2 + 1/|q|, by the trapezoidal rule.
+/// struct Kepler;
+///
+/// impl DiscreteLagrangian for Kepler {
+///     type Vector<T: Scalar> = SVector<T, 2>;
+///
+///     fn value<T: Scalar>(&self, _time: T, h: T, q0: &SVector<T, 2>, q1: &SVector<T, 2>) -> T {
+///         let (half, way) = (T::from_f64(0.5), q1 - q0);
+///         let attraction = |q: &SVector<T, 2>| q.dot(q).sqrt().recip();
+///         half * way.dot(&way) / h + h * half * (attraction(q0) + attraction(q1))
+///     }
+/// }
+///
+/// # fn main() -> Result<(), symplectic::Error> {
+/// let start = State::from_arrays(0.0, [0.4, 0.0], [0.0, 2.0]);
+/// let mut run = VariationalIntegrator::new(Kepler, start, 0.01)?;
+/// run.integrate_to(100.0)?;
+/// let State { q, p, .. } = run.state();
+/// assert!((q.perp(p) - 0.8).abs() < 1e-13); // the angular momentum
+/// # Ok(())
+/// # }
+/// ```
+pub struct VariationalIntegrator<L: DiscreteLagrangian> {
+    lagrangian: L,
+    steps: SymmetricSteps,
+    step_size: f64,
+    clock: Clock,
+    state: State<L::Vector<f64>>,
+    /// The state inside a step.
+    next: State<L::Vector<f64>>,
+    q1: L::Vector<f64>,
+    derivatives: Derivatives<L>,
+    factors: Factors,
+    action: Option<f64>,
+    taken: u64,
+}
+
+/// Iterations after which Newton's iteration does not converge any more: it takes 3 to 6.
+const MAX_ITERATIONS: u32 = 40;
+
+/// The change, relative to the way of the step, after which the next iterate is exact up to rounding, for the iteration converges quadratically.
+const LAST_CHANGE: f64 = 1e-9;
+
+impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
+    /// An integrator at `state`, with steps of size `step_size`, negative to go backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`].
+    pub fn new(lagrangian: L, state: State<L::Vector<f64>>, step_size: f64) -> Result<Self, Error> {
+        Self::by(SymmetricSteps::ONE, lagrangian, state, step_size)
+    }
+
+    /// [`new`](Self::new) with the steps of a composition that [`composition!`](crate::composition) makes of Störmer–Verlet steps: it has the order of that
+    /// composition for general Hamiltonians, `M::ORDERS.general`, if `Ld` has order 2 and is self-adjoint, which [`self_adjoint_defect`](super::DiscretePath::self_adjoint_defect) tells.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Self::new). With another method it does not compile.
+    pub fn composed<M: Method>(
+        _method: M,
+        lagrangian: L,
+        state: State<L::Vector<f64>>,
+        step_size: f64,
+    ) -> Result<Self, Error> {
+        Self::by(SymmetricSteps::of::<M>(), lagrangian, state, step_size)
+    }
+
+    fn by(
+        steps: SymmetricSteps,
+        lagrangian: L,
+        state: State<L::Vector<f64>>,
+        step_size: f64,
+    ) -> Result<Self, Error> {
+        check_step_size(step_size)?;
+        check_state(state.time, &state.q, &state.p, state.q.dimension())?;
+        Ok(Self {
+            lagrangian,
+            steps,
+            step_size,
+            clock: Clock::new(state.time, step_size),
+            next: state.clone(),
+            q1: state.q.clone(),
+            derivatives: Derivatives::new(&state.q)?,
+            factors: Factors::new(state.q.dimension()),
+            state,
+            action: None,
+            taken: 0,
+        })
+    }
+
+    /// Takes one step and returns the state after it. The time after `k` steps is `start + k h`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is untouched.
+    pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
+        self.advance(self.step_size, self.clock.next())?;
+        self.clock.tick();
+        Ok(&self.state)
+    }
+
+    /// Goes to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last good step.
+    pub fn integrate_to(&mut self, end: f64) -> Result<&State<L::Vector<f64>>, Error> {
+        let (count, size) = uniform(self.state.time, end, self.step_size)?;
+        let mut clock = Clock::new(self.state.time, size);
+        let mut outcome = Ok(());
+        for number in 1..=count {
+            let time = if number == count { end } else { clock.next() };
+            outcome = self.advance(size, time);
+            if outcome.is_err() {
+                break;
+            }
+            clock.tick();
+        }
+        self.clock = Clock::new(self.state.time, self.step_size);
+        outcome.map(|()| &self.state)
+    }
+
+    /// The present state.
+    pub const fn state(&self) -> &State<L::Vector<f64>> {
+        &self.state
+    }
+
+    /// `Ld(q0, q1)` of the last step, in a composition the sum over its steps; `None` before the first one.
+    pub const fn action(&self) -> Option<f64> {
+        self.action
+    }
+
+    /// The discrete Lagrangian.
+    pub const fn lagrangian(&self) -> &L {
+        &self.lagrangian
+    }
+
+    /// The step size.
+    pub const fn step_size(&self) -> f64 {
+        self.step_size
+    }
+
+    /// Steps taken.
+    pub const fn steps(&self) -> u64 {
+        self.taken
+    }
+
+    /// Changes the step size; negative to go backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`]; the one before then holds.
+    pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
+        check_step_size(step_size)?;
+        self.step_size = step_size;
+        self.clock = Clock::new(self.state.time, step_size);
+        Ok(())
+    }
+
+    /// One step of size `size`, to the time `end`.
+    fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
+        let start = self.state.time;
+        if end == start {
+            return Err(Error::TimeResolution {
+                time: end,
+                step_size: size,
+            });
+        }
+        let (from, to) = (&self.state, &mut self.next);
+        to.q.as_mut_slice().copy_from_slice(from.q.as_slice());
+        to.p.as_mut_slice().copy_from_slice(from.p.as_slice());
+        let mut action = 0.0;
+        for part in self.steps.parts(start, size, end) {
+            self.part(part)
+                .map_err(|failure| failure.error(start, size, self.taken + 1))?;
+            action += self.derivatives.value;
+        }
+        self.next.time = end;
+        core::mem::swap(&mut self.state, &mut self.next);
+        self.action = Some(action);
+        self.taken += 1;
+        Ok(())
+    }
+
+    /// A step of the discrete Lagrangian, from `next` to `next`.
+    fn part(&mut self, part: Part) -> Result<(), Failure> {
+        self.find_end(part)?;
+        let State { q, p, .. } = &mut self.next;
+        let at = At {
+            time: part.time,
+            size: part.size,
+            q0: q,
+            q1: &self.q1,
+        };
+        self.derivatives.first(&self.lagrangian, at);
+        let Derivatives { start, end, .. } = &self.derivatives;
+        for (p, (start, end)) in p.as_mut_slice().iter_mut().zip(start.iter().zip(end)) {
+            *p += start + end;
+        }
+        let mut numbers = p.as_slice().iter();
+        if !(self.derivatives.value.is_finite() && numbers.all(|number| number.is_finite())) {
+            return Err(Failure::NonFinite);
+        }
+        core::mem::swap(q, &mut self.q1);
+        Ok(())
+    }
+
+    /// Solves `p0 + D1 Ld + f_d⁻ = 0` for `q1`.
+    fn find_end(&mut self, part: Part) -> Result<(), Failure> {
+        let State { q, p, .. } = &self.next;
+        self.q1.as_mut_slice().copy_from_slice(q.as_slice());
+        let mut residual = f64::INFINITY;
+        for _ in 0..MAX_ITERATIONS {
+            let at = At {
+                time: part.time,
+                size: part.size,
+                q0: q,
+                q1: &self.q1,
+            };
+            self.derivatives.second(&self.lagrangian, at);
+            if !self.derivatives.is_finite() {
+                return Err(Failure::NonFinite);
+            }
+            self.factors
+                .factor(&self.derivatives.mixed)
+                .map_err(Failure::Singular)?;
+            let pairs = p.as_slice().iter().zip(&self.derivatives.start);
+            let change = self.factors.solve(pairs.map(|(p, start)| -(p + start)));
+            let (mut changed, mut way, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
+            let ends = self.q1.as_mut_slice().iter_mut().zip(q.as_slice());
+            for (&change, (q1, q0)) in change.iter().zip(ends) {
+                *q1 += change;
+                changed = changed.max(Float::abs(change));
+                way = way.max(Float::abs(*q1 - q0));
+                largest = largest.max(Float::abs(*q1));
+            }
+            if changed <= LAST_CHANGE * way + 16.0 * f64::EPSILON * largest {
+                return Ok(());
+            }
+            residual = changed / largest;
+        }
+        Err(Failure::NotFound { residual })
+    }
+}
+
+/// Why a step was not taken.
+enum Failure {
+    NonFinite,
+    Singular(Singular),
+    NotFound { residual: f64 },
+}
+
+impl Failure {
+    fn error(self, time: f64, step_size: f64, step: u64) -> Error {
+        match self {
+            Self::NonFinite => Error::NonFinite {
+                time,
+                step_size,
+                step,
+                what: Quantity::DiscreteLagrangian,
+                stage: None,
+            },
+            Self::Singular(Singular { component, pivot }) => Error::IrregularLagrangian {
+                time,
+                step_size,
+                step,
+                component,
+                pivot,
+            },
+            Self::NotFound { residual } => Error::NoEndOfStep {
+                time,
+                step_size,
+                step,
+                residual,
+                iterations: MAX_ITERATIONS,
+            },
+        }
+    }
+}

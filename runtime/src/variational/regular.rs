@@ -1,0 +1,62 @@
+//! Where a step has a unique end.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use num_traits::Float;
+
+use crate::number::elimination::Elimination;
+
+/// The matrix D1D2 Ld in factors.
+pub(super) struct Factors {
+    elimination: Elimination<f64>,
+    /// The largest entries of the columns.
+    largest: Vec<f64>,
+}
+
+/// A pivot that is zero up to rounding.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Singular {
+    /// The component of q1 that is not determined.
+    pub(super) component: usize,
+    /// The pivot, relative to the largest entry of its column.
+    pub(super) pivot: f64,
+}
+
+impl Factors {
+    pub(super) fn new(size: usize) -> Self {
+        Self {
+            elimination: Elimination::new(size, size),
+            largest: vec![0.0; size],
+        }
+    }
+
+    /// Factors the matrix with these rows.
+    pub(super) fn factor(&mut self, rows: &[f64]) -> Result<(), Singular> {
+        let n = self.largest.len();
+        for (column, largest) in self.largest.iter_mut().enumerate() {
+            let entries = rows.iter().skip(column).step_by(n.max(1));
+            *largest = entries.fold(0.0, |largest, &entry| largest.max(Float::abs(entry)));
+        }
+        if let Some(component) = self.elimination.first_without_pivot(|i, j| rows[i * n + j]) {
+            let pivot = 0.0;
+            return Err(Singular { component, pivot });
+        }
+        for (component, largest) in self.largest.iter().enumerate() {
+            let pivot = Float::abs(self.elimination.pivot(component)) / largest;
+            if pivot < 8.0 * n as f64 * f64::EPSILON {
+                return Err(Singular { component, pivot });
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves for this right-hand side.
+    pub(super) fn solve(&mut self, right: impl Iterator<Item = f64>) -> &[f64] {
+        for (place, right) in self.elimination.right.iter_mut().zip(right) {
+            *place = right;
+        }
+        self.elimination.solve();
+        &self.elimination.right
+    }
+}
