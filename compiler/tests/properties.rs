@@ -87,6 +87,18 @@ fn every_property_is_proved_of_one_method_and_refuted_of_another() {
             "radau-left(2)",
             "b_1 − a_21 = -1/12",
         ),
+        (
+            "nonholonomic",
+            "lobatto(2)",
+            "lobatto(3)",
+            "order 3 at least, of which 2 or 1 would be left",
+        ),
+        (
+            "nonholonomic",
+            "gauss(1)",
+            "gauss(2)",
+            "order 3 at least, of which 2 or 1 would be left",
+        ),
     ];
     for (name, holds, fails, witness) in cases {
         let basis = |nodes: &str| {

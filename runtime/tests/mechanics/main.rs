@@ -3,6 +3,9 @@
 mod formulas;
 mod friction;
 mod holonomic;
+mod nonholonomic;
+mod nonholonomic_start;
+mod rolling;
 mod scales;
 mod start;
 mod systems;

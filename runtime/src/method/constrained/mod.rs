@@ -8,6 +8,7 @@
 //! With two stages of Lobatto IIIA–IIIB this is RATTLE.
 
 mod force;
+mod last_impulse;
 mod memory;
 mod metric;
 mod newton;
@@ -16,17 +17,23 @@ mod resolution;
 mod start;
 mod step;
 
+pub(super) use force::add_to_force;
 pub use force::{ConstraintForce, constraint_force};
+pub(super) use last_impulse::LastImpulse;
 pub use memory::ConstrainedStages;
+pub(super) use metric::{Metric, Point};
 pub(crate) use start::check_start;
 pub use start::consistent;
+pub(super) use start::{CONSISTENT, Examined, check_numbers};
+pub(super) use step::{NOISE, PATIENCE, ROUNDING, maximum, result, stage};
 
 use core::marker::PhantomData;
 
 use crate::error::Error;
 use crate::method::{
-    EvaluationObserver, Failure, Inside, Interpolation, Method, Outcome, Plan, Solver, Step,
-    StepStatistics, Stopping, WarmStart, check_no_friction,
+    ConstrainedStep, ConstrainedTableau, EvaluationObserver, Failure, Inside, Interpolation,
+    Method, Outcome, Plan, Solver, Step, StepStatistics, Stopping, WarmStart, check_no_friction,
+    check_no_rows,
 };
 use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, Constrained, System, Unconstrained};
@@ -55,6 +62,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         S: System<V, Class = Self::Class>,
     {
         check_no_friction(system, q)?;
+        check_no_rows(system)?;
         check_start(system, time, q, p)
     }
 
@@ -64,7 +72,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         memory: &mut ConstrainedStages<V>,
         kept: WarmStart,
         stopping: Stopping,
-        mut outcome: Outcome<'_, V>,
+        outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure>
     where
         R: Summation,
@@ -78,37 +86,11 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         } = memory;
         let workspace = workspace
             .get_or_insert_with(|| Workspace::new::<M, S>(system, step.time, step.q, step.p));
-        let mut between = Outcome { q, q_low, p, p_low };
-        let mut outcome = outcome.reborrow();
-        let mut work = StepStatistics::default();
-        let count = M::CONSTRAINED.len();
-        for (number, substep) in M::CONSTRAINED.iter().enumerate() {
-            // Results go to one of two places in turn, the last one to where it belongs.
-            let (here, there) = if (count - number) % 2 == 1 {
-                (&mut outcome, &between)
-            } else {
-                (&mut between, &outcome)
-            };
-            let (q, q_low, p, p_low) = if number == 0 {
-                (step.q, step.q_low, step.p, step.p_low)
-            } else {
-                (&*there.q, &*there.q_low, &*there.p, &*there.p_low)
-            };
-            let part = Step {
-                time: step.time + substep.start.double() * step.size,
-                size: substep.fraction.double() * step.size,
-                q,
-                q_low,
-                p,
-                p_low,
-                linear_velocity: step.linear_velocity,
-            };
-            let carried = number > 0 || kept.evaluation;
-            let taken =
-                workspace.take::<R, S>(substep.tableau, &part, system, carried, stopping, here);
-            work += taken?;
-        }
-        Ok(work)
+        let between = Outcome { q, q_low, p, p_low };
+        let take = |tableau, part: &Step<'_, V>, carried, here: &mut Outcome<'_, V>| {
+            workspace.take::<R, S>(tableau, part, system, carried, stopping, here)
+        };
+        in_turn(M::CONSTRAINED, step, kept, between, outcome, take)
     }
 
     /// The stages are in the memory.
@@ -133,7 +115,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         S: System<V, Class = Self::Class>,
     {
         system.force(V::Scalar::from_f64(time), q, p, rate);
-        force::add_to_force(system, time, (q, p), rate);
+        add_to_force(system, time, (q, p), rate);
     }
 
     const INTERPOLATION: Interpolation = Interpolation::Hermite;
@@ -145,4 +127,46 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         N: Solver<V, S>,
     {
     }
+}
+
+/// Takes the steps of a composition one after another. `take` takes one; it is told whether the one before ended where it starts.
+pub(super) fn in_turn<'a, V: Vector>(
+    steps: &[ConstrainedStep],
+    step: &Step<'_, V>,
+    kept: WarmStart,
+    mut between: Outcome<'a, V>,
+    mut outcome: Outcome<'a, V>,
+    mut take: impl FnMut(
+        &'static ConstrainedTableau,
+        &Step<'_, V>,
+        bool,
+        &mut Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>,
+) -> Result<StepStatistics, Failure> {
+    let mut work = StepStatistics::default();
+    for (number, substep) in steps.iter().enumerate() {
+        // Results go to one of two places in turn, the last one to where it belongs.
+        let (here, there) = if (steps.len() - number) % 2 == 1 {
+            (&mut outcome, &between)
+        } else {
+            (&mut between, &outcome)
+        };
+        let (q, q_low, p, p_low) = if number == 0 {
+            (step.q, step.q_low, step.p, step.p_low)
+        } else {
+            (&*there.q, &*there.q_low, &*there.p, &*there.p_low)
+        };
+        let part = Step {
+            time: step.time + substep.start.double() * step.size,
+            size: substep.fraction.double() * step.size,
+            q,
+            q_low,
+            p,
+            p_low,
+            linear_velocity: step.linear_velocity,
+        };
+        let carried = number > 0 || kept.evaluation;
+        work += take(substep.tableau, &part, carried, here)?;
+    }
+    Ok(work)
 }
