@@ -162,6 +162,8 @@ mod book {
     struct Events;
     #[doc = include_str!("../../docs/src/guide/constraints.md")]
     struct Constraints;
+    #[doc = include_str!("../../docs/src/guide/nonholonomic.md")]
+    struct Nonholonomic;
     #[doc = include_str!("../../docs/src/guide/newton.md")]
     struct Newton;
     #[doc = include_str!("../../docs/src/guide/speed.md")]

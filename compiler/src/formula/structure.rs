@@ -107,8 +107,8 @@ struct Symmetries {
 impl Symmetries {
     fn of(system: &mut System) -> Self {
         let mut found = Self::of_energy(system);
-        if system.friction.is_some() {
-            // The momenta decay.
+        if system.friction.is_some() || !system.nonholonomic.is_empty() {
+            // The momenta decay, or the constraints change them.
             found.keep(&Symmetries {
                 cyclic: Vec::new(),
                 translations: Vec::new(),

@@ -90,6 +90,10 @@ pub struct Definition {
     pub function: Option<Expression>,
     /// Holonomic constraints.
     pub constraints: Vec<Constraint>,
+    /// The velocities, in a Hamiltonian system with non-holonomic constraints.
+    pub velocities: Option<Coordinates>,
+    /// Non-holonomic constraints.
+    pub nonholonomic: Vec<Constraint>,
     /// The rate γ of a friction `−γp`.
     pub friction: Option<Expression>,
     /// What is said to be conserved.
@@ -98,7 +102,7 @@ pub struct Definition {
     pub required: Vec<Name>,
 }
 
-/// `name = φ` or `name(i in a..b) = φ`: φ is zero.
+/// `name = φ` or `name(i in a..b) = φ`: φ is zero, a function of the positions or a form of the velocities.
 #[derive(Debug, Clone)]
 pub struct Constraint {
     /// The name.
@@ -163,7 +167,7 @@ pub struct Coordinates {
 }
 
 /// What positions, momenta or velocities are.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum CoordinatesKind {
     /// Each with a name of its own.
     Named(Vec<Name>),

@@ -45,6 +45,14 @@ pub trait Class: sealed::Sealed + Sized + 'static {
 )]
 pub trait Unconstrained {}
 
+impl Unconstrained for General {}
+
+impl Unconstrained for Separable {}
+
+impl Unconstrained for Damped {}
+
+impl Unconstrained for () {}
+
 /// A class without non-holonomic constraints: an [`Unconstrained`] one, or [`Constrained`].
 #[diagnostic::on_unimplemented(
     message = "this method has no steps for systems of class `{Self}`",
@@ -62,15 +70,9 @@ pub trait Holonomic {}
 )]
 pub trait FreePositions {}
 
-macro_rules! unconstrained {
-    ($($class:ty),*) => {$(
-        impl Unconstrained for $class {}
-        impl Holonomic for $class {}
-        impl FreePositions for $class {}
-    )*};
-}
+impl<C: Unconstrained> Holonomic for C {}
 
-unconstrained!(General, Separable, Damped, ());
+impl<C: Unconstrained> FreePositions for C {}
 
 #[cfg(feature = "alloc")]
 impl<C> Holonomic for Constrained<C> {}
@@ -168,7 +170,7 @@ impl<C: Class + Unconstrained> Class for Constrained<C> {
 /// ```
 ///
 /// The rows of the m×n matrix `w` are in [`Hamiltonian::nonholonomic_rows`](crate::Hamiltonian::nonholonomic_rows). Methods that are
-/// `nonholonomic` step such systems by the discrete Lagrange–d'Alembert–Pontryagin principle (Leok & Ohsawa, 2011): the implicit midpoint
+/// `nonholonomic` step such systems by the discrete Lagrange–d'Alembert–Pontryagin principle (Leok & Ohsawa, arXiv:0810.0740): the implicit midpoint
 /// rule, Lobatto IIIA–IIIB with two stages, other symmetric methods of order 2, compositions of one of these, and methods of order 1.
 /// A method of any other order would lose it, and [`Integrator::new`](crate::Integrator::new) does not compile:
 ///

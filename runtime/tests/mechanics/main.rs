@@ -4,6 +4,7 @@ mod formulas;
 mod friction;
 mod holonomic;
 mod nonholonomic;
+mod nonholonomic_formulas;
 mod nonholonomic_start;
 mod rolling;
 mod scales;

@@ -424,10 +424,14 @@ impl<'a> Emitter<'a> {
         } else {
             quote!(::symplectic::General)
         };
-        let class = match (&self.system.friction, self.system.constraints.is_empty()) {
-            (Some(_), _) => quote!(::symplectic::Damped),
-            (None, false) => quote!(::symplectic::Constrained<#class>),
-            (None, true) => class,
+        let class = if self.system.friction.is_some() {
+            quote!(::symplectic::Damped)
+        } else if !self.system.constraints.is_empty() {
+            quote!(::symplectic::Constrained<#class>)
+        } else if !self.system.nonholonomic.is_empty() {
+            quote!(::symplectic::Nonholonomic<#class>)
+        } else {
+            class
         };
         let unit = (split.is_some() && self.structure.kinetic == Kinetic::Unit).then(|| {
             quote!(

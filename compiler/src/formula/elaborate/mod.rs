@@ -4,6 +4,7 @@ mod arithmetic;
 mod constraints;
 mod declarations;
 mod indices;
+mod nonholonomic;
 mod totals;
 mod values;
 
@@ -128,7 +129,7 @@ impl Elaborator<'_> {
         for (half, name) in [(Half::Q, "q"), (Half::P, "p")] {
             self.names.insert(name.to_owned(), Value::Half(half));
         }
-        if definition.form == Form::Lagrangian {
+        if definition.form == Form::Lagrangian || definition.velocities.is_some() {
             self.names.insert("v".to_owned(), Value::Half(Half::V));
         }
         for (k, abbreviation) in definition.abbreviations.iter().enumerate() {
@@ -151,8 +152,12 @@ impl Elaborator<'_> {
             return Err(self.input.error(&definition.name.span, kind.into()));
         };
         let energy = self.scalar(written)?;
+        if definition.form == Form::Hamiltonian {
+            self.no_velocity(energy, written)?;
+        }
         self.momenta_hidden = false;
         let constraints = self.constraints()?;
+        let nonholonomic = self.nonholonomic(&constraints)?;
         let friction = self.friction()?;
         let mut invariants: Vec<Invariant> = Vec::new();
         for (name, written) in &definition.invariants {
@@ -197,7 +202,6 @@ impl Elaborator<'_> {
             }
             Form::Lagrangian => Some(Lagrangian {
                 formula: energy,
-                velocities: self.velocities,
                 regularity: Regularity::AtRandomPoints,
             }),
         };
@@ -220,7 +224,9 @@ impl Elaborator<'_> {
             graph: self.graph,
             energy,
             lagrangian,
+            velocities: self.velocities,
             constraints,
+            nonholonomic,
             friction,
             invariants,
             required: definition.required.clone(),

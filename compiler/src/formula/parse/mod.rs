@@ -3,12 +3,14 @@
 //! ```text
 //! system     = name [ "<" lengths ">" ] [ "{" parameters "}" ] { statement }
 //! parameter  = name [ ":" ( number | "[" shape "]" | "pairs" ) ]
-//! statement  = "q" ":" coordinates "," ( "p" | "v" ) ":" coordinates ";"    coordinates = "[" names | length [ ";" number ] "]"
+//! statement  = "q" ":" coordinates "," ( "p" | "v" ) ":" coordinates [ "," "v" ":" coordinates ] ";"
+//!              coordinates = "[" names | length [ ";" number ] "]"
 //!            | "bonds" ":" ( "walls" | "free" | "ring" ) ";"
 //!            | "extern" "fn" name "with" name "," name ";"
 //!            | "let" name [ "(" names ")" ] "=" expression ";"
 //!            | ( "H" | "L" ) "=" expression
 //!            | "constraints" ":" "{" name [ "(" over ")" ] "=" expression { "," … } "}"
+//!            | "nonholonomic" ":" "{" name [ "(" over ")" ] "=" expression { "," … } "}"
 //!            | "friction" ":" expression
 //!            | "invariants" ":" "{" name "=" expression { "," … } "}"
 //!            | "require" ":" "[" names "]"
@@ -54,7 +56,7 @@ const KEYWORDS: [&str; 12] = [
 ];
 
 /// Words with which a statement begins, if `:` follows, and which are names elsewhere.
-const STATEMENTS: [&str; 2] = ["constraints", "friction"];
+const STATEMENTS: [&str; 4] = ["constraints", "nonholonomic", "friction", "v"];
 
 /// Reads a definition.
 ///
