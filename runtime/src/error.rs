@@ -433,7 +433,7 @@ pub enum Quantity {
     Derivative,
     /// H.
     Energy,
-    /// A holonomic constraint φ.
+    /// A constraint: φ, or a row of w.
     Constraint,
 }
 
