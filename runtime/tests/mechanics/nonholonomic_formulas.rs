@@ -65,11 +65,7 @@ fn assert_near<V: symplectic::Vector<Scalar = f64>>([a, b]: [State<V>; 2]) {
 #[test]
 fn formulas_are_the_systems_by_hand() -> Result<(), Error> {
     assert_near(both(DiskByLagrangian::default(), Disk, disk_start())?);
-    assert_near(both(
-        OscillatorByFormula::default(),
-        Oscillator,
-        oscillator_start(),
-    )?);
+    assert_near(both(OscillatorByFormula, Oscillator, oscillator_start())?);
     let sleigh = State::new(0.0, [0.1, 0.2, 0.3].into(), sleigh_momentum(0.3, -0.4, 1.1));
     assert_near(both(SleighByLagrangian::default(), Sleigh, sleigh)?);
     Ok(())
@@ -78,7 +74,7 @@ fn formulas_are_the_systems_by_hand() -> Result<(), Error> {
 /// A family of constraints: one for each index.
 #[test]
 fn a_family_of_constraints() -> Result<(), Error> {
-    let system = Followers::<3>::default();
+    let system = Followers::<3>;
     assert_eq!(Hamiltonian::nonholonomic_constraints(&system), 3);
     let q = SMatrix::from_column_slice(&[1.0, 0.5, 0.3, 0.8, -0.2, 1.0]);
     let p = SMatrix::from_column_slice(&[0.7, 0.0, 0.4, 0.2, 0.15, 0.4]);
