@@ -32,6 +32,7 @@ fn derive_prints_the_tableau_of_the_readme() {
           first_same_as_last  yes  proved   Q_s = q1 is Q_1 of the next step
           positive_weights    yes  proved
           constrained         yes  proved   det (A Ã) ≈ 0.0208333
+          nonholonomic        no   refuted  steps with non-holonomic constraints have order 2 at most
 
         order
           general    4, proved; not 5: q[q^4] has the weight 5/24 instead of 1/5, a difference of 1/120; error constant 0.034929…
@@ -82,6 +83,7 @@ fn irrational_and_long_entries_are_readable() {
           first_same_as_last  no   refuted  a_11 = 5/36
           positive_weights    yes  proved
           constrained         no   refuted  a_11 = 5/36
+          nonholonomic        no   refuted  steps with non-holonomic constraints have order 2 at most
 
         order
           general    6, proved; not 7: q[q^6] has the weight 57/400 instead of 1/7, a difference of -1/2800; error constant 0.002278…
@@ -129,6 +131,7 @@ fn irrational_and_long_entries_are_readable() {
           first_same_as_last  no   refuted  a_11 = 0.196815477224…
           positive_weights    yes  proved
           constrained         no   refuted  a_11 = 0.196815477224…
+          nonholonomic        no   refuted  steps with non-holonomic constraints have order 2 at most
 
         order
           general    5, proved; not 6: q[q^5] has the weight 101/600 instead of 1/6, a difference of 1/600; error constant 0.009249…
@@ -173,6 +176,7 @@ fn irrational_and_long_entries_are_readable() {
           first_same_as_last  no   refuted  a_11 = 0.0869637112844…
           positive_weights    yes  proved
           constrained         no   refuted  a_11 = 0.0869637112844…
+          nonholonomic        no   refuted  steps with non-holonomic constraints have order 2 at most
 
         order
           general    8, proved; not 9: q[q^8] has the weight 1633/14700 instead of 1/9, a difference of -1/44100; error constant 0.000172…
@@ -246,6 +250,7 @@ fn toml_is_readable() {
         first_same_as_last = { holds = true, evidence = "proved", witness = "Q_s = q1 is Q_1 of the next step" }
         positive_weights   = { holds = true, evidence = "proved" }
         constrained        = { holds = true, evidence = "proved", witness = "det (A Ã) ≈ 0.500000" }
+        nonholonomic       = { holds = true, evidence = "proved", witness = "order 2: Σ b c² = 1/2 ≠ 1/3" }
 
         [order]
         general = { order = 2, evidence = "proved", refuted_by = "q[q,q]", value = "1/2", wanted = "1/3", residual = "1/6", error_constant = "0.358430219460" }

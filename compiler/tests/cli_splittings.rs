@@ -29,6 +29,7 @@ fn derive_takes_kicks_and_drifts() {
           first_same_as_last     no   refuted  b_3 − a_33 = 1
           positive_weights       no   refuted  b_2 = -2/3
           constrained            no   refuted  b_3 − a_33 = 1
+          nonholonomic           no   refuted  b_1 − b̃_1 = 3/8
           symplectic(separable)  yes  proved
 
         order

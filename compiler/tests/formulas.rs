@@ -203,6 +203,39 @@ fn wrong_formulas_are_refused_at_their_place() {
         refused(
             "P<N> q: [N], p: [N]; H = sum(i: p[i]^2) force: { q[i] = -p[i] } invariants: { total = sum(i: p[i]) }",
         ),
+        refused(
+            "P q: [x, y], p: [px, py], v: [vx, vy]; H = px^2 + py^2 nonholonomic: { edge = vx - y vy^2 }",
+        ),
+        refused(
+            "P q: [x, y], p: [px, py], v: [vx, vy]; H = px^2 + py^2 nonholonomic: { edge = vx - x y }",
+        ),
+        refused(
+            "P q: [x, y], p: [px, py], v: [vx, vy]; H = px^2 + py^2 nonholonomic: { edge = vx - py }",
+        ),
+        refused(
+            "P q: [x, y], p: [px, py], v: [vx, vy]; H = px^2 + py^2 nonholonomic: { edge = vx - t vy }",
+        ),
+        refused(
+            "P q: [x, y], p: [px, py], v: [vx, vy]; H = px^2 + py^2 nonholonomic: { edge = vx - vx }",
+        ),
+        refused(
+            "P q: [x, y], p: [px, py], v: [vx, vy]; H = px^2 + py^2 + vx nonholonomic: { edge = vx }",
+        ),
+        refused("P q: [x, y], p: [px, py], v: [vx]; H = px^2 + py^2 nonholonomic: { edge = vx }"),
+        refused(
+            "P q: [x, y], p: [px, py], v: [vx, x]; H = px^2 + py^2 nonholonomic: { edge = vx }",
+        ),
+        refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 nonholonomic: { edge = vx }"),
+        refused("P q: [x, y], p: [px, py], v: [vx, vy]; H = px^2 + py^2"),
+        refused(
+            "P q: [x, y], p: [px, py], v: [vx, vy]; H = px^2 + py^2 constraints: { rod = x } nonholonomic: { edge = vx }",
+        ),
+        refused(
+            "P q: [x, y], p: [px, py], v: [vx, vy]; H = px^2 + py^2 friction: 1 nonholonomic: { edge = vx }",
+        ),
+        refused(
+            "P q: [x, y], p: [px, py], v: [vx, vy]; H = px^2 + py^2 nonholonomic: { edge = vx } invariants: { momentum = py }",
+        ),
     ];
     expect_file!["data/formulas_refused.txt"].assert_eq(&(all.join("\n\n") + "\n"));
 }

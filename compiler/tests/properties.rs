@@ -87,6 +87,18 @@ fn every_property_is_proved_of_one_method_and_refuted_of_another() {
             "radau-left(2)",
             "b_1 − a_21 = -1/12",
         ),
+        (
+            "nonholonomic",
+            "lobatto(2)",
+            "lobatto(3)",
+            "steps with non-holonomic constraints have order 2 at most",
+        ),
+        (
+            "nonholonomic",
+            "gauss(1)",
+            "gauss(2)",
+            "steps with non-holonomic constraints have order 2 at most",
+        ),
     ];
     for (name, holds, fails, witness) in cases {
         let basis = |nodes: &str| {

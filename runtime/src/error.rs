@@ -299,10 +299,10 @@ pub enum Error {
         class: &'static str,
     },
 
-    /// A system of class `Constrained` without a constraint, or with more constraints than positions.
+    /// A system of class `Constrained` or `Nonholonomic` without a constraint, or with more constraints than positions.
     #[error(
-        "the system has {constraints} constraints on {dimension} components of the position; write `constraints`, and at most as many \
-         as there are components"
+        "the system has {constraints} constraints on {dimension} components of the position; write `constraints`, or \
+         `nonholonomic_constraints` in class `Nonholonomic`, and at most as many as there are components"
     )]
     ConstraintCount {
         /// Number of constraints.
@@ -362,6 +362,18 @@ pub enum Error {
         /// |φ| of it.
         value: f64,
         /// |G ∂H/∂p| of it.
+        rate: f64,
+    },
+
+    /// The velocity at the start does not obey the non-holonomic constraints.
+    #[error(
+        "the velocity does not obey the constraints: w·q' of constraint {constraint} is {rate:e}, and must be 0; \
+         `consistent_momentum(&system, state)` gives a state with a velocity that does"
+    )]
+    InconsistentVelocity {
+        /// The constraint, from 0: the one that is farthest from 0.
+        constraint: usize,
+        /// |w ∂H/∂p| of it.
         rate: f64,
     },
 
@@ -483,7 +495,7 @@ pub enum Quantity {
     Derivative,
     /// H.
     Energy,
-    /// A holonomic constraint φ.
+    /// A constraint: φ, or a row of w.
     Constraint,
     /// The attitude R of a rigid body.
     Attitude,

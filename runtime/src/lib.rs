@@ -21,9 +21,9 @@
 //! |---|---|
 //! | The system: a formula, closures or a trait | [`hamiltonian!`], [`lagrangian!`]; [`separable`], [`hamiltonian()`], [`acceleration`]; [`SeparableHamiltonian`], [`Hamiltonian`]; [`system`] |
 //! | Numbers and vectors | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors), [`simd`] |
-//! | Constraints and friction | [`Constrained`], [`consistent`], [`constraint_force`]; [`Damped`] |
+//! | Constraints, friction and other forces | [`Constrained`], [`consistent`], [`constraint_force`]; [`Nonholonomic`], [`consistent_momentum`]; [`Damped`], [`Hamiltonian::applied_force`] |
 //! | A rigid body that turns about a point | [`rotation`] |
-//! | Discrete Lagrangians, generating functions | [`variational`] |
+//! | Discrete Lagrangians, generating functions, stages and balances | [`variational`] |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`RunTimeTableau`] |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
 //! | What is seen of a run | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
@@ -94,19 +94,19 @@ pub use integrator::{Integrator, Retry, Statistics};
 #[cfg(feature = "alloc")]
 pub use method::{AtRunTime, RunTimeCoefficients, RunTimeTableau, TableauError};
 #[cfg(feature = "alloc")]
-pub use method::{ConstraintForce, consistent, constraint_force};
+pub use method::{ConstraintForce, consistent, consistent_momentum, constraint_force};
 pub use method::{LowerOrder, Method, Orders, ProvedFor, composition, splitting, tableau};
 pub use nalgebra;
 pub use num_traits;
 pub use number::{Compensated, Plain, Scalar, Summation, Vector};
 pub use output::{Event, Events, Invariant, Moment, Progress};
 pub use state::State;
-#[cfg(feature = "alloc")]
-pub use system::Constrained;
 pub use system::{
     Class, Damped, General, Hamiltonian, Separable, SeparableHamiltonian, System, acceleration,
     hamiltonian, lagrangian, separable,
 };
+#[cfg(feature = "alloc")]
+pub use system::{Constrained, Nonholonomic};
 
 /// Code that needs vectors on the heap.
 #[cfg(feature = "alloc")]
@@ -171,6 +171,8 @@ mod book {
     struct RigidBodies;
     #[doc = include_str!("../../docs/src/guide/discrete-lagrangians.md")]
     struct DiscreteLagrangians;
+    #[doc = include_str!("../../docs/src/guide/nonholonomic.md")]
+    struct Nonholonomic;
     #[doc = include_str!("../../docs/src/guide/newton.md")]
     struct Newton;
     #[doc = include_str!("../../docs/src/guide/speed.md")]

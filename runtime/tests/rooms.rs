@@ -24,6 +24,8 @@ const UPWARD: &[(&str, &str)] = &[
     ("system/chain/mod.rs", "solver"),
     // The system without its friction is a system.
     ("method/damped.rs", "solver"),
+    // With its rows for gradients it is one too.
+    ("method/nonholonomic/rows.rs", "solver"),
 ];
 
 fn level(room: &str) -> Option<usize> {

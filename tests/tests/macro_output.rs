@@ -35,7 +35,7 @@ symplectic::tableau! {
         nodes: lobatto(2),
         require: [
             symplectic, symmetric, consistent, explicit, first_row_zero, stiffly_accurate, first_same_as_last,
-            positive_weights, constrained,
+            positive_weights, constrained, nonholonomic,
         ],
     }
     /// And what only a Runge–Kutta method has.

@@ -21,35 +21,47 @@ pub(super) fn code(
     (methods, substeps): (&[Tableau], &[Substep]),
 ) -> Option<TokenStream> {
     let qualifies = |tableau: &Tableau| tableau.properties().constrained.holds;
-    let (tableaux, steps) = if qualifies(tableau) {
-        let exact = |value: f64| {
-            let value = literal::double(value);
-            quote!(::symplectic::emitted::Coefficient::exact(#value))
-        };
-        let (start, size) = (exact(0.0), exact(1.0));
-        let whole = quote!(#start, #size, &TABLEAU1);
-        (vec![constants(numbers)?], vec![whole])
-    } else {
-        if substeps.is_empty() || !methods.iter().all(qualifies) {
-            return None;
-        }
-        let constants = methods.iter().map(|method| constants(&method.numbers()));
-        (constants.collect::<Option<Vec<_>>>()?, list(substeps))
+    let tableau_of =
+        |numbers: &Coefficients<Number<'_>>| constants(numbers, &multiplier_matrix(numbers)?);
+    if qualifies(tableau) {
+        return Some(steps("CONSTRAINED", &[tableau_of(numbers)?], None));
+    }
+    if substeps.is_empty() || !methods.iter().all(qualifies) {
+        return None;
+    }
+    let tableaux = methods.iter().map(|method| tableau_of(&method.numbers()));
+    let tableaux = tableaux.collect::<Option<Vec<_>>>()?;
+    Some(steps("CONSTRAINED", &tableaux, Some(&list(substeps))))
+}
+
+/// A constant of a `Method` with steps of these tableaux: those of a list, or a whole one.
+pub(super) fn steps(
+    name: &str,
+    tableaux: &[TokenStream],
+    list: Option<&[TokenStream]>,
+) -> TokenStream {
+    let exact = |value: f64| {
+        let value = literal::double(value);
+        quote!(::symplectic::emitted::Coefficient::exact(#value))
     };
-    let names = (1..=tableaux.len()).map(|k| format_ident!("TABLEAU{k}"));
-    let steps = steps
+    let (start, size) = (exact(0.0), exact(1.0));
+    let whole = [quote!(#start, #size, &TABLEAU1)];
+    let steps = list
+        .unwrap_or(&whole)
         .iter()
         .map(|step| quote!(::symplectic::emitted::ConstrainedStep::new(#step)));
-    Some(quote! {
-        const CONSTRAINED: &'static [::symplectic::emitted::ConstrainedStep] = {
+    let name = format_ident!("{name}");
+    let names = (1..=tableaux.len()).map(|k| format_ident!("TABLEAU{k}"));
+    quote! {
+        const #name: &'static [::symplectic::emitted::ConstrainedStep] = {
             #(const #names: ::symplectic::emitted::ConstrainedTableau = #tableaux;)*
             &[#(#steps),*]
         };
-    })
+    }
 }
 
 /// The start and the size of every substep as fractions of the step, and its tableau.
-fn list(substeps: &[Substep]) -> Vec<TokenStream> {
+pub(super) fn list(substeps: &[Substep]) -> Vec<TokenStream> {
     let coefficient = |real: &Real| literal::coefficient(&Reals.number(real));
     let mut start = Real::rational(BigRational::default());
     let step = |substep: &Substep| {
@@ -63,7 +75,10 @@ fn list(substeps: &[Substep]) -> Vec<TokenStream> {
 }
 
 /// A tableau, rounded so that it is symplectic exactly, and `X⁻¹`.
-fn constants(numbers: &Coefficients<Number<'_>>) -> Option<TokenStream> {
+pub(super) fn constants(
+    numbers: &Coefficients<Number<'_>>,
+    inverse: &[Vec<f64>],
+) -> Option<TokenStream> {
     let stages = numbers.b.len();
     // μ_ij = a_ij/b_j and μ̃_ji = ã_ji/b_i, which add up to 1.
     let pair = |i: usize, j: usize| {
@@ -83,7 +98,6 @@ fn constants(numbers: &Coefficients<Number<'_>>) -> Option<TokenStream> {
         quote!(&[#(#rows),*])
     };
     let [positions, momenta] = [&positions, &momenta].map(|matrix| rows(matrix));
-    let inverse = multiplier_matrix(numbers)?;
     let inverse = inverse.iter().map(|row| literal::array(row));
     let [weights, nodes, momentum_nodes] =
         [&numbers.b, &numbers.c, &numbers.c_tilde].map(|vector| literal::coefficients(vector));

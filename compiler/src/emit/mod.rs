@@ -11,6 +11,7 @@ mod constrained;
 mod dense_output;
 mod facts;
 mod literal;
+mod nonholonomic;
 mod nystrom;
 mod plan;
 mod predictor;
@@ -89,7 +90,12 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
     let parts = (&methods[..], &substeps[..]);
     let plans = plan::plans(tableau, &numbers, parts, names);
     let constrained = constrained::code(tableau, &numbers, parts);
-    let proved = proved(tableau, name, constrained.is_some());
+    let nonholonomic = nonholonomic::code(tableau, &numbers, parts);
+    let proved = proved(
+        tableau,
+        name,
+        [&constrained, &nonholonomic].map(Option::is_some),
+    );
     let [general, separable] = [&plans[0].name, &plans[1].name];
     let code = plans.iter().map(|plan| &plan.code);
     Ok(quote! {
@@ -113,6 +119,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
                 #coefficients
                 #orders
                 #constrained
+                #nonholonomic
                 type General = #general;
                 type Separable = #separable;
             }
@@ -273,15 +280,20 @@ fn orders(tableau: &Tableau) -> TokenStream {
     }
 }
 
-/// The classes of systems on which the method is no worse than on narrower ones; those with constraints too where it is `constrained`.
-fn proved(tableau: &Tableau, name: &Ident, constrained: bool) -> TokenStream {
-    let general = tableau.keeps_its_order_in_general();
-    if general && constrained {
-        return quote!(impl<C> ::symplectic::emitted::ProvedFor<C> for #name {});
-    }
-    if general {
-        let bound = quote!(::symplectic::emitted::Unconstrained);
-        return quote!(impl<C: #bound> ::symplectic::emitted::ProvedFor<C> for #name {});
+/// The classes of systems on which the method is no worse than on narrower ones; those with holonomic constraints too where it is
+/// `constrained`, and those with non-holonomic ones where it is `nonholonomic`.
+fn proved(tableau: &Tableau, name: &Ident, steps: [bool; 2]) -> TokenStream {
+    if tableau.keeps_its_order_in_general() {
+        let bound = match steps {
+            [true, true] => return quote!(impl<C> ::symplectic::emitted::ProvedFor<C> for #name {}),
+            [true, false] => "Holonomic",
+            [false, true] => "FreePositions",
+            [false, false] => "Unconstrained",
+        };
+        let bound = format_ident!("{bound}");
+        return quote! {
+            impl<C: ::symplectic::emitted::#bound> ::symplectic::emitted::ProvedFor<C> for #name {}
+        };
     }
     // The second keeps the compiler from concluding the class from the method.
     let mut classes = vec![quote!(::symplectic::emitted::Separable), quote!(())];

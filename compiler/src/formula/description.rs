@@ -75,7 +75,8 @@ impl System {
 
     /// The constraints, a line for each.
     pub fn constraint_equations(&self, notation: Notation) -> Vec<String> {
-        let lines = self.constraints.iter().flat_map(|constraint| {
+        let all = self.constraints.iter().chain(&self.nonholonomic);
+        let lines = all.flat_map(|constraint| {
             let loops: Vec<LoopId> = constraint.over.into_iter().collect();
             constraint.parts.iter().map(move |&part| {
                 let formula = self.formula(part, notation);
@@ -128,7 +129,7 @@ pub fn page(system: &System, structure: &Structure) -> String {
         let momenta = system.momentum_equations(Notation::Text).join("\n");
         text = format!("L = {lagrangian}\n\n{momenta}\n\n{text}");
     }
-    if !system.constraints.is_empty() {
+    if system.is_constrained() {
         let constraints = system.constraint_equations(Notation::Text).join("\n");
         text = format!("{text}\n\n{constraints}");
     }
@@ -199,7 +200,7 @@ pub fn text(system: &System, structure: &Structure) -> String {
         "equations of motion",
         &system.equations_of_motion(Notation::Text),
     );
-    if !system.constraints.is_empty() {
+    if system.is_constrained() {
         section("constraints", &system.constraint_equations(Notation::Text));
     }
     section(
@@ -288,7 +289,7 @@ pub fn json(system: &System, structure: &Structure) -> Value {
         "cyclic": cyclic,
         "conserved": conserved,
     });
-    if !system.constraints.is_empty() {
+    if system.is_constrained() {
         all["constraints"] = both(System::constraint_equations);
     }
     if !system.applied.is_empty() {
@@ -366,6 +367,12 @@ pub fn facts(system: &System, structure: &Structure) -> Vec<String> {
     if !system.constraints.is_empty() {
         facts.push(
             "the force −Gᵀλ of the constraints, with G = ∂φ/∂q, is added to the force".to_owned(),
+        );
+    }
+    if !system.nonholonomic.is_empty() {
+        facts.push(
+            "the force −wᵀλ of the non-holonomic constraints w·v = 0 is added to the force"
+                .to_owned(),
         );
     }
     match system.lagrangian.as_ref().map(|known| known.regularity) {

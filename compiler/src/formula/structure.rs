@@ -108,7 +108,10 @@ struct Symmetries {
 impl Symmetries {
     fn of(system: &mut System) -> Self {
         let mut found = Self::of_energy(system);
-        if system.friction.is_some() || !system.applied.is_empty() {
+        if system.friction.is_some()
+            || !system.applied.is_empty()
+            || !system.nonholonomic.is_empty()
+        {
             // The momenta change.
             found.keep(&Symmetries {
                 cyclic: Vec::new(),

@@ -92,6 +92,10 @@ pub struct Definition {
     pub constraints: Vec<Constraint>,
     /// Applied forces, without a potential.
     pub forces: Vec<Force>,
+    /// The velocities, in a Hamiltonian system with non-holonomic constraints.
+    pub velocities: Option<Coordinates>,
+    /// Non-holonomic constraints.
+    pub nonholonomic: Vec<Constraint>,
     /// The rate γ of a friction `−γp`.
     pub friction: Option<Expression>,
     /// What is said to be conserved.
@@ -100,7 +104,7 @@ pub struct Definition {
     pub required: Vec<Name>,
 }
 
-/// `name = φ` or `name(i in a..b) = φ`: φ is zero.
+/// `name = φ` or `name(i in a..b) = φ`: φ is zero, a function of the positions or a form of the velocities.
 #[derive(Debug, Clone)]
 pub struct Constraint {
     /// The name.
@@ -176,7 +180,7 @@ pub struct Coordinates {
 }
 
 /// What positions, momenta or velocities are.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum CoordinatesKind {
     /// Each with a name of its own.
     Named(Vec<Name>),

@@ -29,10 +29,14 @@ pub struct System {
     pub energy: Id,
     /// The Lagrangian that H was derived from.
     pub lagrangian: Option<Lagrangian>,
+    /// The names of the velocities, where coordinates have names and velocities are known.
+    pub velocities: Vec<String>,
     /// Holonomic constraints.
     pub constraints: Vec<Constraint>,
     /// Applied forces: each value is added to the force on its coordinate.
     pub applied: Vec<Scatter>,
+    /// Non-holonomic constraints, linear in the velocities.
+    pub nonholonomic: Vec<Constraint>,
     /// The rate γ of a friction `−γp`.
     pub friction: Option<Id>,
     /// What is said to be conserved.
@@ -52,8 +56,6 @@ pub struct System {
 pub struct Lagrangian {
     /// L
     pub formula: Id,
-    /// The names of the velocities, where coordinates have names.
-    pub velocities: Vec<String>,
     /// How it is known that M is regular.
     pub regularity: Regularity,
 }
@@ -136,7 +138,12 @@ impl Layout {
 impl System {
     /// Whether there is nothing but H: no constraint, no applied force, no friction.
     pub fn is_free(&self) -> bool {
-        self.constraints.is_empty() && self.applied.is_empty() && self.friction.is_none()
+        !self.is_constrained() && self.applied.is_empty() && self.friction.is_none()
+    }
+
+    /// Whether there are constraints, holonomic or not.
+    pub fn is_constrained(&self) -> bool {
+        !(self.constraints.is_empty() && self.nonholonomic.is_empty())
     }
 
     /// Adds the applied forces to the parts of `−∂H/∂q`: in one term where the same loops go to the same coordinate.
@@ -184,14 +191,14 @@ impl System {
     /// What a coordinate with a number is called.
     pub fn name_of(&self, coordinate: &Coordinate) -> String {
         let index = usize::try_from(coordinate.index.offset).unwrap_or(0);
-        match (&self.lagrangian, &self.layout, coordinate.half) {
-            (Some(lagrangian), Layout::Named(_), Half::V) => lagrangian.velocities[index].clone(),
+        match (self.velocities.get(index), &self.layout, coordinate.half) {
+            (Some(velocity), Layout::Named(_), Half::V) => velocity.clone(),
             _ => self.layout.name(coordinate.half, index),
         }
     }
 }
 
-/// Functions of the positions that are zero.
+/// Functions of the positions, or forms of the velocities, that are zero.
 #[derive(Debug, Clone)]
 pub struct Constraint {
     /// The name.

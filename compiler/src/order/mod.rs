@@ -35,6 +35,7 @@ mod perturbed;
 mod plan;
 mod report;
 mod simplifying;
+pub(crate) mod symmetric_composition;
 mod symplecticity;
 mod tree;
 mod unrooted;

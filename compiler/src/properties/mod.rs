@@ -8,6 +8,7 @@ mod constrained;
 mod end_stages;
 mod equal_matrices;
 mod explicit;
+mod nonholonomic;
 mod positive_weights;
 mod separable;
 mod symmetric;
@@ -131,6 +132,9 @@ properties! {
     /// Steps systems with holonomic constraints: `b_i = b̃_i ≠ 0`, symplectic, `a_1j = 0`, `a_sj = b_j` and
     /// `det (A Ã) ≠ 0` for the rows 2..s and the columns 1..s−1 (MW 3.5.6).
     constrained: constrained::decide;
+    /// Steps systems with non-holonomic constraints without loss of order: `b_i = b̃_i ≠ 0`, symplectic, and symmetric of order 2, or of
+    /// order 1.
+    nonholonomic: nonholonomic::decide;
 }
 
 impl Properties {

@@ -38,6 +38,7 @@ properties
   first_same_as_last     yes  proved   Q_s = q1 is Q_1 of the next step
   positive_weights       no   refuted  b_2 = -1.70241438392…
   constrained            no   refuted  b_4 = 0
+  nonholonomic           no   refuted  b_4 = 0
   symplectic(separable)  yes  proved
   symmetric(separable)   yes  proved
 ```*/

@@ -24,6 +24,7 @@ properties
   first_same_as_last  no   refuted  a_11 = 1/4
   positive_weights    yes  proved
   constrained         no   refuted  a_11 = 1/4
+  nonholonomic        no   refuted  steps with non-holonomic constraints have order 2 at most
 ```*/
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Gauss2;

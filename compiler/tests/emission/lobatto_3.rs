@@ -23,6 +23,7 @@ properties
   first_same_as_last  yes  proved   Q_s = q1 is Q_1 of the next step
   positive_weights    yes  proved
   constrained         yes  proved   det (A Ã) ≈ 0.0208333
+  nonholonomic        no   refuted  steps with non-holonomic constraints have order 2 at most
 ```*/
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lobatto3;
@@ -259,7 +260,8 @@ const _: () = {
         type General = ::symplectic::emitted::Coupled<Lobatto3General>;
         type Separable = ::symplectic::emitted::Coupled<Lobatto3Separable>;
     }
-    impl<C> ::symplectic::emitted::ProvedFor<C> for Lobatto3 {}
+    impl<C: ::symplectic::emitted::Holonomic> ::symplectic::emitted::ProvedFor<C>
+    for Lobatto3 {}
     pub struct Lobatto3General;
     #[allow(unused_variables)]
     impl ::symplectic::emitted::StagePlan for Lobatto3General {

@@ -22,6 +22,7 @@ properties
   first_same_as_last  yes  proved   Q_s = q1 is Q_1 of the next step
   positive_weights    yes  proved
   constrained         yes  proved   det (A Ã) ≈ 0.500000
+  nonholonomic        yes  proved   order 2: Σ b c² = 1/2 ≠ 1/3
 ```*/
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StoermerVerlet;
@@ -128,6 +129,50 @@ const _: () = {
                     ::symplectic::emitted::Coefficient::exact(0.5),
                 ],
                 multipliers: &[&[2.0]],
+            };
+            &[
+                ::symplectic::emitted::ConstrainedStep::new(
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(1.0),
+                    &TABLEAU1,
+                ),
+            ]
+        };
+        const NONHOLONOMIC: &'static [::symplectic::emitted::ConstrainedStep] = {
+            const TABLEAU1: ::symplectic::emitted::ConstrainedTableau = ::symplectic::emitted::ConstrainedTableau {
+                positions: &[
+                    &[
+                        ::symplectic::emitted::Coefficient::exact(0.0),
+                        ::symplectic::emitted::Coefficient::exact(0.0),
+                    ],
+                    &[
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                    ],
+                ],
+                momenta: &[
+                    &[
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(0.0),
+                    ],
+                    &[
+                        ::symplectic::emitted::Coefficient::exact(1.0),
+                        ::symplectic::emitted::Coefficient::exact(0.0),
+                    ],
+                ],
+                weights: &[
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                ],
+                nodes: &[
+                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    ::symplectic::emitted::Coefficient::exact(1.0),
+                ],
+                momentum_nodes: &[
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                    ::symplectic::emitted::Coefficient::exact(0.5),
+                ],
+                multipliers: &[],
             };
             &[
                 ::symplectic::emitted::ConstrainedStep::new(

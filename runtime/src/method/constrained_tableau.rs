@@ -1,8 +1,8 @@
-//! The tableaux of constrained steps, as the macro emits them.
+//! The tableaux of steps of systems with constraints, as the macro emits them.
 
 use crate::number::Coefficient;
 
-/// A step `Φ_{γh}` of a method on a system with holonomic constraints; a method that is no composition is one of them.
+/// A step `Φ_{γh}` of a method on a system with constraints, holonomic ones or not; a method that is no composition is one of them.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstrainedStep {
     /// Where it starts, as a fraction of the whole step.
@@ -28,7 +28,8 @@ impl ConstrainedStep {
     }
 }
 
-/// A tableau with `a_1j = 0`, `a_sj = b_j` and a regular matrix `X = (A Ã)_ik`, `i = 2..s`, `k = 1..s−1`.
+/// A symplectic tableau without zero weights; for holonomic constraints with `a_1j = 0`, `a_sj = b_j` and a regular matrix
+/// `X = (A Ã)_ik`, `i = 2..s`, `k = 1..s−1`.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstrainedTableau {
     /// `μ_ij = a_ij/b_j` by rows.
@@ -41,6 +42,6 @@ pub struct ConstrainedTableau {
     pub nodes: &'static [Coefficient],
     /// `c̃_i`
     pub momentum_nodes: &'static [Coefficient],
-    /// `X⁻¹` by rows.
+    /// `X⁻¹` by rows; for non-holonomic constraints none.
     pub multipliers: &'static [&'static [f64]],
 }

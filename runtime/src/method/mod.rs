@@ -11,6 +11,8 @@ pub(crate) mod diagnosis;
 pub(crate) mod explicit;
 pub(crate) mod interpolation;
 pub(crate) mod kick_drift;
+#[cfg(feature = "alloc")]
+pub(crate) mod nonholonomic;
 pub(crate) mod proved;
 #[cfg(feature = "alloc")]
 pub(crate) mod run_time;
@@ -38,6 +40,8 @@ pub use damped::DampedPlan;
 pub use explicit::Explicit;
 pub use interpolation::{Inside, Interpolation};
 pub use kick_drift::{Drift, Force, KickDrift};
+#[cfg(feature = "alloc")]
+pub use nonholonomic::{NonholonomicPlan, NonholonomicStages, consistent_momentum};
 pub use proved::{LowerOrder, Orders, ProvedFor};
 #[cfg(feature = "alloc")]
 pub use run_time::{
@@ -82,6 +86,9 @@ pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static 
 
     /// How it steps systems with holonomic constraints, where it can: by one step, or those of a composition.
     const CONSTRAINED: &'static [ConstrainedStep] = &[];
+
+    /// How it steps systems with non-holonomic constraints, where it can: by one step, or those of a composition.
+    const NONHOLONOMIC: &'static [ConstrainedStep] = &[];
 
     /// The same method, for every system: also where its order is lower or it is not symplectic.
     ///
@@ -297,12 +304,33 @@ pub trait Plan {
 /// Checks that a system whose class has no constraints has none.
 #[inline(always)]
 pub(crate) fn check_no_constraints<V: Vector, S: System<V>>(system: &S) -> Result<(), Error> {
+    check_no_holonomic_constraints(system)?;
+    check_no_rows(system)
+}
+
+/// Checks that a system whose class has no holonomic constraints has none.
+#[inline(always)]
+pub(crate) fn check_no_holonomic_constraints<V: Vector, S: System<V>>(
+    system: &S,
+) -> Result<(), Error> {
     if system.constraints() == 0 {
         return Ok(());
     }
     Err(Error::OtherClass {
         what: "constraints",
         class: "Constrained<Separable>` or `Constrained<General>",
+    })
+}
+
+/// Checks that a system whose class has no non-holonomic constraints has none.
+#[inline(always)]
+pub(crate) fn check_no_rows<V: Vector, S: System<V>>(system: &S) -> Result<(), Error> {
+    if system.nonholonomic_constraints() == 0 {
+        return Ok(());
+    }
+    Err(Error::OtherClass {
+        what: "non-holonomic constraints",
+        class: "Nonholonomic<Separable>` or `Nonholonomic<General>",
     })
 }
 

@@ -37,6 +37,7 @@ use crate::system::Unconstrained;
     note = "if H = T(p) + U(q), write the system with `separable(…)` or implement `SeparableHamiltonian`; a function that returns one says `impl System<V, Class = Separable>`",
     note = "otherwise take a method for general Hamiltonians, such as `basis: polynomial(s), nodes: gauss(s)` or `lobatto(s)`",
     note = "for holonomic constraints, class `Constrained`, take a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, or a composition of such",
+    note = "for non-holonomic constraints, class `Nonholonomic`, take a method that is `nonholonomic`: `basis: polynomial(1), nodes: gauss(1)`, or a composition of it",
     note = "for friction, class `Damped`, take a splitting whose order holds for every separable Hamiltonian, such as `velocity-verlet` or `forest-ruth-1990`",
     note = "without constraints, to go on knowingly with a lower order, write `.accept_lower_order()` after the method"
 )]

@@ -4,7 +4,7 @@
 use core::marker::PhantomData;
 
 #[cfg(feature = "alloc")]
-use crate::method::ConstrainedPlan;
+use crate::method::{ConstrainedPlan, NonholonomicPlan};
 use crate::method::{DampedPlan, Method, Plan};
 
 mod sealed {
@@ -14,10 +14,12 @@ mod sealed {
     impl Sealed for super::Damped {}
     #[cfg(feature = "alloc")]
     impl<C> Sealed for super::Constrained<C> {}
+    #[cfg(feature = "alloc")]
+    impl<C> Sealed for super::Nonholonomic<C> {}
 }
 
 /// What the derivatives of a [`Hamiltonian`](crate::Hamiltonian) depend on: [`General`] or [`Separable`]; with linear
-/// friction [`Damped`], with holonomic constraints [`Constrained`].
+/// friction [`Damped`], with holonomic constraints [`Constrained`], with non-holonomic ones [`Nonholonomic`].
 ///
 /// It picks the [`Plan`] of a [`Method`], while compiling. Sealed.
 pub trait Class: sealed::Sealed + Sized + 'static {
@@ -34,10 +36,11 @@ pub trait Class: sealed::Sealed + Sized + 'static {
 ///
 /// Code that is generic over the system and takes one such method says `S::Class: Unconstrained`.
 #[diagnostic::on_unimplemented(
-    message = "a system of class `{Self}` needs a method that is `constrained`",
-    label = "this method has no steps for holonomic constraints",
-    note = "take `basis: polynomial(s), nodes: lobatto(s)`, which with two stages is RATTLE, or a composition of such",
-    note = "`require: [constrained]` in `tableau!` checks that a method is",
+    message = "this method has no steps for systems of class `{Self}`",
+    label = "no steps for these constraints",
+    note = "class `Constrained`, with holonomic constraints, needs a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, which with two stages is RATTLE, or a composition of such",
+    note = "class `Nonholonomic` needs a method that is `nonholonomic`: `basis: polynomial(1), nodes: gauss(1)`, or a composition of it",
+    note = "`require: [constrained]` or `require: [nonholonomic]` in `tableau!` checks that a method is",
     note = "code that is generic over the system, and takes a method for systems without constraints, says `S::Class: Unconstrained`"
 )]
 pub trait Unconstrained {}
@@ -49,6 +52,33 @@ impl Unconstrained for Separable {}
 impl Unconstrained for Damped {}
 
 impl Unconstrained for () {}
+
+/// A class without non-holonomic constraints: an [`Unconstrained`] one, or [`Constrained`].
+#[diagnostic::on_unimplemented(
+    message = "this method has no steps for systems of class `{Self}`",
+    label = "no steps for non-holonomic constraints",
+    note = "class `Nonholonomic` needs a method that is `nonholonomic`: `basis: polynomial(1), nodes: gauss(1)`, or a composition of it",
+    note = "a method of higher order would lose it: only compositions of symmetric steps keep theirs"
+)]
+pub trait Holonomic {}
+
+/// A class without holonomic constraints: an [`Unconstrained`] one, or [`Nonholonomic`].
+#[diagnostic::on_unimplemented(
+    message = "this method has no steps for systems of class `{Self}`",
+    label = "no steps for holonomic constraints",
+    note = "class `Constrained` needs a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, which with two stages is RATTLE, or a composition of such"
+)]
+pub trait FreePositions {}
+
+impl<C: Unconstrained> Holonomic for C {}
+
+impl<C: Unconstrained> FreePositions for C {}
+
+#[cfg(feature = "alloc")]
+impl<C> Holonomic for Constrained<C> {}
+
+#[cfg(feature = "alloc")]
+impl<C> FreePositions for Nonholonomic<C> {}
 
 /// A class whose steps have a generating function: [`General`] or [`Separable`].
 ///
@@ -128,6 +158,60 @@ impl<C: Class + Unconstrained> Class for Constrained<C> {
         assert!(
             !C::FRICTION,
             "`Constrained<Damped>` is not possible: add the friction to the force of a system of class `Constrained<General>`"
+        );
+        C::SEPARABLE
+    };
+}
+
+/// `H` of class `C`, [`Separable`] or [`General`], with non-holonomic constraints `w(q)·q' = 0`, linear in the velocities:
+///
+/// ```text
+/// q' = ∂H/∂p      p' = −∂H/∂q − wᵀλ      w(q) ∂H/∂p = 0
+/// ```
+///
+/// The rows of the m×n matrix `w` are in [`Hamiltonian::nonholonomic_rows`](crate::Hamiltonian::nonholonomic_rows). Methods that are
+/// `nonholonomic` step such systems by the discrete Lagrange–d'Alembert–Pontryagin principle (Leok & Ohsawa, arXiv:0810.0740): the implicit midpoint
+/// rule, Lobatto IIIA–IIIB with two stages, other symmetric methods of order 2, compositions of one of these, and methods of order 1.
+/// A method of any other order would lose it, and [`Integrator::new`](crate::Integrator::new) does not compile:
+///
+/// ```compile_fail,E0277
+/// use symplectic::nalgebra::Vector2;
+/// use symplectic::{Error, Integrator, Nonholonomic, Separable, State, System};
+///
+/// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
+///
+/// fn run<S: System<Vector2<f64>, Class = Nonholonomic<Separable>>>(system: S, start: State<Vector2<f64>>) -> Result<(), Error> {
+///     Integrator::new(Gauss2, system, start, 0.1)?;
+///     Ok(())
+/// }
+/// ```
+///
+/// With `basis: polynomial(1), nodes: gauss(1)` it compiles:
+///
+/// ```
+/// use symplectic::nalgebra::Vector2;
+/// use symplectic::{Error, Integrator, Nonholonomic, Separable, State, System};
+///
+/// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
+///
+/// fn run<S: System<Vector2<f64>, Class = Nonholonomic<Separable>>>(system: S, start: State<Vector2<f64>>) -> Result<(), Error> {
+///     Integrator::new(Midpoint, system, start, 0.1)?;
+///     Ok(())
+/// }
+/// ```
+///
+/// `Nonholonomic<Damped>` does not compile: friction is part of the force of a system of class `Nonholonomic<General>`.
+#[cfg(feature = "alloc")]
+#[derive(Clone, Copy, Debug)]
+pub struct Nonholonomic<C>(PhantomData<C>);
+
+#[cfg(feature = "alloc")]
+impl<C: Class + Unconstrained> Class for Nonholonomic<C> {
+    type Plan<M: Method> = NonholonomicPlan<M, C>;
+    const SEPARABLE: bool = {
+        assert!(
+            !C::FRICTION,
+            "`Nonholonomic<Damped>` is not possible: add the friction to the force of a system of class `Nonholonomic<General>`"
         );
         C::SEPARABLE
     };

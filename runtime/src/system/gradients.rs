@@ -4,7 +4,8 @@ use alloc::vec::Vec;
 
 use crate::number::{Scalar, Visit, scalar_words};
 
-/// The gradients `G = ∂φ/∂q` of the constraints `φ(q) = 0` of a system: a sparse m×n matrix.
+/// The gradients `G = ∂φ/∂q` of the constraints `φ(q) = 0` of a system, or the rows w of non-holonomic ones, `w(q)·q' = 0`: a sparse
+/// m×n matrix.
 ///
 /// A system [`set`](Self::set)s every entry that is not zero everywhere, in the same order at every evaluation; entries that are set
 /// twice add up. Constraints and components are counted from 0.
@@ -152,6 +153,25 @@ impl<T: Scalar> Gradients<T> {
             *gradient += value.magnitude();
             *largest = largest.max(size(component));
         }
+    }
+
+    /// How large `Gᵀ factors` is, constraint by constraint, relative to the largest `size(k)` of the components of each.
+    pub(crate) fn relative_change(
+        &self,
+        factors: &[T],
+        size: impl Fn(usize) -> f64,
+        terms: &mut [Terms],
+    ) -> f64 {
+        self.sizes(size, terms);
+        let pairs = factors.iter().zip(terms);
+        pairs.fold(0.0, |most: f64, (factor, terms)| {
+            let change = factor.magnitude() * terms.gradient;
+            if change == 0.0 {
+                most
+            } else {
+                most.max(change / terms.largest)
+            }
+        })
     }
 
     /// The words of the values.

@@ -333,6 +333,66 @@ pub trait Hamiltonian {
     #[cfg(feature = "alloc")]
     fn constraint_gradients<T: Scalar>(&self, _q: &Self::Vector<T>, _gradients: &mut Gradients<T>) {
     }
+
+    /// The number m of non-holonomic constraints `w(q)·q' = 0` of a system of class [`Nonholonomic`](crate::Nonholonomic).
+    ///
+    /// ```
+    /// use symplectic::nalgebra::SVector;
+    /// use symplectic::system::Gradients;
+    /// use symplectic::{Error, Hamiltonian, Integrator, Nonholonomic, Scalar, Separable, State};
+    ///
+    /// symplectic::tableau! {
+    ///     /// The implicit midpoint rule.
+    ///     Midpoint { basis: polynomial(1), nodes: gauss(1), require: [nonholonomic, order == 2] }
+    /// }
+    ///
+    /// /// A skate on the ice, at (x, y) in the direction a: H = (px² + py² + pa²)/2, x' sin a − y' cos a = 0.
+    /// struct Skate;
+    ///
+    /// type V3<T> = SVector<T, 3>;
+    ///
+    /// impl Hamiltonian for Skate {
+    ///     type Class = Nonholonomic<Separable>;
+    ///     type Vector<T: Scalar> = V3<T>;
+    ///
+    ///     const UNIT_MASSES: bool = true;
+    ///
+    ///     fn velocity<T: Scalar>(&self, _: T, _: &V3<T>, p: &V3<T>, velocity: &mut V3<T>) {
+    ///         *velocity = *p;
+    ///     }
+    ///
+    ///     fn force<T: Scalar>(&self, _: T, _: &V3<T>, _: &V3<T>, force: &mut V3<T>) {
+    ///         *force = V3::zeros();
+    ///     }
+    ///
+    ///     fn nonholonomic_constraints(&self) -> usize {
+    ///         1
+    ///     }
+    ///
+    ///     fn nonholonomic_rows<T: Scalar>(&self, q: &V3<T>, rows: &mut Gradients<T>) {
+    ///         rows.set(0, 0, q[2].sin());
+    ///         rows.set(0, 1, -q[2].cos());
+    ///     }
+    /// }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// // It turns at the rate 1 and moves at the speed 2, on a circle of radius 2 about (0, 2).
+    /// let start: State<V3<f64>> = State::from_arrays(0.0, [0.0; 3], [2.0, 0.0, 1.0]);
+    /// let mut run = Integrator::new(Midpoint, Skate, start, 0.01)?;
+    /// let end = run.integrate_to(10.0)?;
+    /// assert!((end.q[0].hypot(end.q[1] - 2.0) - 2.0).abs() < 1e-4);
+    /// assert!((end.p[0] * end.q[2].sin() - end.p[1] * end.q[2].cos()).abs() < 1e-14);
+    /// # Ok(())
+    /// # }
+    /// ```
+    fn nonholonomic_constraints(&self) -> usize {
+        0
+    }
+
+    /// Sets the entries of the m×n matrix `w(q)`, the rows of the [non-holonomic constraints](Self::nonholonomic_constraints), always
+    /// the same ones in the same order.
+    #[cfg(feature = "alloc")]
+    fn nonholonomic_rows<T: Scalar>(&self, _q: &Self::Vector<T>, _rows: &mut Gradients<T>) {}
 }
 
 /// A system with a separable Hamiltonian `H = T(t, p) + U(t, q)`: the velocity depends only on `p`, the force only on `q`.

@@ -73,6 +73,10 @@
 /// of them, one or one for each index; `rod(s = (i, j) in rods) = …` has one for each pair of a parameter. The class of the system is
 /// then [`Constrained`](crate::Constrained), and methods that are `constrained` step it.
 ///
+/// `nonholonomic: { edge = vx sin(a) - vy cos(a) }` says which forms of the velocities are zero, each a sum of velocities times functions of
+/// the positions; `v: [vx, vy, va]` after `p: […]` names the velocities for this section. The class is then
+/// [`Nonholonomic`](crate::Nonholonomic), and methods that are `nonholonomic` step it.
+///
 /// `friction: gamma` adds the force `−γp` to a separable system. Its class is [`Damped`](crate::Damped), for splittings.
 ///
 /// ```

@@ -17,9 +17,11 @@ pub(crate) mod over_vectors;
 pub(crate) mod strands;
 
 pub use chain::{Bonds, Chain};
+pub use class::{
+    Class, Conservative, Damped, FreePositions, General, Holonomic, Separable, Unconstrained,
+};
 #[cfg(feature = "alloc")]
-pub use class::Constrained;
-pub use class::{Class, Conservative, Damped, General, Separable, Unconstrained};
+pub use class::{Constrained, Nonholonomic};
 pub use closures::{
     HamiltonianClosures, Momentum, NoEnergy, SeparableClosures, acceleration, hamiltonian,
     separable,

@@ -116,6 +116,15 @@ pub trait System<V: Vector>: Sized {
     #[cfg(feature = "alloc")]
     fn constraint_gradients(&self, _q: &V, _gradients: &mut Gradients<V::Scalar>) {}
 
+    /// The number of non-holonomic constraints: see [`Hamiltonian::nonholonomic_constraints`].
+    fn nonholonomic_constraints(&self) -> usize {
+        0
+    }
+
+    /// Sets the rows of w: see [`Hamiltonian::nonholonomic_rows`].
+    #[cfg(feature = "alloc")]
+    fn nonholonomic_rows(&self, _q: &V, _rows: &mut Gradients<V::Scalar>) {}
+
     // What follows is how a `Chain` is made fast, for no other system.
 
     /// Whether there is a [`local_force`](Self::local_force).
@@ -228,6 +237,16 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     #[inline(always)]
     fn constraint_gradients(&self, q: &V, gradients: &mut Gradients<V::Scalar>) {
         Hamiltonian::constraint_gradients::<V::Scalar>(self, q, gradients);
+    }
+
+    fn nonholonomic_constraints(&self) -> usize {
+        Hamiltonian::nonholonomic_constraints(self)
+    }
+
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    fn nonholonomic_rows(&self, q: &V, rows: &mut Gradients<V::Scalar>) {
+        Hamiltonian::nonholonomic_rows::<V::Scalar>(self, q, rows);
     }
 }
 

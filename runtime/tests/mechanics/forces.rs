@@ -271,6 +271,66 @@ fn forces_and_constraints() {
     check(FourthRattle);
 }
 
+symplectic::hamiltonian! {
+    /// A skate with drag.
+    pub Skate { c: 0.3 }
+    q: [x, y, a], p: [px, py, pa], v: [vx, vy, va];
+    H = (px^2 + py^2 + pa^2)/2
+    nonholonomic: { edge = vx sin(a) - vy cos(a) }
+    force: { x = -c px, y = -c py }
+}
+
+symplectic::composition! {
+    pub FourthMidpoint { base: gauss-1, weights: suzuki(4) }
+}
+
+/// It turns at a constant rate ω and slows down: x + iy = u (e^{(iω − c)t} − 1)/(iω − c).
+#[test]
+fn forces_and_nonholonomic_constraints() {
+    let exact = |time: f64| {
+        let (u, omega, c) = (1.5_f64, 2.0, 0.3);
+        let (sin, cos) = (omega * time).sin_cos();
+        let decay = (-c * time).exp();
+        let (re, im) = (u * (decay * cos - 1.0), u * decay * sin);
+        let square = c * c + omega * omega;
+        let (x, y) = (
+            (-c * re + omega * im) / square,
+            (-c * im - omega * re) / square,
+        );
+        State::from_arrays(
+            time,
+            [x, y, omega * time],
+            [u * decay * cos, u * decay * sin, omega],
+        )
+    };
+    for (found, order) in [
+        (
+            slope(Midpoint, Skate::new, &exact(0.0), &exact(2.0), 50),
+            2.0,
+        ),
+        (
+            slope(Lobatto2, Skate::new, &exact(0.0), &exact(2.0), 50),
+            2.0,
+        ),
+        (
+            slope(FourthMidpoint, Skate::new, &exact(0.0), &exact(2.0), 50),
+            4.0,
+        ),
+    ] {
+        assert!((found - order).abs() < 0.05, "{found} instead of {order}");
+    }
+    // The constraint does no work, so the balance of the energy is that of the drag: of order 3 in a step.
+    let defect = |size: f64| -> f64 {
+        let mut run = Integrator::new(Midpoint, Skate::new(), exact(0.5), size).expect("a run");
+        let before = run.energy().expect("known");
+        let work = run.step_with_stages().expect("a step").work();
+        assert!(work < -0.1 * size);
+        run.energy().expect("known") - before - work
+    };
+    let found = (defect(0.02) / defect(0.01)).log2();
+    assert!((found - 3.0).abs() < 0.1, "{found}");
+}
+
 symplectic::lagrangian! {
     /// A particle in the plane with drag, in polar coordinates.
     pub Polar { c: 0.2 }

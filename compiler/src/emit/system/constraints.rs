@@ -1,4 +1,4 @@
-//! Holonomic constraints with their gradients, and friction: methods of `Hamiltonian`.
+//! Constraints with their gradients or rows, and friction: methods of `Hamiltonian`.
 
 use num_traits::One;
 use proc_macro2::{Literal, TokenStream};
@@ -17,7 +17,8 @@ impl Emitter<'_> {
     pub(super) fn beside_energy(&mut self) -> TokenStream {
         let friction = self.friction();
         let constraints = self.constraints();
-        quote!(#friction #constraints)
+        let nonholonomic = self.nonholonomic();
+        quote!(#friction #constraints #nonholonomic)
     }
 
     fn friction(&self) -> TokenStream {
@@ -53,16 +54,7 @@ impl Emitter<'_> {
         if constraints.is_empty() {
             return TokenStream::new();
         }
-        // Where the numbers of each family begin.
-        let mut starts = vec![quote!(0)];
-        for constraint in &constraints {
-            let (before, own) = (&starts[starts.len() - 1], self.count(constraint));
-            let next = match before.to_string().as_str() {
-                "0" => own,
-                _ => quote!(#before + #own),
-            };
-            starts.push(next);
-        }
+        let starts = self.starts(&constraints);
         let count = &starts[constraints.len()];
         let [mut values, mut gradients] = [Vec::new(), Vec::new()];
         for (constraint, start) in constraints.iter().zip(&starts) {
@@ -108,6 +100,60 @@ impl Emitter<'_> {
                 }
             }
         }
+    }
+
+    fn nonholonomic(&mut self) -> TokenStream {
+        let constraints = self.system.nonholonomic.clone();
+        if constraints.is_empty() {
+            return TokenStream::new();
+        }
+        let starts = self.starts(&constraints);
+        let count = &starts[constraints.len()];
+        let mut rows = Vec::new();
+        for (constraint, start) in constraints.iter().zip(&starts) {
+            let loops: Vec<LoopId> = constraint.over.into_iter().collect();
+            for (k, &part) in constraint.parts.iter().enumerate() {
+                let number = self.number(constraint, start, k);
+                let graph = &mut self.system.graph;
+                for entry in gradient(graph, part, &loops, Number::one(), Half::V) {
+                    let component = self.place(&entry.target);
+                    rows.push((entry.loops, entry.value, quote!(#number, #component)));
+                }
+            }
+        }
+        let rows = self.tasks(
+            rows,
+            quote!(return;),
+            |place, value| quote!(rows.set(#place, #value);),
+        );
+        let scalar = &self.scalar;
+        let over = self.vector(&quote!(#scalar));
+        quote! {
+            fn nonholonomic_constraints(&self) -> usize {
+                #count
+            }
+
+            ::symplectic::emitted::if_alloc! {
+                #[inline(always)]
+                fn nonholonomic_rows<#scalar: Scalar>(&self, q: &#over, rows: &mut ::symplectic::system::Gradients<#scalar>) {
+                    #rows
+                }
+            }
+        }
+    }
+
+    /// Where the numbers of each family begin, and the number of all.
+    fn starts(&self, constraints: &[Constraint]) -> Vec<TokenStream> {
+        let mut starts = vec![quote!(0)];
+        for constraint in constraints {
+            let (before, own) = (&starts[starts.len() - 1], self.count(constraint));
+            let next = match before.to_string().as_str() {
+                "0" => own,
+                _ => quote!(#before + #own),
+            };
+            starts.push(next);
+        }
+        starts
     }
 
     /// How many constraints a family has.

@@ -426,10 +426,14 @@ impl<'a> Emitter<'a> {
         } else {
             quote!(::symplectic::General)
         };
-        let class = match (&self.system.friction, self.system.constraints.is_empty()) {
-            (Some(_), _) => quote!(::symplectic::Damped),
-            (None, false) => quote!(::symplectic::Constrained<#class>),
-            (None, true) => class,
+        let class = if self.system.friction.is_some() {
+            quote!(::symplectic::Damped)
+        } else if !self.system.constraints.is_empty() {
+            quote!(::symplectic::Constrained<#class>)
+        } else if !self.system.nonholonomic.is_empty() {
+            quote!(::symplectic::Nonholonomic<#class>)
+        } else {
+            class
         };
         let unit = (split.is_some() && self.structure.kinetic == Kinetic::Unit).then(|| {
             quote!(
@@ -453,8 +457,8 @@ impl<'a> Emitter<'a> {
         let force = self.derivatives(&halves, &parts, &["force"]);
         let energy = self.energy(energy);
         // Newton's iteration is for stages without constraints.
-        let jacobian = match (self.system.constraints.is_empty(), self.system.friction) {
-            (true, None) => self.jacobian(split),
+        let jacobian = match (self.system.is_constrained(), self.system.friction) {
+            (false, None) => self.jacobian(split),
             _ => TokenStream::new(),
         };
         let applied = (!applied.is_empty()).then(|| {

@@ -4,17 +4,28 @@ use super::{Elaborator, Value};
 use crate::error::Error;
 use crate::formula::error::FormulaError;
 use crate::formula::graph::{Base, Id, LoopRange};
-use crate::formula::syntax::{Expression, Length};
+use crate::formula::syntax::{self, Expression, Length};
 use crate::formula::system::Constraint;
 
 impl Elaborator<'_> {
     /// The constraints, each a function of the positions that is zero.
     pub(super) fn constraints(&mut self) -> Result<Vec<Constraint>, Error> {
         let definition = self.definition;
+        self.families(&definition.constraints, &[], Self::zeros)
+    }
+
+    /// Constraints, each with the indices for which there is one; `parts` reads what is zero. Their names differ from those of others.
+    pub(super) fn families(
+        &mut self,
+        all: &[syntax::Constraint],
+        others: &[Constraint],
+        parts: fn(&mut Self, &Expression) -> Result<Vec<Id>, Error>,
+    ) -> Result<Vec<Constraint>, Error> {
         let mut constraints: Vec<Constraint> = Vec::new();
-        for written in &definition.constraints {
+        for written in all {
             let name = &written.name;
-            let known = constraints.iter().any(|known| known.name == name.text);
+            let mut known = constraints.iter().chain(others);
+            let known = known.any(|known| known.name == name.text);
             if known || self.names.contains_key(&name.text) {
                 let meaning = match known {
                     true => "a constraint".to_owned(),
@@ -28,8 +39,8 @@ impl Elaborator<'_> {
             }
             let value = &written.value;
             let parts = match &written.over {
-                None => self.zeros(value)?,
-                Some(over) => self.under(over, value, |this| this.zeros(value))?,
+                None => parts(self, value)?,
+                Some(over) => self.under(over, value, |this| parts(this, value))?,
             };
             let loops = std::mem::take(&mut self.loops);
             let over = match loops[..] {
@@ -64,10 +75,7 @@ impl Elaborator<'_> {
 
     /// A function of the positions, or a vector of them.
     fn zeros(&mut self, written: &Expression) -> Result<Vec<Id>, Error> {
-        let parts = match self.value(written)? {
-            Value::Scalar(id) => vec![id],
-            value => self.components(value, written)?,
-        };
+        let parts = self.one_or_more(written)?;
         for &part in &parts {
             let depends = self.graph.depends(part);
             let what = match (depends.p, depends.v, depends.time) {
@@ -84,5 +92,13 @@ impl Elaborator<'_> {
             return self.error(written, kind);
         }
         Ok(parts)
+    }
+
+    /// A number, or the components of a vector.
+    pub(super) fn one_or_more(&mut self, written: &Expression) -> Result<Vec<Id>, Error> {
+        match self.value(written)? {
+            Value::Scalar(id) => Ok(vec![id]),
+            value => self.components(value, written),
+        }
     }
 }

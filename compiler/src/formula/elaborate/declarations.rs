@@ -43,7 +43,10 @@ pub(super) fn layout(
                 };
                 let (positions, names) = (text(q), text(momenta));
                 return Ok(match form {
-                    Form::Hamiltonian => (Layout::Named([positions, names]), Vec::new()),
+                    Form::Hamiltonian => {
+                        let velocities = velocities(input, definition)?;
+                        (Layout::Named([positions, names]), velocities)
+                    }
                     Form::Lagrangian => {
                         let momenta = momentum_names(definition, &positions, &names);
                         (Layout::Named([positions, momenta]), names)
@@ -57,6 +60,7 @@ pub(super) fn layout(
         }
         (CoordinatesKind::Numbered(length, components), CoordinatesKind::Numbered(n, k)) => {
             if (length, components) == (n, k) {
+                velocities(input, definition)?;
                 return Ok((Layout::Numbered(length.clone(), *components), Vec::new()));
             }
             (
@@ -75,6 +79,53 @@ pub(super) fn layout(
     };
     let expected = format!("one {single} for each position");
     Err(input.error(place, ErrorKind::Type { found, expected }))
+}
+
+/// The names of the velocities that a Hamiltonian system declares for its non-holonomic constraints.
+fn velocities(input: Input<'_>, definition: &Definition) -> Result<Vec<String>, Error> {
+    let (Some(velocities), [Some(q), Some(p)]) = (&definition.velocities, &definition.coordinates)
+    else {
+        return Ok(Vec::new());
+    };
+    let parameters = definition.parameters.iter();
+    if let Some(parameter) = parameters
+        .map(|known| &known.name)
+        .find(|name| name.text == "v")
+    {
+        let kind = FormulaError::Taken {
+            name: "v".to_owned(),
+            meaning: "the velocities".to_owned(),
+        };
+        return Err(input.error(&parameter.span, kind.into()));
+    }
+    let wrong = |found: String| {
+        let expected = "one velocity for each position".to_owned();
+        Err(input.error(&velocities.span, ErrorKind::Type { found, expected }))
+    };
+    match (&q.kind, &p.kind, &velocities.kind) {
+        (CoordinatesKind::Named(q), CoordinatesKind::Named(p), CoordinatesKind::Named(names)) => {
+            for (k, name) in names.iter().enumerate() {
+                let mut known = q.iter().chain(p).chain(&names[..k]);
+                if known.any(|known| known.text == name.text) {
+                    let kind = FormulaError::Taken {
+                        name: name.text.clone(),
+                        meaning: "a coordinate, momentum or velocity".to_owned(),
+                    };
+                    return Err(input.error(&name.span, kind.into()));
+                }
+            }
+            if q.len() != names.len() {
+                return wrong(format!(
+                    "{} velocities for {} positions",
+                    names.len(),
+                    q.len()
+                ));
+            }
+            Ok(names.iter().map(|name| name.text.clone()).collect())
+        }
+        (q, _, v) if q == v => Ok(Vec::new()),
+        _ => wrong("velocities of another shape than the positions".to_owned()),
+    }
 }
 
 /// What a name of a coordinate is, in a message.

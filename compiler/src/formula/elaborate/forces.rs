@@ -5,7 +5,7 @@ use crate::error::{Error, ErrorKind};
 use crate::formula::derivative::Scatter;
 use crate::formula::error::FormulaError;
 use crate::formula::graph::{Coordinate, Half, Id, Node};
-use crate::formula::syntax::{Force, Kind, Name, Over};
+use crate::formula::syntax::{Force, Form, Kind, Name, Over};
 
 impl Elaborator<'_> {
     /// The applied forces, each with its coordinate.
@@ -65,6 +65,11 @@ impl Elaborator<'_> {
             Value::Scalar(id) => vec![id],
             value => self.components(value, &written.value)?,
         };
+        if self.definition.form == Form::Hamiltonian {
+            for &part in &parts {
+                self.no_velocity(part, value)?;
+            }
+        }
         if parts.len() != coordinates.len() {
             let kind = ErrorKind::Type {
                 found: format!("a force with {} components", parts.len()),

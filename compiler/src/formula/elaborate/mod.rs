@@ -5,6 +5,7 @@ mod constraints;
 mod declarations;
 mod forces;
 mod indices;
+mod nonholonomic;
 mod totals;
 mod values;
 
@@ -129,7 +130,7 @@ impl Elaborator<'_> {
         for (half, name) in [(Half::Q, "q"), (Half::P, "p")] {
             self.names.insert(name.to_owned(), Value::Half(half));
         }
-        if definition.form == Form::Lagrangian {
+        if definition.form == Form::Lagrangian || definition.velocities.is_some() {
             self.names.insert("v".to_owned(), Value::Half(Half::V));
         }
         for (k, abbreviation) in definition.abbreviations.iter().enumerate() {
@@ -152,9 +153,13 @@ impl Elaborator<'_> {
             return Err(self.input.error(&definition.name.span, kind.into()));
         };
         let energy = self.scalar(written)?;
+        if definition.form == Form::Hamiltonian {
+            self.no_velocity(energy, written)?;
+        }
         self.momenta_hidden = false;
         let constraints = self.constraints()?;
         let applied = self.forces()?;
+        let nonholonomic = self.nonholonomic(&constraints)?;
         let friction = self.friction()?;
         let mut invariants: Vec<Invariant> = Vec::new();
         for (name, written) in &definition.invariants {
@@ -199,7 +204,6 @@ impl Elaborator<'_> {
             }
             Form::Lagrangian => Some(Lagrangian {
                 formula: energy,
-                velocities: self.velocities,
                 regularity: Regularity::AtRandomPoints,
             }),
         };
@@ -222,8 +226,10 @@ impl Elaborator<'_> {
             graph: self.graph,
             energy,
             lagrangian,
+            velocities: self.velocities,
             constraints,
             applied,
+            nonholonomic,
             friction,
             invariants,
             required: definition.required.clone(),

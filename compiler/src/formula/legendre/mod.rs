@@ -88,7 +88,10 @@ pub(super) fn transform(
     {
         *part = copier.copy(*part, graph);
     }
-    let constraints = system.constraints.iter_mut();
+    let constraints = system
+        .constraints
+        .iter_mut()
+        .chain(&mut system.nonholonomic);
     for part in constraints.flat_map(|known| &mut known.parts) {
         *part = copier.copy(*part, graph);
     }

@@ -3,13 +3,15 @@
 //! ```text
 //! system     = name [ "<" lengths ">" ] [ "{" parameters "}" ] { statement }
 //! parameter  = name [ ":" ( number | "[" shape "]" | "pairs" ) ]
-//! statement  = "q" ":" coordinates "," ( "p" | "v" ) ":" coordinates ";"    coordinates = "[" names | length [ ";" number ] "]"
+//! statement  = "q" ":" coordinates "," ( "p" | "v" ) ":" coordinates [ "," "v" ":" coordinates ] ";"
+//!              coordinates = "[" names | length [ ";" number ] "]"
 //!            | "bonds" ":" ( "walls" | "free" | "ring" ) ";"
 //!            | "extern" "fn" name "with" name "," name ";"
 //!            | "let" name [ "(" names ")" ] "=" expression ";"
 //!            | ( "H" | "L" ) "=" expression
 //!            | "constraints" ":" "{" name [ "(" over ")" ] "=" expression { "," … } "}"
 //!            | "force" ":" "{" ( name | "q" "[" expression "]" [ "(" over ")" ] ) "=" expression { "," … } "}"
+//!            | "nonholonomic" ":" "{" name [ "(" over ")" ] "=" expression { "," … } "}"
 //!            | "friction" ":" expression
 //!            | "invariants" ":" "{" name "=" expression { "," … } "}"
 //!            | "require" ":" "[" names "]"
@@ -55,7 +57,7 @@ const KEYWORDS: [&str; 12] = [
 ];
 
 /// Words with which a statement begins, if `:` follows, and which are names elsewhere.
-const STATEMENTS: [&str; 3] = ["constraints", "force", "friction"];
+const STATEMENTS: [&str; 5] = ["constraints", "force", "nonholonomic", "friction", "v"];
 
 /// Reads a definition.
 ///

@@ -8,7 +8,7 @@ use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::syntax::{
     Abbreviation, Constraint, Coordinates, CoordinatesKind, Definition, Ends, Expression, Force,
-    Form, Kind, Length, Name, Parameter, ParameterKind,
+    Form, Kind, Length, Name, Parameter, ParameterKind, Span,
 };
 
 impl Parser<'_> {
@@ -25,6 +25,8 @@ impl Parser<'_> {
             function: None,
             constraints: Vec::new(),
             forces: Vec::new(),
+            velocities: None,
+            nonholonomic: Vec::new(),
             friction: None,
             invariants: Vec::new(),
             required: Vec::new(),
@@ -59,6 +61,9 @@ impl Parser<'_> {
         }
         while *self.peek() != Token::End {
             self.statement(&mut definition)?;
+        }
+        if let (Some(velocities), []) = (&definition.velocities, &definition.nonholonomic[..]) {
+            return Err(self.other_form("v".to_owned(), &velocities.span));
         }
         Ok(definition)
     }
@@ -262,7 +267,15 @@ impl Parser<'_> {
                     return Err(self.unexpected("an operator or `;`"));
                 }
             }
-            "constraints" => self.constraints(definition)?,
+            "constraints" => {
+                const FORM: &str = "`constraints: { rod = |q[0]|^2 - 1, link(i in 1..N) = |q[i] - q[i-1]|^2 - 1 }`";
+                let read = self.constraints(FORM)?;
+                definition.constraints.extend(read);
+            }
+            "nonholonomic" => {
+                let read = self.constraints("`nonholonomic: { edge = vx sin(a) - vy cos(a) }`")?;
+                definition.nonholonomic.extend(read);
+            }
             "force" => self.forces(definition)?,
             "friction" => {
                 self.expect(':', "`:` and a rate: `friction: gamma;`")?;
@@ -302,17 +315,18 @@ impl Parser<'_> {
                 self.close(&open, ['[', ']'])?;
                 self.accept(';');
             }
+            "v" if self.form == Form::Hamiltonian && self.is(':') => {
+                self.next += 1;
+                if definition.velocities.is_some() {
+                    return twice(self, "`v`");
+                }
+                definition.velocities = Some(self.coordinates(definition)?);
+                if !self.accept(',') && !self.accept(';') {
+                    return Err(self.unexpected("`,` or `;`"));
+                }
+            }
             "H" | "L" | "p" | "v" if self.is('=') || self.is(':') => {
-                let kind = FormulaError::OtherForm {
-                    found: word,
-                    function: self.form.function(),
-                    coordinates: self.form.coordinates(),
-                    other: match self.form {
-                        Form::Hamiltonian => Form::Lagrangian.macro_name(),
-                        Form::Lagrangian => Form::Hamiltonian.macro_name(),
-                    },
-                };
-                return Err(self.input.error(&span, kind.into()));
+                return Err(self.other_form(word, &span));
             }
             _ => {
                 self.next -= 1;
@@ -322,12 +336,26 @@ impl Parser<'_> {
         Ok(())
     }
 
-    fn constraints(&mut self, definition: &mut Definition) -> Result<(), Error> {
-        const FORM: &str =
-            "`constraints: { rod = |q[0]|^2 - 1, link(i in 1..N) = |q[i] - q[i-1]|^2 - 1 }`";
-        self.expect(':', FORM)?;
+    /// An error about a part that belongs to a formula of the other form.
+    fn other_form(&self, found: String, span: &Span) -> Error {
+        let kind = FormulaError::OtherForm {
+            found,
+            function: self.form.function(),
+            coordinates: self.form.coordinates(),
+            other: match self.form {
+                Form::Hamiltonian => Form::Lagrangian.macro_name(),
+                Form::Lagrangian => Form::Hamiltonian.macro_name(),
+            },
+        };
+        self.input.error(span, kind.into())
+    }
+
+    /// What is zero, after the word; `form` says how it is written.
+    fn constraints(&mut self, form: &str) -> Result<Vec<Constraint>, Error> {
+        self.expect(':', form)?;
         let open = self.span();
-        self.expect('{', FORM)?;
+        self.expect('{', form)?;
+        let mut constraints = Vec::new();
         while !self.is('}') {
             let name = self.new_name("the name of a constraint, or `}`")?;
             let over = match self.accept('(') {
@@ -340,16 +368,14 @@ impl Parser<'_> {
             };
             self.expect('=', "`=` and what is zero")?;
             let value = self.expression()?;
-            definition
-                .constraints
-                .push(Constraint { name, over, value });
+            constraints.push(Constraint { name, over, value });
             if !self.accept(',') {
                 break;
             }
         }
         self.close(&open, ['{', '}'])?;
         self.accept(';');
-        Ok(())
+        Ok(constraints)
     }
 
     fn forces(&mut self, definition: &mut Definition) -> Result<(), Error> {
@@ -438,10 +464,10 @@ impl Parser<'_> {
 fn statement(form: Form) -> &'static str {
     match form {
         Form::Hamiltonian => {
-            "`q: […], p: […];`, `let …;`, `H = …`, `bonds: …;`, `extern fn …;`, `constraints: {…}`, `force: {…}`, `friction: …;`, `invariants: {…}` or `require: […]`"
+            "`q: […], p: […];`, `let …;`, `H = …`, `bonds: …;`, `extern fn …;`, `constraints: {…}`, `nonholonomic: {…}`, `force: {…}`, `friction: …;`, `invariants: {…}` or `require: […]`"
         }
         Form::Lagrangian => {
-            "`q: […], v: […];`, `let …;`, `L = …`, `bonds: …;`, `extern fn …;`, `constraints: {…}`, `force: {…}`, `friction: …;`, `invariants: {…}` or `require: […]`"
+            "`q: […], v: […];`, `let …;`, `L = …`, `bonds: …;`, `extern fn …;`, `constraints: {…}`, `nonholonomic: {…}`, `force: {…}`, `friction: …;`, `invariants: {…}` or `require: […]`"
         }
     }
 }

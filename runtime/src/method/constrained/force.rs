@@ -88,7 +88,7 @@ where
 }
 
 /// Adds the force of the constraints to `force`, where there are multipliers.
-pub(super) fn add_to_force<V: Vector, S: System<V>>(
+pub(in crate::method) fn add_to_force<V: Vector, S: System<V>>(
     system: &S,
     time: f64,
     at: (&V, &V),

@@ -4,6 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::array;
 
+use super::last_impulse::LastImpulse;
 use super::metric::{Metric, Point};
 use super::newton::StageJacobian;
 use super::resolution::Resolution;
@@ -39,12 +40,9 @@ pub(super) struct Workspace<V: Vector> {
     pub(super) defects: Vec<V::Scalar>,
     /// The multipliers at the end of the step before, from which those of a step start.
     pub(super) multipliers: Vec<V::Scalar>,
-    /// `G velocity` at the end.
-    pub(super) rates: Vec<V::Scalar>,
+    pub(super) last_impulse: LastImpulse<V::Scalar>,
     /// What the residuals of every constraint are compared with.
     pub(super) terms: Vec<Terms>,
-    /// `|G velocity|` before the impulses of the last stage, which remove it.
-    pub(super) drive: Vec<f64>,
     /// A velocity, a force, a momentum.
     pub(super) scratch: [V; 3],
 }
@@ -93,9 +91,8 @@ impl<V: Vector> Workspace<V> {
             jacobians,
             defects: numbers(stages.saturating_sub(1) * constraints),
             multipliers: numbers(constraints),
-            rates: numbers(constraints),
+            last_impulse: LastImpulse::new(constraints),
             terms: vec![Terms::default(); constraints],
-            drive: vec![0.0; constraints],
             scratch: array::from_fn(|_| q.zeros_like()),
         }
     }

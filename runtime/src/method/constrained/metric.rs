@@ -14,7 +14,7 @@ use crate::system::{Class, Gradients, System};
 
 /// How the velocity depends on the momentum.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum InverseMasses<T> {
+pub(in crate::method) enum InverseMasses<T> {
     /// The velocity is the momentum.
     Unit,
     /// Each component of the velocity is the component of the momentum times a constant.
@@ -25,7 +25,7 @@ pub(super) enum InverseMasses<T> {
 
 /// What `G M⁻¹ Gᵀ` is computed with at every state.
 #[derive(Clone, Debug)]
-pub(super) struct Metric<T> {
+pub(in crate::method) struct Metric<T> {
     masses: InverseMasses<T>,
     products: Products,
     /// Whether the velocity is linear in the momentum.
@@ -34,17 +34,17 @@ pub(super) struct Metric<T> {
 
 /// What is known at a state on the constraints: at the start of a step, and at its end.
 #[derive(Clone, Debug)]
-pub(super) struct Point<V: Vector> {
+pub(in crate::method) struct Point<V: Vector> {
     /// The force without that of the constraints; of separable systems.
-    pub(super) force: V,
-    pub(super) gradients: Gradients<V::Scalar>,
+    pub(in crate::method) force: V,
+    pub(in crate::method) gradients: Gradients<V::Scalar>,
     /// `G M⁻¹ Gᵀ`, factored.
-    pub(super) normal: NormalMatrix<V::Scalar>,
+    pub(in crate::method) normal: NormalMatrix<V::Scalar>,
 }
 
 impl<T: Scalar> Metric<T> {
     /// That of a system as it is at a state, and room for a point.
-    pub(super) fn new<V: Vector<Scalar = T>, S: System<V>>(
+    pub(in crate::method) fn new<V: Vector<Scalar = T>, S: System<V>>(
         system: &S,
         time: f64,
         q: &V,
@@ -71,7 +71,7 @@ impl<T: Scalar> Metric<T> {
     }
 
     /// Evaluates the gradients at `q`, and factors `G M⁻¹ Gᵀ` there.
-    pub(super) fn look<V: Vector<Scalar = T>, S: System<V>>(
+    pub(in crate::method) fn look<V: Vector<Scalar = T>, S: System<V>>(
         &self,
         system: &S,
         time: f64,
@@ -161,17 +161,17 @@ impl<T: Scalar> Metric<T> {
     }
 
     /// Whether `M⁻¹` is known by evaluations of the velocity only.
-    pub(super) fn is_full(&self) -> bool {
+    pub(in crate::method) fn is_full(&self) -> bool {
         self.masses == InverseMasses::Full
     }
 
     /// How far apart the numbers of constraints with a component in common may be.
-    pub(super) const fn half_bandwidth(&self) -> usize {
+    pub(in crate::method) const fn half_bandwidth(&self) -> usize {
         self.products.half_bandwidth()
     }
 
     /// `left M⁻¹ rightᵀ` as a band by rows, `M⁻¹` at a place.
-    pub(super) fn cross<V: Vector<Scalar = T>, S: System<V>>(
+    pub(in crate::method) fn cross<V: Vector<Scalar = T>, S: System<V>>(
         &self,
         system: &S,
         (time, q, p): (T, &V, &V),
@@ -213,7 +213,7 @@ impl<T: Scalar> Metric<T> {
     }
 
     /// `vector = M⁻¹ vector` for a vector `Gᵀ factors`, at a state.
-    pub(super) fn apply<V: Vector<Scalar = T>, S: System<V>>(
+    pub(in crate::method) fn apply<V: Vector<Scalar = T>, S: System<V>>(
         &self,
         system: &S,
         time: f64,

@@ -8,6 +8,7 @@
 //! With two stages of Lobatto IIIA–IIIB this is RATTLE.
 
 mod force;
+mod last_impulse;
 mod memory;
 mod metric;
 mod newton;
@@ -16,17 +17,25 @@ mod resolution;
 mod start;
 mod step;
 
+pub(super) use force::add_to_force;
 pub use force::{ConstraintForce, constraint_force};
+pub(super) use last_impulse::LastImpulse;
 pub use memory::ConstrainedStages;
+pub(super) use metric::{Metric, Point};
 pub(crate) use start::check_start;
 pub use start::consistent;
+pub(super) use start::{CONSISTENT, Examined, check_numbers};
+pub(super) use step::{
+    NOISE, PATIENCE, ROUNDING, maximum, result, same_momentum, show_stages, stage,
+};
 
 use core::marker::PhantomData;
 
 use crate::error::Error;
 use crate::method::{
-    EvaluationObserver, Failure, Inside, Interpolation, Method, Outcome, Plan, Solver,
-    StageStorage, StageView, Step, StepStatistics, Stopping, WarmStart, check_no_friction,
+    ConstrainedStep, ConstrainedTableau, EvaluationObserver, Failure, Inside, Interpolation,
+    Method, Outcome, Plan, Solver, StageStorage, StageView, Step, StepStatistics, Stopping,
+    WarmStart, check_no_friction, check_no_rows,
 };
 use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, Constrained, System, Unconstrained};
@@ -55,6 +64,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         S: System<V, Class = Self::Class>,
     {
         check_no_friction(system, q)?;
+        check_no_rows(system)?;
         check_start(system, time, q, p)
     }
 
@@ -72,7 +82,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
     {
-        memory.take::<M, R, S>(step, system, kept.evaluation, stopping, outcome, |_| {})
+        memory.take::<M, R, S>(step, system, kept, stopping, outcome, |_| {})
     }
 
     fn show_stages<R, V, S>(
@@ -94,7 +104,8 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
             p: &mut p,
             p_low: &mut p_low,
         };
-        let taken = memory.take::<M, R, S>(step, system, false, stopping, outcome, show);
+        let taken =
+            memory.take::<M, R, S>(step, system, WarmStart::default(), stopping, outcome, show);
         Some(taken.map(|_| ()))
     }
 
@@ -120,7 +131,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         S: System<V, Class = Self::Class>,
     {
         system.force(V::Scalar::from_f64(time), q, p, rate);
-        force::add_to_force(system, time, (q, p), rate);
+        add_to_force(system, time, (q, p), rate);
     }
 
     const INTERPOLATION: Interpolation = Interpolation::Hermite;
@@ -135,14 +146,14 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
 }
 
 impl<V: Vector> ConstrainedStages<V> {
-    /// Takes a step of the method `M`, of one tableau or of several; `carried` says that the step before ended where this one starts.
+    /// Takes a step of the method `M`, of one tableau or of several, and shows their stages.
     fn take<M: Method, R: Summation, S: System<V>>(
         &mut self,
         step: &Step<'_, V>,
         system: &S,
-        carried: bool,
+        kept: WarmStart,
         stopping: Stopping,
-        mut outcome: Outcome<'_, V>,
+        outcome: Outcome<'_, V>,
         mut show: impl FnMut(StageView<'_, V>),
     ) -> Result<StepStatistics, Failure> {
         let ConstrainedStages {
@@ -151,37 +162,54 @@ impl<V: Vector> ConstrainedStages<V> {
         } = self;
         let workspace = workspace
             .get_or_insert_with(|| Workspace::new::<M, S>(system, step.time, step.q, step.p));
-        let mut between = Outcome { q, q_low, p, p_low };
-        let mut outcome = outcome.reborrow();
-        let mut work = StepStatistics::default();
-        let count = M::CONSTRAINED.len();
-        for (number, substep) in M::CONSTRAINED.iter().enumerate() {
-            // Results go to one of two places in turn, the last one to where it belongs.
-            let (here, there) = if (count - number) % 2 == 1 {
-                (&mut outcome, &between)
-            } else {
-                (&mut between, &outcome)
-            };
-            let (q, q_low, p, p_low) = if number == 0 {
-                (step.q, step.q_low, step.p, step.p_low)
-            } else {
-                (&*there.q, &*there.q_low, &*there.p, &*there.p_low)
-            };
-            let part = Step {
-                time: step.time + substep.start.double() * step.size,
-                size: substep.fraction.double() * step.size,
-                q,
-                q_low,
-                p,
-                p_low,
-                linear_velocity: step.linear_velocity,
-            };
-            let carried = number > 0 || carried;
-            let taken =
-                workspace.take::<R, S>(substep.tableau, &part, system, carried, stopping, here);
-            work += taken?;
-            workspace.show::<S>(substep.tableau, &part, &mut show);
-        }
-        Ok(work)
+        let between = Outcome { q, q_low, p, p_low };
+        let take = |tableau, part: &Step<'_, V>, carried, here: &mut Outcome<'_, V>| {
+            let taken = workspace.take::<R, S>(tableau, part, system, carried, stopping, here);
+            show_stages::<V, S>(tableau, part, (&workspace.q, &workspace.p), &mut show);
+            taken
+        };
+        in_turn(M::CONSTRAINED, step, kept, between, outcome, take)
     }
+}
+
+/// Takes the steps of a composition one after another. `take` takes one; it is told whether the one before ended where it starts.
+pub(super) fn in_turn<'a, V: Vector>(
+    steps: &[ConstrainedStep],
+    step: &Step<'_, V>,
+    kept: WarmStart,
+    mut between: Outcome<'a, V>,
+    mut outcome: Outcome<'a, V>,
+    mut take: impl FnMut(
+        &'static ConstrainedTableau,
+        &Step<'_, V>,
+        bool,
+        &mut Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>,
+) -> Result<StepStatistics, Failure> {
+    let mut work = StepStatistics::default();
+    for (number, substep) in steps.iter().enumerate() {
+        // Results go to one of two places in turn, the last one to where it belongs.
+        let (here, there) = if (steps.len() - number) % 2 == 1 {
+            (&mut outcome, &between)
+        } else {
+            (&mut between, &outcome)
+        };
+        let (q, q_low, p, p_low) = if number == 0 {
+            (step.q, step.q_low, step.p, step.p_low)
+        } else {
+            (&*there.q, &*there.q_low, &*there.p, &*there.p_low)
+        };
+        let part = Step {
+            time: step.time + substep.start.double() * step.size,
+            size: substep.fraction.double() * step.size,
+            q,
+            q_low,
+            p,
+            p_low,
+            linear_velocity: step.linear_velocity,
+        };
+        let carried = number > 0 || kept.evaluation;
+        work += take(substep.tableau, &part, carried, here)?;
+    }
+    Ok(work)
 }

@@ -11,7 +11,7 @@ use crate::system::Gradients;
 
 /// Which products of entries of G an entry of S consists of.
 #[derive(Clone, Debug)]
-pub(super) struct Products {
+pub(in crate::method) struct Products {
     /// Two entries of G in the same column, the place of their product in the band, and the column.
     pairs: Vec<(u32, u32, u32, u32)>,
     half_bandwidth: usize,
@@ -19,7 +19,10 @@ pub(super) struct Products {
 
 impl Products {
     /// The products for gradients with these places; with [`InverseMasses::Full`] none, and a full matrix.
-    pub(super) fn new<T: Scalar>(gradients: &Gradients<T>, masses: &InverseMasses<T>) -> Self {
+    pub(in crate::method) fn new<T: Scalar>(
+        gradients: &Gradients<T>,
+        masses: &InverseMasses<T>,
+    ) -> Self {
         if *masses == InverseMasses::Full {
             return Self {
                 pairs: Vec::new(),
@@ -57,12 +60,14 @@ impl Products {
 }
 
 impl Products {
-    pub(super) const fn half_bandwidth(&self) -> usize {
+    pub(in crate::method) const fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
 
     /// Two entries of G in the same column, their constraints, the second not above the first, and the column.
-    pub(super) fn pairs(&self) -> impl Iterator<Item = (usize, usize, usize, usize, usize)> {
+    pub(in crate::method) fn pairs(
+        &self,
+    ) -> impl Iterator<Item = (usize, usize, usize, usize, usize)> {
         let half = self.half_bandwidth;
         self.pairs.iter().map(move |&(a, b, place, component)| {
             let row = place as usize / (half + 1);
@@ -74,14 +79,14 @@ impl Products {
 
 /// A symmetric band: row k holds the entries from column `k − half_bandwidth` to k; its factors `L D Lᵀ` in the same places.
 #[derive(Clone, Debug)]
-pub(super) struct NormalMatrix<T> {
+pub(in crate::method) struct NormalMatrix<T> {
     size: usize,
     half_bandwidth: usize,
     rows: Vec<T>,
 }
 
 impl<T: Scalar> NormalMatrix<T> {
-    pub(super) fn new(size: usize, products: &Products) -> Self {
+    pub(in crate::method) fn new(size: usize, products: &Products) -> Self {
         let half_bandwidth = products.half_bandwidth;
         Self {
             size,
@@ -96,7 +101,7 @@ impl<T: Scalar> NormalMatrix<T> {
     }
 
     /// `G M⁻¹ Gᵀ` with diagonal masses.
-    pub(super) fn assemble(
+    pub(in crate::method) fn assemble(
         &mut self,
         products: &Products,
         masses: &InverseMasses<T>,
@@ -120,7 +125,12 @@ impl<T: Scalar> NormalMatrix<T> {
     }
 
     /// Row `row` of `G M⁻¹ Gᵀ` from `direction`, `M⁻¹` times the gradient of that constraint; of a full matrix.
-    pub(super) fn set_row(&mut self, row: usize, gradients: &Gradients<T>, direction: &[T]) {
+    pub(in crate::method) fn set_row(
+        &mut self,
+        row: usize,
+        gradients: &Gradients<T>,
+        direction: &[T],
+    ) {
         for column in 0..=row {
             let place = self.place(row, column);
             self.rows[place] = T::zero();
@@ -136,7 +146,7 @@ impl<T: Scalar> NormalMatrix<T> {
     /// # Errors
     /// [`Failure::DependentConstraints`], where a pivot is lost in rounding errors: the gradient of the constraint depends on those
     /// of the constraints before it, or vanishes; [`Failure::NonFinite`].
-    pub(super) fn factor(&mut self) -> Result<(), Failure> {
+    pub(in crate::method) fn factor(&mut self) -> Result<(), Failure> {
         let (size, half) = (self.size, self.half_bandwidth);
         for k in 0..size {
             let diagonal = self.rows[self.place(k, k)].magnitude();
@@ -174,7 +184,7 @@ impl<T: Scalar> NormalMatrix<T> {
     }
 
     /// Solves for a right-hand side, in its place.
-    pub(super) fn solve(&self, unknown: &mut [T]) {
+    pub(in crate::method) fn solve(&self, unknown: &mut [T]) {
         for k in 0..self.size {
             let (before, rest) = unknown.split_at_mut(k);
             let (row, first) = self.row(k);
@@ -204,7 +214,7 @@ impl<T: Scalar> NormalMatrix<T> {
     }
 
     /// The words of the factors.
-    pub(super) fn words(&mut self, visit: &mut Visit<'_>) {
+    pub(in crate::method) fn words(&mut self, visit: &mut Visit<'_>) {
         scalar_words(&mut self.rows, visit);
     }
 }

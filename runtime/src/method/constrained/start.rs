@@ -14,14 +14,14 @@ use crate::state::State;
 use crate::system::{Class, Constrained, System, Terms, Unconstrained};
 
 /// How far a start may be from the constraints, relative to the terms of which they consist.
-const CONSISTENT: f64 = 1e-10;
+pub(in crate::method) const CONSISTENT: f64 = 1e-10;
 /// How far a gradient may be from the quotient of differences.
 const GRADIENT: f64 = 1e-4;
 /// Most iterations on the way to a consistent state.
 const ITERATIONS: usize = 100;
 
 /// The constraints of a system at a state.
-struct Examined<V: Vector> {
+pub(in crate::method) struct Examined<V: Vector> {
     metric: Metric<V::Scalar>,
     point: Point<V>,
     scratch: [V; 3],
@@ -37,7 +37,12 @@ struct Examined<V: Vector> {
 }
 
 impl<V: Vector> Examined<V> {
-    fn new<S: System<V>>(system: &S, time: f64, q: &V, p: &V) -> Result<Self, Error> {
+    pub(in crate::method) fn new<S: System<V>>(
+        system: &S,
+        time: f64,
+        q: &V,
+        p: &V,
+    ) -> Result<Self, Error> {
         let (constraints, dimension) = (system.constraints(), q.dimension());
         if constraints == 0 || constraints > dimension {
             return Err(Error::ConstraintCount {
@@ -131,8 +136,38 @@ impl<V: Vector> Examined<V> {
         Self::largest(&self.values, &self.terms, |c| self.resolution.values[c])
     }
 
-    fn momentum(&self) -> (usize, f64) {
+    /// The constraint of which `G velocity` is farthest from zero, and how far, relative to its scale.
+    pub(in crate::method) fn momentum(&self) -> (usize, f64) {
         Self::largest(&self.rates, &self.rate_terms, |c| self.rate_scales[c])
+    }
+
+    /// `|G velocity|` of a constraint.
+    pub(in crate::method) fn rate(&self, constraint: usize) -> f64 {
+        self.rates[constraint].magnitude()
+    }
+
+    /// Moves the momentum by `−Gᵀν`, until `G velocity = 0` or nothing changes.
+    pub(in crate::method) fn project_momentum<S: System<V>>(
+        &mut self,
+        system: &S,
+        time: f64,
+        q: &V,
+        p: &mut V,
+    ) -> Result<(), Error> {
+        let mut best = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            let (_, residual) = self.momentum();
+            if residual == 0.0 || residual >= 0.5 * best && best <= CONSISTENT * 1e-4 {
+                break;
+            }
+            best = best.min(residual);
+            let mut multipliers = self.rates.clone();
+            self.point.normal.solve(&mut multipliers);
+            let gradients = &self.point.gradients;
+            gradients.subtract_transposed(&multipliers, p.as_mut_slice());
+            self.look(system, time, q, p)?;
+        }
+        Ok(())
     }
 }
 
@@ -147,6 +182,22 @@ pub(super) const fn error(failure: Failure, time: f64) -> Error {
         Failure::NonFinite { what, .. } => Error::NonFiniteState { what },
         _ => Error::MovingGradients { time },
     }
+}
+
+/// Checks that position and momentum have one dimension and are finite.
+pub(in crate::method) fn check_numbers<V: Vector>(q: &V, p: &V) -> Result<(), Error> {
+    if q.dimension() != p.dimension() {
+        return Err(Error::Dimension {
+            position: q.dimension(),
+            momentum: p.dimension(),
+        });
+    }
+    for (vector, what) in [(q, Quantity::Position), (p, Quantity::Momentum)] {
+        if !is_finite(vector) {
+            return Err(Error::NonFiniteState { what });
+        }
+    }
+    Ok(())
 }
 
 /// Checks that a state is on the constraints, `φ(q) = 0` and `G ∂H/∂p = 0`, and that these are independent with the gradients that
@@ -274,17 +325,7 @@ where
     C: Class + Unconstrained,
 {
     let State { time, mut q, mut p } = state;
-    if q.dimension() != p.dimension() {
-        return Err(Error::Dimension {
-            position: q.dimension(),
-            momentum: p.dimension(),
-        });
-    }
-    for (vector, what) in [(&q, Quantity::Position), (&p, Quantity::Momentum)] {
-        if !is_finite(vector) {
-            return Err(Error::NonFiniteState { what });
-        }
-    }
+    check_numbers(&q, &p)?;
     let mut examined = Examined::new(system, time, &q, &p)?;
     let mut best = f64::INFINITY;
     for _ in 0..ITERATIONS {
@@ -303,19 +344,7 @@ where
         pairs.for_each(|(q, &change)| *q += change);
         examined.look(system, time, &q, &p)?;
     }
-    let mut best = f64::INFINITY;
-    for _ in 0..ITERATIONS {
-        let (_, residual) = examined.momentum();
-        if residual == 0.0 || residual >= 0.5 * best && best <= CONSISTENT * 1e-4 {
-            break;
-        }
-        best = best.min(residual);
-        let mut multipliers = examined.rates.clone();
-        examined.point.normal.solve(&mut multipliers);
-        let gradients = &examined.point.gradients;
-        gradients.subtract_transposed(&multipliers, p.as_mut_slice());
-        examined.look(system, time, &q, &p)?;
-    }
+    examined.project_momentum(system, time, &q, &mut p)?;
     let found = is_finite(&q) && is_finite(&p);
     if found && examined.position().1 <= CONSISTENT && examined.momentum().1 <= CONSISTENT {
         return Ok(State { time, q, p });

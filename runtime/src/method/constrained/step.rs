@@ -11,13 +11,13 @@ use crate::number::{Coefficient, Scalar, Summation, Vector, copy};
 use crate::system::{Class, Gradients, System};
 
 /// A residual of this many units of rounding counts as zero.
-const ROUNDING: f64 = 2.0;
+pub(in crate::method) const ROUNDING: f64 = 2.0;
 /// A residual that no longer shrinks may be as large as this, in units of rounding.
-const NOISE: f64 = 256.0;
+pub(in crate::method) const NOISE: f64 = 256.0;
 /// A sweep that leaves more of the residual than this contracts badly.
 const SLOW: f64 = 0.125;
 /// Sweeps without a smaller residual after which the iteration has ended.
-const PATIENCE: u32 = 4;
+pub(in crate::method) const PATIENCE: u32 = 4;
 
 impl<V: Vector> Workspace<V> {
     /// Takes a step; `carried` says that the step before ended where this one starts.
@@ -97,29 +97,6 @@ impl<V: Vector> Workspace<V> {
             |k| q[k].magnitude() + size * velocity[k].magnitude(),
             &mut self.terms,
         );
-    }
-
-    /// Shows the stages of the step that was taken.
-    #[inline]
-    pub(super) fn show<S: System<V>>(
-        &self,
-        tableau: &ConstrainedTableau,
-        step: &Step<'_, V>,
-        show: &mut impl FnMut(StageView<'_, V>),
-    ) {
-        let mut last = 0;
-        for i in 0..tableau.weights.len() {
-            if !same_momentum::<V, S>(tableau, i) {
-                last = i;
-            }
-            show(StageView {
-                weight: step.size * tableau.weights[i].double(),
-                time: step.at(tableau.nodes[i]),
-                momentum_time: step.at(tableau.momentum_nodes[i]),
-                q: &self.q[i],
-                p: &self.p[last],
-            });
-        }
     }
 
     /// Sweeps until the stages are on the constraints and no longer move. The position after the step is in `outcome`.
@@ -359,72 +336,27 @@ impl<V: Vector> Workspace<V> {
             ..
         } = self;
         metric.look(system, end, (outcome.q, &p[last]), point, scratch)?;
-        self.multipliers.fill(V::Scalar::from_f64(0.0));
-        let (mut best, mut since, mut settled) = (f64::INFINITY, 0, false);
-        for sweep in 1..=stopping.max_iterations {
-            let (p, start) = ((&mut *outcome.p, &mut *outcome.p_low), (step.p, step.p_low));
-            result::<R, V>(p, start, &self.kick[..=last]);
-            let velocity = &mut self.scratch[0];
-            system.velocity(V::Scalar::from_f64(end), outcome.q, outcome.p, velocity);
-            work.evaluations += 1;
-            let residual = self.rates(sweep == 1);
-            if residual.is_nan() {
-                return Err(self.not_finite());
-            }
-            if residual <= ROUNDING {
-                settled = true;
-                break;
-            }
-            if residual < 0.5 * best {
-                (best, since) = (residual, 0);
-            } else {
-                since += 1;
-                if best <= NOISE {
-                    settled = true;
-                    break;
-                }
-                if since > PATIENCE {
-                    return Err(Failure::NoConvergence {
-                        residual: residual * V::Scalar::EPSILON,
-                        iterations: sweep,
-                    });
-                }
-            }
-            // The impulse −Gᵀy of the last stage, in place of its multiplier.
-            self.end.normal.solve(&mut self.rates);
-            for (k, &change) in self.rates.iter().enumerate() {
-                self.multipliers[k] += change;
-            }
-            (self.end.gradients).subtract_transposed(&self.rates, self.kick[last].as_mut_slice());
+        let found = self.last_impulse.find::<R, V, S>(
+            step,
+            system,
+            &self.end,
+            &mut self.kick[..=last],
+            &mut self.scratch[0],
+            stopping,
+            outcome,
+            work,
+        );
+        match found {
+            Err(Failure::NonFinite { .. }) => return Err(self.not_finite()),
+            found => found?,
         }
-        if !settled {
-            return Err(Failure::NoConvergence {
-                residual: best * V::Scalar::EPSILON,
-                iterations: stopping.max_iterations,
-            });
-        }
+        // The impulse −Gᵀy of the last stage, in place of its multiplier.
         let inverse = weight.recip();
-        for multiplier in &mut self.multipliers {
-            *multiplier *= inverse;
+        let impulses = &self.last_impulse.multipliers;
+        for (multiplier, &impulse) in self.multipliers.iter_mut().zip(impulses) {
+            *multiplier = impulse * inverse;
         }
         Ok(())
-    }
-
-    /// `G velocity` at the end of the step; returns the largest one, in units of its rounding errors.
-    fn rates(&mut self, first: bool) -> f64 {
-        let velocity = self.scratch[0].as_slice();
-        let gradients = &self.end.gradients;
-        gradients.multiply(velocity, &mut self.rates);
-        gradients.sizes(|k| velocity[k].magnitude(), &mut self.terms);
-        let mut residual = 0.0;
-        for (c, rate) in self.rates.iter().enumerate() {
-            let rate = rate.magnitude();
-            if first {
-                self.drive[c] = rate;
-            }
-            residual = maximum(residual, self.terms[c].relative(rate, self.drive[c]));
-        }
-        residual / V::Scalar::EPSILON
     }
 
     /// What is not finite in the stages.
@@ -454,8 +386,34 @@ impl<V: Vector> Workspace<V> {
     }
 }
 
+/// Shows the stages of a step that was taken.
+#[inline]
+pub(in crate::method) fn show_stages<V: Vector, S: System<V>>(
+    tableau: &ConstrainedTableau,
+    step: &Step<'_, V>,
+    (q, p): (&[V], &[V]),
+    show: &mut impl FnMut(StageView<'_, V>),
+) {
+    let mut last = 0;
+    for i in 0..tableau.weights.len() {
+        if !same_momentum::<V, S>(tableau, i) {
+            last = i;
+        }
+        show(StageView {
+            weight: step.size * tableau.weights[i].double(),
+            time: step.at(tableau.nodes[i]),
+            momentum_time: step.at(tableau.momentum_nodes[i]),
+            q: &q[i],
+            p: &p[last],
+        });
+    }
+}
+
 /// Whether momentum and velocity of a stage are those of the stage before: of a separable system, where the rows are the same.
-fn same_momentum<V: Vector, S: System<V>>(tableau: &ConstrainedTableau, i: usize) -> bool {
+pub(in crate::method) fn same_momentum<V: Vector, S: System<V>>(
+    tableau: &ConstrainedTableau,
+    i: usize,
+) -> bool {
     i > 0
         && S::Class::SEPARABLE
         && tableau.momenta[i] == tableau.momenta[i - 1]
@@ -463,7 +421,7 @@ fn same_momentum<V: Vector, S: System<V>>(tableau: &ConstrainedTableau, i: usize
 }
 
 /// Position or momentum after a step, `base + low + Σ_j increment_j`, with what it leaves out.
-fn result<R: Summation, V: Vector>(
+pub(in crate::method) fn result<R: Summation, V: Vector>(
     (out, out_low): (&mut V, &mut V),
     (base, low): (&V, &V),
     increments: &[V],
@@ -481,7 +439,12 @@ fn result<R: Summation, V: Vector>(
 }
 
 /// `out = base + (low + Σ_j factor_j increment_j)`
-fn stage<V: Vector>(out: &mut V, (base, low): (&V, &V), factors: &[Coefficient], increments: &[V]) {
+pub(in crate::method) fn stage<V: Vector>(
+    out: &mut V,
+    (base, low): (&V, &V),
+    factors: &[Coefficient],
+    increments: &[V],
+) {
     copy(out, low);
     for (&factor, increment) in factors.iter().zip(increments) {
         if factor.double() == 0.0 {
@@ -500,6 +463,6 @@ fn stage<V: Vector>(out: &mut V, (base, low): (&V, &V), factors: &[Coefficient],
 
 /// The larger number, or NaN if one of them is.
 #[inline(always)]
-const fn maximum(a: f64, b: f64) -> f64 {
+pub(in crate::method) const fn maximum(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }
 }

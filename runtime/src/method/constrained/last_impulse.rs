@@ -1,0 +1,131 @@
+//! The last impulse of a step, which takes the velocity to the constraints.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::metric::Point;
+use super::step::{NOISE, PATIENCE, ROUNDING, maximum, result};
+use crate::error::Quantity;
+use crate::method::{Failure, Outcome, Step, StepStatistics, Stopping};
+use crate::number::{Scalar, Summation, Vector};
+use crate::system::{System, Terms};
+
+/// The impulse `−Gᵀy` at the end of a step with `G velocity(q1, p1) = 0`.
+#[derive(Clone, Debug)]
+pub(in crate::method) struct LastImpulse<T> {
+    /// The multipliers y.
+    pub(in crate::method) multipliers: Vec<T>,
+    /// `G velocity` at the end.
+    rates: Vec<T>,
+    /// What each is compared with.
+    terms: Vec<Terms>,
+    /// `|G velocity|` before the impulse, which removes it.
+    drive: Vec<f64>,
+}
+
+impl<T: Scalar> LastImpulse<T> {
+    pub(in crate::method) fn new(constraints: usize) -> Self {
+        Self {
+            multipliers: vec![T::zero(); constraints],
+            rates: vec![T::zero(); constraints],
+            terms: vec![Terms::default(); constraints],
+            drive: vec![0.0; constraints],
+        }
+    }
+
+    /// Adds the impulse to the last of the `increments` of the momentum, and writes that after the step into `outcome`, where the
+    /// position is. `end` is the place there.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::NonFinite`], where a velocity is not finite; [`Failure::NoConvergence`].
+    #[allow(clippy::too_many_arguments)]
+    pub(in crate::method) fn find<R, V, S>(
+        &mut self,
+        step: &Step<'_, V>,
+        system: &S,
+        end: &Point<V>,
+        increments: &mut [V],
+        velocity: &mut V,
+        stopping: Stopping,
+        outcome: &mut Outcome<'_, V>,
+        work: &mut StepStatistics,
+    ) -> Result<(), Failure>
+    where
+        R: Summation,
+        V: Vector<Scalar = T>,
+        S: System<V>,
+    {
+        let time = T::from_f64(step.time + step.size);
+        self.multipliers.fill(T::zero());
+        let (mut best, mut since) = (f64::INFINITY, 0);
+        for sweep in 1..=stopping.max_iterations {
+            let (p, start) = ((&mut *outcome.p, &mut *outcome.p_low), (step.p, step.p_low));
+            result::<R, V>(p, start, increments);
+            system.velocity(time, outcome.q, outcome.p, velocity);
+            work.evaluations += 1;
+            let residual = self.residual(end, velocity, sweep == 1);
+            if residual.is_nan() {
+                return Err(Failure::NonFinite {
+                    what: Quantity::Velocity,
+                    stage: None,
+                });
+            }
+            if residual <= ROUNDING {
+                return Ok(());
+            }
+            end.normal.solve(&mut self.rates);
+            if residual < 0.5 * best {
+                (best, since) = (residual, 0);
+            } else {
+                since += 1;
+                // Where velocities are small differences of large momenta, rounding errors of these are all that is left.
+                let p = outcome.p.as_slice();
+                let size = |k: usize| p[k].magnitude();
+                let gradients = &end.gradients;
+                let change = gradients.relative_change(&self.rates, size, &mut self.terms);
+                if best <= NOISE || change / T::EPSILON <= NOISE {
+                    return Ok(());
+                }
+                if since > PATIENCE {
+                    return Err(Failure::NoConvergence {
+                        residual: residual * T::EPSILON,
+                        iterations: sweep,
+                    });
+                }
+            }
+            for (multiplier, &change) in self.multipliers.iter_mut().zip(&self.rates) {
+                *multiplier += change;
+            }
+            if let Some(last) = increments.last_mut() {
+                end.gradients
+                    .subtract_transposed(&self.rates, last.as_mut_slice());
+            }
+        }
+        Err(Failure::NoConvergence {
+            residual: best * T::EPSILON,
+            iterations: stopping.max_iterations,
+        })
+    }
+
+    /// The largest `G velocity` at the end of the step, in units of its rounding errors.
+    fn residual<V: Vector<Scalar = T>>(
+        &mut self,
+        end: &Point<V>,
+        velocity: &V,
+        first: bool,
+    ) -> f64 {
+        let velocity = velocity.as_slice();
+        end.gradients.multiply(velocity, &mut self.rates);
+        (end.gradients).sizes(|k| velocity[k].magnitude(), &mut self.terms);
+        let mut residual = 0.0;
+        for (c, rate) in self.rates.iter().enumerate() {
+            let rate = rate.magnitude();
+            if first {
+                self.drive[c] = rate;
+            }
+            residual = maximum(residual, self.terms[c].relative(rate, self.drive[c]));
+        }
+        residual / T::EPSILON
+    }
+}

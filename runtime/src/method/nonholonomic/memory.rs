@@ -1,0 +1,120 @@
+//! The memory of a step with non-holonomic constraints.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::array;
+
+use crate::error::Quantity;
+use crate::method::constrained::{LastImpulse, Metric, Point};
+use crate::method::storage::{first_mismatch, first_non_finite};
+use crate::method::{Method, StageStorage};
+use crate::number::{Scalar, Vector, Visit};
+use crate::system::{Gradients, System, Terms};
+
+/// What depends on the numbers of constraints and stages.
+#[derive(Clone, Debug)]
+pub(super) struct Workspace<V: Vector> {
+    pub(super) metric: Metric<V::Scalar>,
+    /// At the start of the step, once it has begun.
+    pub(super) start: Point<V>,
+    /// At its end; at the start of the next one.
+    pub(super) end: Point<V>,
+    /// Stage positions Q_i and momenta P_i.
+    pub(super) q: Vec<V>,
+    pub(super) p: Vec<V>,
+    /// Whether the last sweep moved a position.
+    pub(super) moved: Vec<bool>,
+    /// The increments `h b_i velocity_i` of the position.
+    pub(super) drift: Vec<V>,
+    /// The increments of the momentum: `h b_i force_i`, then `−w(q0)ᵀλ` and `−w(q1)ᵀμ`.
+    pub(super) kick: Vec<V>,
+    /// λ
+    pub(super) multipliers: Vec<V::Scalar>,
+    pub(super) last_impulse: LastImpulse<V::Scalar>,
+    /// w(Q_i) of one stage.
+    pub(super) rows: Gradients<V::Scalar>,
+    /// `w(Q_i)·(q1 − q0)` of one stage, and the mean of all.
+    pub(super) part: Vec<V::Scalar>,
+    pub(super) defects: Vec<V::Scalar>,
+    /// What the defects are compared with.
+    pub(super) terms: Vec<Terms>,
+    /// `q1 − q0`
+    pub(super) displacement: V,
+    /// How far every component has moved in a step at most, in all sweeps.
+    pub(super) reach: V,
+    /// A velocity, a force, a momentum or position.
+    pub(super) scratch: [V; 3],
+}
+
+/// The memory of a step with non-holonomic constraints.
+#[derive(Clone, Debug)]
+pub struct NonholonomicStages<V: Vector> {
+    /// None until the system is known.
+    pub(super) workspace: Option<Workspace<V>>,
+    /// Where the result of a substep is: position and momentum, each with what it leaves out.
+    pub(super) between: [V; 4],
+}
+
+impl<V: Vector> Workspace<V> {
+    /// Memory for steps of a method and of a system at this state.
+    pub(super) fn new<M: Method, S: System<V>>(system: &S, time: f64, q: &V, p: &V) -> Self {
+        let constraints = system.constraints();
+        let (metric, point) = Metric::new(system, time, q, p);
+        let stages = M::NONHOLONOMIC
+            .iter()
+            .map(|step| step.tableau.weights.len());
+        let stages = stages.max().unwrap_or(0);
+        let vectors = |count: usize| -> Vec<V> { (0..count).map(|_| q.zeros_like()).collect() };
+        let numbers = |count: usize| vec![V::Scalar::from_f64(0.0); count];
+        Self {
+            metric,
+            rows: point.gradients.clone(),
+            start: point.clone(),
+            end: point,
+            q: vectors(stages),
+            p: vectors(stages),
+            moved: vec![true; stages],
+            drift: vectors(stages),
+            kick: vectors(stages + 2),
+            multipliers: numbers(constraints),
+            last_impulse: LastImpulse::new(constraints),
+            part: numbers(constraints),
+            defects: numbers(constraints),
+            terms: vec![Terms::default(); constraints],
+            displacement: q.zeros_like(),
+            reach: q.zeros_like(),
+            scratch: array::from_fn(|_| q.zeros_like()),
+        }
+    }
+}
+
+impl<V: Vector> StageStorage<V> for NonholonomicStages<V> {
+    fn like(prototype: &V) -> Self {
+        Self {
+            workspace: None,
+            between: array::from_fn(|_| prototype.zeros_like()),
+        }
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        if let Some(Workspace { end, .. }) = &mut self.workspace {
+            end.gradients.words(visit);
+            end.normal.words(visit);
+        }
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        let workspace = self.workspace.as_ref()?;
+        first_non_finite(
+            (&workspace.q, &workspace.kick[..workspace.q.len()]),
+            (&workspace.p, &workspace.drift),
+        )
+    }
+
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        let [velocity, force, _] = &self.workspace.as_ref()?.scratch;
+        first_mismatch(array::from_ref(force), array::from_ref(velocity), dimension)
+    }
+
+    fn forget(&mut self, _prototype: &V) {}
+}

@@ -1,0 +1,172 @@
+//! Steps of systems with non-holonomic constraints `w(q)·q' = 0`: discrete Lagrange–d'Alembert–Pontryagin (Leok & Ohsawa, arXiv:0810.0740v1, 4.28).
+//!
+//! ```text
+//! p = p0 − w(q0)ᵀλ      Q_i = q0 + h Σ_j a_ij velocity_j    P_i = p + h Σ_j ã_ij force_j
+//! Σ_i b_i w(Q_i)·(q1 − q0) = 0    q1 = q0 + h Σ_i b_i velocity_i    p1 = p + h Σ_i b_i force_i − w(q1)ᵀμ,   w(q1) ∂H/∂p(q1, p1) = 0
+//! ```
+//!
+//! The discrete constraint is that at the midpoint for Gauss with one stage, the mean of those at both ends for Lobatto IIIA–IIIB with
+//! two, and that at one end for the methods of Euler: each is its own adjoint, or the adjoint of the other, as the tableau is. So a
+//! symmetric tableau gives a symmetric step, which has order 2, and composes as such. Positions do not depend on μ: the next step finds
+//! λ for any momentum of `p1 + span wᵀ`.
+
+mod memory;
+mod rows;
+mod start;
+mod step;
+
+pub use memory::NonholonomicStages;
+pub use start::consistent_momentum;
+
+use core::marker::PhantomData;
+
+use crate::error::Error;
+use crate::method::constrained::{add_to_force, in_turn, show_stages};
+use crate::method::{
+    EvaluationObserver, Failure, Inside, Interpolation, Method, Outcome, Plan, Solver,
+    StageStorage, StageView, Step, StepStatistics, Stopping, WarmStart, check_no_friction,
+    check_no_holonomic_constraints,
+};
+use crate::number::{Scalar, Summation, Vector};
+use crate::system::{Class, Nonholonomic, System, Unconstrained};
+use memory::Workspace;
+use rows::RowsAsGradients;
+
+/// How the method `M` steps systems with non-holonomic constraints.
+#[derive(Debug)]
+pub struct NonholonomicPlan<M, C>(PhantomData<(M, C)>);
+
+impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
+    type Class = Nonholonomic<C>;
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = NonholonomicStages<V>;
+
+    fn prepare<V, S, N>(memory: &mut NonholonomicStages<V>, system: &S, time: f64, q: &V, p: &V)
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+        memory.workspace = Some(Workspace::new::<M, _>(&RowsAsGradients(system), time, q, p));
+    }
+
+    fn check<V, S>(system: &S, time: f64, q: &V, p: &V) -> Result<(), Error>
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        check_no_friction(system, q)?;
+        check_no_holonomic_constraints(system)?;
+        start::check_start(&RowsAsGradients(system), time, q, p)
+    }
+
+    fn take<R, V, S, N>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut NonholonomicStages<V>,
+        kept: WarmStart,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+        memory.take::<M, R, S, C>(step, system, kept, stopping, outcome, |_| {})
+    }
+
+    fn show_stages<R, V, S>(
+        step: &Step<'_, V>,
+        system: &S,
+        stopping: Stopping,
+        show: &mut dyn FnMut(StageView<'_, V>),
+    ) -> Option<Result<(), Failure>>
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        let mut memory = NonholonomicStages::like(step.q);
+        let [mut q, mut q_low, mut p, mut p_low] = core::array::from_fn(|_| step.q.zeros_like());
+        let outcome = Outcome {
+            q: &mut q,
+            q_low: &mut q_low,
+            p: &mut p,
+            p_low: &mut p_low,
+        };
+        let kept = WarmStart::default();
+        let taken = memory.take::<M, R, S, C>(step, system, kept, stopping, outcome, show);
+        Some(taken.map(|_| ()))
+    }
+
+    /// The stages are in the memory.
+    fn observe<R, V, S, N, W>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _memory: &mut NonholonomicStages<V>,
+        _outcome: Outcome<'_, V>,
+        _witness: &mut W,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+        W: EvaluationObserver,
+    {
+    }
+
+    fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        system.force(V::Scalar::from_f64(time), q, p, rate);
+        add_to_force(&RowsAsGradients(system), time, (q, p), rate);
+    }
+
+    const INTERPOLATION: Interpolation = Interpolation::Hermite;
+
+    fn extend<V, S, N>(_memory: &NonholonomicStages<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+    }
+}
+
+impl<V: Vector> NonholonomicStages<V> {
+    /// Takes a step of the method `M`, of one tableau or of several, and shows their stages.
+    fn take<M, R, S, C>(
+        &mut self,
+        step: &Step<'_, V>,
+        system: &S,
+        kept: WarmStart,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+        mut show: impl FnMut(StageView<'_, V>),
+    ) -> Result<StepStatistics, Failure>
+    where
+        M: Method,
+        R: Summation,
+        S: System<V, Class = Nonholonomic<C>>,
+        C: Class + Unconstrained,
+    {
+        let NonholonomicStages {
+            workspace,
+            between: [q, q_low, p, p_low],
+        } = self;
+        let system = &RowsAsGradients(system);
+        let workspace = workspace
+            .get_or_insert_with(|| Workspace::new::<M, _>(system, step.time, step.q, step.p));
+        let between = Outcome { q, q_low, p, p_low };
+        let take = |tableau, part: &Step<'_, V>, carried, here: &mut Outcome<'_, V>| {
+            let taken = workspace.take::<R, _>(tableau, part, system, carried, stopping, here);
+            let places = (&workspace.q[..], &workspace.p[..]);
+            show_stages::<V, RowsAsGradients<'_, S>>(tableau, part, places, &mut show);
+            taken
+        };
+        in_turn(M::NONHOLONOMIC, step, kept, between, outcome, take)
+    }
+}

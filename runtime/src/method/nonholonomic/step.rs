@@ -1,0 +1,347 @@
+//! One step with non-holonomic constraints.
+
+use super::memory::Workspace;
+use crate::error::Quantity;
+use crate::method::constrained::{
+    NOISE, PATIENCE, ROUNDING, maximum, result, same_momentum, stage,
+};
+use crate::method::storage::is_finite;
+use crate::method::{ConstrainedTableau, Failure, Outcome, Step, StepStatistics, Stopping};
+use crate::number::{Coefficient, Scalar, Summation, Vector, copy};
+use crate::system::{Class, System};
+
+impl<V: Vector> Workspace<V> {
+    /// Takes a step; `carried` says that the step before ended where this one starts.
+    ///
+    /// A sweep evaluates the forces at the stages, makes stages of them with the present multipliers, and corrects these by
+    ///
+    /// ```text
+    /// λ += S⁻¹ Σ_i b_i w(Q_i)·(q1 − q0)/h      S = w M⁻¹ wᵀ at q0
+    /// ```
+    ///
+    /// until the residuals are rounding errors. Then the last impulse follows from `w velocity(q1, p1) = 0`.
+    pub(super) fn take<R: Summation, S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        carried: bool,
+        stopping: Stopping,
+        outcome: &mut Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure> {
+        let mut work = StepStatistics::default();
+        if !carried {
+            let Self {
+                metric,
+                end,
+                scratch,
+                ..
+            } = self;
+            metric.look(system, step.time, (step.q, step.p), end, scratch)?;
+        }
+        core::mem::swap(&mut self.start, &mut self.end);
+        self.begin(tableau, step, system, &mut work);
+        self.iterate::<R, S>(tableau, step, system, stopping, outcome, &mut work)?;
+        self.finish::<R, S>(tableau, step, system, stopping, outcome, &mut work)?;
+        Ok(work)
+    }
+
+    /// Where the stages start from; the multipliers start from zero.
+    fn begin<S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        work: &mut StepStatistics,
+    ) {
+        let velocity = &mut self.scratch[0];
+        system.velocity(step.at(Coefficient::exact(0.0)), step.q, step.p, velocity);
+        work.evaluations += 1;
+        for (i, &node) in tableau.nodes.iter().enumerate() {
+            self.moved[i] = true;
+            copy(&mut self.p[i], step.p);
+            let factor = V::Scalar::weight(step.size, node);
+            let pairs = step.q.as_slice().iter().zip(velocity.as_slice());
+            for (out, (&q, &velocity)) in self.q[i].as_mut_slice().iter_mut().zip(pairs) {
+                *out = velocity.fused(factor, q);
+            }
+        }
+        let zero = V::Scalar::from_f64(0.0);
+        for impulse in &mut self.kick[tableau.weights.len()..] {
+            impulse.as_mut_slice().fill(zero);
+        }
+        self.multipliers.fill(zero);
+        let size = V::Scalar::from_f64(step.size);
+        let pairs = self.reach.as_mut_slice().iter_mut();
+        for (reach, &velocity) in pairs.zip(velocity.as_slice()) {
+            *reach = size * velocity;
+        }
+    }
+
+    /// Sweeps until the displacement obeys the constraints and the stages no longer move. The position after the step is in `outcome`.
+    fn iterate<R: Summation, S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        stopping: Stopping,
+        outcome: &mut Outcome<'_, V>,
+        work: &mut StepStatistics,
+    ) -> Result<(), Failure> {
+        let (mut best, mut since, mut moved) = (f64::INFINITY, 0, f64::INFINITY);
+        for sweep in 1..=stopping.max_iterations {
+            work.iterations += 1;
+            self.kicks(tableau, step, system, work);
+            self.drifts(tableau, step, system, work);
+            let movement = self.positions::<R>(tableau, step, outcome);
+            let defect = self.defects(tableau, system)?;
+            // What is left of a movement shrinks at least as the movements did.
+            let rate = if sweep > 1 && movement.own < moved {
+                movement.own / moved
+            } else {
+                1.0
+            };
+            let residual = maximum(defect.own, movement.own * rate);
+            moved = movement.own;
+            if residual <= ROUNDING {
+                return Ok(());
+            }
+            if residual.is_nan() {
+                return Err(self.not_finite());
+            }
+            let change = self.changes(tableau, step);
+            if residual < best {
+                (best, since) = (residual, 0);
+            } else {
+                since += 1;
+                let noise = maximum(defect.largest.min(change), movement.largest);
+                if since >= PATIENCE && (best <= NOISE || noise <= NOISE) {
+                    return Ok(());
+                }
+                if since >= PATIENCE * PATIENCE {
+                    return Err(Failure::NoConvergence {
+                        residual: residual * V::Scalar::EPSILON,
+                        iterations: sweep,
+                    });
+                }
+            }
+            self.correct(tableau);
+        }
+        Err(Failure::NoConvergence {
+            residual: best * V::Scalar::EPSILON,
+            iterations: stopping.max_iterations,
+        })
+    }
+
+    /// `h b_j force_j` of all stages.
+    fn kicks<S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        work: &mut StepStatistics,
+    ) {
+        for (j, &weight) in tableau.weights.iter().enumerate() {
+            // The force of a separable system is known where the position is.
+            if S::Class::SEPARABLE && !self.moved[j] {
+                continue;
+            }
+            let force = &mut self.scratch[1];
+            let at = step.at(tableau.nodes[j]);
+            system.force(at, &self.q[j], &self.p[j], force);
+            work.evaluations += 1;
+            let weight = V::Scalar::weight(step.size, weight);
+            let kick = self.kick[j].as_mut_slice();
+            for (kick, &force) in kick.iter_mut().zip(force.as_slice()) {
+                *kick = weight * force;
+            }
+        }
+    }
+
+    /// The momenta of the stages, and `h b_i velocity_i` there.
+    fn drifts<S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        work: &mut StepStatistics,
+    ) {
+        let stages = tableau.weights.len();
+        let [velocity, _, low] = &mut self.scratch;
+        // All momenta begin with the impulse of the constraints.
+        copy(low, step.p_low);
+        let pairs = low.as_mut_slice().iter_mut();
+        for (low, &impulse) in pairs.zip(self.kick[stages].as_slice()) {
+            *low += impulse;
+        }
+        for i in 0..stages {
+            if !same_momentum::<V, S>(tableau, i) {
+                let (row, time) = (tableau.momenta[i], tableau.momentum_nodes[i]);
+                stage(&mut self.p[i], (step.p, low), row, &self.kick);
+                system.velocity(step.at(time), &self.q[i], &self.p[i], velocity);
+                work.evaluations += 1;
+            }
+            let weight = V::Scalar::weight(step.size, tableau.weights[i]);
+            let velocities = velocity.as_slice().iter();
+            for (drift, &velocity) in self.drift[i].as_mut_slice().iter_mut().zip(velocities) {
+                *drift = weight * velocity;
+            }
+        }
+    }
+
+    /// The positions of the stages and after the step, and the displacement between. Returns how far the stages have moved.
+    fn positions<R: Summation>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        outcome: &mut Outcome<'_, V>,
+    ) -> Residual {
+        let stages = tableau.weights.len();
+        for (k, displacement) in self.displacement.as_mut_slice().iter_mut().enumerate() {
+            let drifts = self.drift[..stages].iter().map(|drift| drift.as_slice()[k]);
+            *displacement = drifts.fold(V::Scalar::from_f64(0.0), |sum, drift| sum + drift);
+            let reach = &mut self.reach.as_mut_slice()[k];
+            if displacement.magnitude() > reach.magnitude() {
+                *reach = *displacement;
+            }
+        }
+        let q = ((&mut *outcome.q, &mut *outcome.q_low), (step.q, step.q_low));
+        result::<R, V>(q.0, q.1, &self.drift[..stages]);
+        let (mut own, mut difference, mut size) = (0.0_f64, 0.0_f64, f64::MIN_POSITIVE);
+        for i in 0..stages {
+            let old = &mut self.scratch[2];
+            core::mem::swap(old, &mut self.q[i]);
+            let start = (step.q, step.q_low);
+            stage(&mut self.q[i], start, tableau.positions[i], &self.drift);
+            self.moved[i] = self.q[i].as_slice() != old.as_slice();
+            let reach = self.reach.as_slice().iter();
+            let pairs = self.q[i].as_slice().iter().zip(old.as_slice()).zip(reach);
+            for ((&new, &old), &reach) in pairs {
+                let change = (new - old).magnitude();
+                let scale = maximum(new.magnitude(), old.magnitude()) + reach.magnitude();
+                if change != 0.0 {
+                    own = maximum(own, change / scale);
+                }
+                difference = maximum(difference, change);
+                size = maximum(size, scale);
+            }
+        }
+        Residual::new::<V>(own, difference / size)
+    }
+
+    /// `Σ_i b_i w(Q_i)·(q1 − q0)`. Returns how large it is relative to what has moved.
+    fn defects<S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        system: &S,
+    ) -> Result<Residual, Failure> {
+        self.defects.fill(V::Scalar::from_f64(0.0));
+        for (q, &weight) in self.q.iter().zip(tableau.weights) {
+            let rows = &mut self.rows;
+            if !rows.evaluate(|rows| system.constraint_gradients(q, rows)) {
+                return Err(Failure::MovingGradients);
+            }
+            rows.multiply(self.displacement.as_slice(), &mut self.part);
+            let weight = V::Scalar::from_coefficient(weight);
+            for (defect, &part) in self.defects.iter_mut().zip(&self.part) {
+                *defect += weight * part;
+            }
+        }
+        let (reach, q) = (self.reach.as_slice(), self.q[0].as_slice());
+        let (mut own, mut largest) = (0.0_f64, 0.0_f64);
+        self.rows.sizes(|k| reach[k].magnitude(), &mut self.terms);
+        for (defect, terms) in self.defects.iter().zip(&self.terms) {
+            own = maximum(own, terms.relative(defect.magnitude(), 0.0));
+        }
+        self.rows
+            .sizes(|k| q[k].magnitude() + reach[k].magnitude(), &mut self.terms);
+        for (defect, terms) in self.defects.iter().zip(&self.terms) {
+            largest = maximum(largest, terms.relative(defect.magnitude(), 0.0));
+        }
+        Ok(Residual::new::<V>(own, largest))
+    }
+
+    /// The changes of the multipliers, in the place of the defects. Returns how large their impulse is, in units of rounding of the
+    /// momentum.
+    fn changes(&mut self, tableau: &ConstrainedTableau, step: &Step<'_, V>) -> f64 {
+        self.start.normal.solve(&mut self.defects);
+        let factor = V::Scalar::from_f64(step.size.recip());
+        for change in &mut self.defects {
+            *change *= factor;
+        }
+        let impulse = self.kick[tableau.weights.len()].as_slice();
+        let size = |k: usize| step.p.as_slice()[k].magnitude() + impulse[k].magnitude();
+        let gradients = &self.start.gradients;
+        let change = gradients.relative_change(&self.defects, size, &mut self.terms);
+        change / V::Scalar::EPSILON
+    }
+
+    /// The impulse of the new multipliers.
+    fn correct(&mut self, tableau: &ConstrainedTableau) {
+        for (multiplier, &change) in self.multipliers.iter_mut().zip(&self.defects) {
+            *multiplier += change;
+        }
+        let impulse = self.kick[tableau.weights.len()].as_mut_slice();
+        impulse.fill(V::Scalar::from_f64(0.0));
+        (self.start.gradients).subtract_transposed(&self.multipliers, impulse);
+    }
+
+    /// The momentum after the step, with a velocity that obeys the constraints.
+    fn finish<R: Summation, S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        stopping: Stopping,
+        outcome: &mut Outcome<'_, V>,
+        work: &mut StepStatistics,
+    ) -> Result<(), Failure> {
+        let Self {
+            metric,
+            end,
+            scratch,
+            p,
+            kick,
+            last_impulse,
+            ..
+        } = self;
+        let stages = tableau.weights.len();
+        let time = step.time + step.size;
+        metric.look(system, time, (outcome.q, &p[stages - 1]), end, scratch)?;
+        let (kick, velocity) = (&mut kick[..stages + 2], &mut scratch[0]);
+        let found = last_impulse
+            .find::<R, V, S>(step, system, end, kick, velocity, stopping, outcome, work);
+        match found {
+            Err(Failure::NonFinite { .. }) => Err(self.not_finite()),
+            found => found,
+        }
+    }
+
+    /// What is not finite in the stages.
+    fn not_finite(&self) -> Failure {
+        let stages = self.q.len();
+        let kicks = self.kick[..stages].iter().position(|kick| !is_finite(kick));
+        let drifts = self.drift.iter().position(|drift| !is_finite(drift));
+        let (what, stage) = match (kicks, drifts) {
+            (Some(stage), _) => (Quantity::Force, Some(stage + 1)),
+            (None, Some(stage)) => (Quantity::Velocity, Some(stage + 1)),
+            (None, None) => (Quantity::Constraint, None),
+        };
+        Failure::NonFinite { what, stage }
+    }
+}
+
+/// A residual in units of rounding.
+struct Residual {
+    /// Relative to the size of each component.
+    own: f64,
+    /// Relative to that of all: what rounding errors of large components leave of small ones.
+    largest: f64,
+}
+
+impl Residual {
+    fn new<V: Vector>(own: f64, largest: f64) -> Self {
+        let [own, largest] = [own, largest].map(|residual| residual / V::Scalar::EPSILON);
+        Self { own, largest }
+    }
+}
