@@ -1,5 +1,6 @@
 //! What is seen of a run: states, dense output, events, invariants, progress.
 
+mod assert_conserved;
 pub(crate) mod at_times;
 pub(crate) mod balance;
 pub(crate) mod brent;

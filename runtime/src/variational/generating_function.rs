@@ -21,6 +21,20 @@ pub struct GeneratingFunction<V: Vector> {
     pub q1: V,
 }
 
+impl<V: Vector> GeneratingFunction<V> {
+    /// The function of Type I at `(q0, q1)`, the discrete Lagrangian `L_d = p1·q1 − H_d⁺(q0, p1)` (Leok & Ohsawa, 9.8), from the momentum `p1`
+    /// at the end of the step: `p0 = −D1 L_d`, `p1 = D2 L_d`.
+    pub fn discrete_lagrangian(&self, p1: &V) -> V::Scalar {
+        dot(p1, &self.q1) - self.value
+    }
+
+    /// The function of Type III at `(p0, q1)`, `H_d⁻ = −p0·q0 − L_d(q0, q1)` (Leok & Ohsawa, 9.9), from `q0` and `p1`: `q0 = −D1 H_d⁻`,
+    /// `p1 = −D2 H_d⁻`.
+    pub fn type_three(&self, q0: &V, p1: &V) -> V::Scalar {
+        -dot(&self.p0, q0) - self.discrete_lagrangian(p1)
+    }
+}
+
 /// The Type II generating function of a step of size `step_size` that begins at `time`, as a function of the position
 /// `q0` at its start and the momentum `p1` at its end (Leok & Zhang, eq. 43):
 ///

@@ -10,6 +10,7 @@ pub(crate) mod generating_function;
 mod integrator;
 mod regular;
 pub(crate) mod stages;
+mod symmetry;
 mod two_ends;
 
 pub use checks::DiscretePath;
@@ -17,3 +18,4 @@ pub use discrete_lagrangian::DiscreteLagrangian;
 pub use generating_function::{GeneratingFunction, generating_function};
 pub use integrator::VariationalIntegrator;
 pub use stages::{StageOfStep, StagesOfStep};
+pub use symmetry::momentum_map;

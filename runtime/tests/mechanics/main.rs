@@ -12,4 +12,5 @@ mod rolling;
 mod rotation;
 mod scales;
 mod start;
+mod symmetry;
 mod systems;
