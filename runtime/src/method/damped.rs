@@ -2,13 +2,15 @@
 
 use core::marker::PhantomData;
 
-use crate::error::Error;
+use crate::error::{Error, Quantity};
 use crate::method::{
     Drift, EvaluationObserver, Evaluations, Failure, Force, Inside, Interpolation, KickDrift,
-    Method, Outcome, Plan, Solver, Step, StepStatistics, Stopping, WarmStart, check_no_constraints,
+    Method, Outcome, Plan, Solver, StageStorage, Step, StepStatistics, Stopping, WarmStart,
+    check_no_constraints,
 };
 use crate::number::summation::add;
-use crate::number::{Coefficient, Scalar, Summation, Vector};
+use crate::number::vector::same_mut;
+use crate::number::{Coefficient, Scalar, Summation, Vector, Visit};
 use crate::solver::FixedPoint;
 use crate::system::{Damped, Separable, System};
 
@@ -22,10 +24,10 @@ use crate::system::{Damped, Separable, System};
 #[derive(Debug)]
 pub struct DampedPlan<M>(PhantomData<M>);
 
-/// The system without its friction.
-struct Undamped<'a, S>(&'a S);
+/// The system as a separable one: its friction is for kicks only.
+struct AsSeparable<'a, S>(&'a S);
 
-impl<V: Vector, S: System<V, Class = Damped>> System<V> for Undamped<'_, S> {
+impl<V: Vector, S: System<V, Class = Damped>> System<V> for AsSeparable<'_, S> {
     type Class = Separable;
     type Solver = FixedPoint;
 
@@ -40,12 +42,25 @@ impl<V: Vector, S: System<V, Class = Damped>> System<V> for Undamped<'_, S> {
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
         self.0.force(time, q, p, force);
     }
+
+    #[inline(always)]
+    fn friction(&self, component: usize) -> f64 {
+        self.0.friction(component)
+    }
+
+    #[inline(always)]
+    fn kick(&self, duration: V::Scalar, q: &V, force: &V, p: &V, change: &mut V) -> bool {
+        self.0.kick(duration, q, force, p, change)
+    }
 }
 
-/// Kicks by the exact flow with the friction of a system.
-struct DampedKicks<F>(F);
+/// Kicks by the exact flow with the friction of a system, or by that which the system knows.
+struct DampedKicks<'a, C> {
+    /// The change of the momentum by a kick of the system.
+    change: &'a mut C,
+}
 
-impl<F: Fn(usize) -> f64> KickDrift for DampedKicks<F> {
+impl<C: Vector> KickDrift for DampedKicks<'_, C> {
     #[inline(always)]
     fn force<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
@@ -64,15 +79,25 @@ impl<F: Fn(usize) -> f64> KickDrift for DampedKicks<F> {
         &mut self,
         h: f64,
         weight: Coefficient,
-        _system: &S,
+        system: &S,
         force: &mut V,
-        _position: &mut V,
+        position: &mut V,
         (p, p_low): (&mut V, &mut V),
     ) {
         let time = h * weight.double();
+        // The vectors are of one type.
+        if let Some(change) = same_mut::<C, V>(self.change)
+            && system.kick(V::Scalar::from_f64(time), position, force, p, change)
+        {
+            let momenta = p.as_mut_slice().iter_mut().zip(p_low.as_mut_slice());
+            for ((p, low), &change) in momenta.zip(change.as_slice()) {
+                (*p, *low) = add::<R, _>(*p, *low, 1, |_| change);
+            }
+            return;
+        }
         let momenta = p.as_mut_slice().iter_mut().zip(p_low.as_mut_slice());
         for (k, ((p, low), &force)) in momenta.zip(force.as_slice()).enumerate() {
-            let exponent = -(self.0)(k) * time;
+            let exponent = -system.friction(k) * time;
             // e^{−γτ} − 1, and (1 − e^{−γτ})/γ.
             let loss = num_traits::Float::exp_m1(exponent);
             let gain = if exponent == 0.0 {
@@ -111,9 +136,38 @@ impl<F: Fn(usize) -> f64> KickDrift for DampedKicks<F> {
     }
 }
 
+/// The memory of a step with friction.
+#[derive(Clone, Debug)]
+pub struct DampedMemory<V> {
+    evaluations: Evaluations<V>,
+    change: V,
+}
+
+impl<V: Vector> StageStorage<V> for DampedMemory<V> {
+    fn like(prototype: &V) -> Self {
+        Self {
+            evaluations: Evaluations::like(prototype),
+            change: prototype.zeros_like(),
+        }
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        self.evaluations.words(visit);
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        None
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        self.evaluations.mismatch(dimension)
+    }
+}
+
 impl<M: Method> Plan for DampedPlan<M> {
     type Class = Damped;
-    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = Evaluations<V>;
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = DampedMemory<V>;
 
     fn check<V, S>(system: &S, _time: f64, _q: &V, _p: &V) -> Result<(), Error>
     where
@@ -127,7 +181,7 @@ impl<M: Method> Plan for DampedPlan<M> {
     fn take<R, V, S, N>(
         step: &Step<'_, V>,
         system: &S,
-        memory: &mut Evaluations<V>,
+        memory: &mut DampedMemory<V>,
         kept: WarmStart,
         _stopping: Stopping,
         outcome: Outcome<'_, V>,
@@ -138,12 +192,16 @@ impl<M: Method> Plan for DampedPlan<M> {
         S: System<V, Class = Damped>,
         N: Solver<V, S>,
     {
-        let mut moves = DampedKicks(|component| system.friction(component));
-        let undamped = Undamped(system);
+        let DampedMemory {
+            evaluations,
+            change,
+        } = memory;
+        let mut moves = DampedKicks { change };
+        let separable = AsSeparable(system);
         Ok(M::Separable::take_by::<R, V, _, _, ()>(
             step,
-            &undamped,
-            memory,
+            &separable,
+            evaluations,
             kept,
             outcome,
             &mut moves,
@@ -154,7 +212,7 @@ impl<M: Method> Plan for DampedPlan<M> {
     fn observe<R, V, S, N, W>(
         step: &Step<'_, V>,
         system: &S,
-        memory: &mut Evaluations<V>,
+        memory: &mut DampedMemory<V>,
         outcome: Outcome<'_, V>,
         witness: &mut W,
     ) where
@@ -164,29 +222,45 @@ impl<M: Method> Plan for DampedPlan<M> {
         N: Solver<V, S>,
         W: EvaluationObserver,
     {
-        let mut moves = DampedKicks(|component| system.friction(component));
-        let undamped = Undamped(system);
+        let DampedMemory {
+            evaluations,
+            change,
+        } = memory;
+        let mut moves = DampedKicks { change };
+        let separable = AsSeparable(system);
         let kept = WarmStart::default();
         M::Separable::take_by::<R, V, _, _, W>(
-            step, &undamped, memory, kept, outcome, &mut moves, witness,
+            step,
+            &separable,
+            evaluations,
+            kept,
+            outcome,
+            &mut moves,
+            witness,
         );
     }
 
-    fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
+    fn momentum_rate<V, S>(system: &S, time: f64, q: &V, momentum: &V, rate: &mut V)
     where
         V: Vector,
         S: System<V, Class = Damped>,
     {
-        system.force(V::Scalar::from_f64(time), q, p, rate);
-        let pairs = rate.as_mut_slice().iter_mut().zip(p.as_slice());
+        system.force(V::Scalar::from_f64(time), q, momentum, rate);
+        let pairs = rate.as_mut_slice().iter_mut().zip(momentum.as_slice());
         for (k, (rate, &p)) in pairs.enumerate() {
             *rate -= V::Scalar::from_f64(system.friction(k)) * p;
+        }
+        if S::FORCED {
+            let mut applied = rate.zeros_like();
+            system.applied_force(V::Scalar::from_f64(time), q, momentum, &mut applied);
+            let pairs = rate.as_mut_slice().iter_mut().zip(applied.as_slice());
+            pairs.for_each(|(rate, &applied)| *rate += applied);
         }
     }
 
     const INTERPOLATION: Interpolation = Interpolation::Hermite;
 
-    fn extend<V, S, N>(_memory: &Evaluations<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
+    fn extend<V, S, N>(_memory: &DampedMemory<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
     where
         V: Vector,
         S: System<V, Class = Damped>,

@@ -36,7 +36,7 @@ pub use constrained::{
 };
 pub use constrained_tableau::{ConstrainedStep, ConstrainedTableau};
 pub use coupled::Coupled;
-pub use damped::DampedPlan;
+pub use damped::{DampedMemory, DampedPlan};
 pub use explicit::Explicit;
 pub use interpolation::{Inside, Interpolation};
 pub use kick_drift::{Drift, Force, KickDrift};

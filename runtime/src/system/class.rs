@@ -103,7 +103,8 @@ pub struct General;
 pub struct Separable;
 
 /// A separable Hamiltonian with linear friction: `p' = −∂H/∂q − γp`, with a rate γ for each component, in
-/// [`Hamiltonian::friction`](crate::Hamiltonian::friction).
+/// [`Hamiltonian::friction`](crate::Hamiltonian::friction); or with any force of positions and momenta whose flow at a fixed position is
+/// known, [`Hamiltonian::kick`](crate::Hamiltonian::kick).
 ///
 /// Splittings of which the order is proved for separable Hamiltonians step such systems, with the exact flow of the friction in
 /// every kick: the order stays, and where all γ are equal a step of size h shrinks dq∧dp and the momentum maps of symmetries of H by

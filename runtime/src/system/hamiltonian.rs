@@ -269,6 +269,71 @@ pub trait Hamiltonian {
         0.0
     }
 
+    /// The flow of `p' = force + f(q, p)` at a fixed position, for any force f of positions and momenta whose flow is known, in a system of
+    /// class [`Damped`](crate::Damped): writes `p(duration) − p` into `change` and returns `true`. `false` leaves kicks to the rates of the
+    /// [`friction`](Self::friction).
+    ///
+    /// `duration` may be negative. [`force`](Self::force) leaves f out here. For output between the steps, write f into
+    /// [`applied_force`](Self::applied_force), with [`FORCED`](Self::FORCED) `= true`.
+    ///
+    /// ```
+    /// use symplectic::nalgebra::SVector;
+    /// use symplectic::{Damped, Error, Hamiltonian, Integrator, Scalar, State};
+    ///
+    /// symplectic::splitting! { StrangSplitting { base: velocity-verlet } }
+    ///
+    /// /// A ball in free flight with the drag −p|p|/10, without a potential: the flow of the drag is p/(1 + |p|τ/10).
+    /// struct Ball;
+    ///
+    /// type Vector1<T> = SVector<T, 1>;
+    ///
+    /// impl Hamiltonian for Ball {
+    ///     type Class = Damped;
+    ///     type Vector<T: Scalar> = Vector1<T>;
+    ///
+    ///     fn velocity<T: Scalar>(&self, _: T, _: &Vector1<T>, p: &Vector1<T>, velocity: &mut Vector1<T>) {
+    ///         *velocity = *p;
+    ///     }
+    ///
+    ///     fn force<T: Scalar>(&self, _: T, _: &Vector1<T>, _: &Vector1<T>, force: &mut Vector1<T>) {
+    ///         force[0] = T::zero();
+    ///     }
+    ///
+    ///     fn kick<T: Scalar>(
+    ///         &self,
+    ///         duration: T,
+    ///         _q: &Vector1<T>,
+    ///         _force: &Vector1<T>,
+    ///         p: &Vector1<T>,
+    ///         change: &mut Vector1<T>,
+    ///     ) -> bool {
+    ///         let loss = p[0].abs() * duration * T::from_f64(0.1);
+    ///         change[0] = -p[0] * loss / (loss + T::one());
+    ///         true
+    ///     }
+    /// }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let start = State::from_arrays(0.0, [0.0], [2.0]);
+    /// let mut run = Integrator::new(StrangSplitting, Ball, start, 0.01)?;
+    /// // p = 2/(1 + t/5), q = 10 ln(1 + t/5)
+    /// let end = run.integrate_to(5.0)?;
+    /// assert!((end.p[0] - 1.0).abs() < 1e-14);
+    /// assert!((end.q[0] - 10.0 * 2.0_f64.ln()).abs() < 1e-5);
+    /// # Ok(())
+    /// # }
+    /// ```
+    fn kick<T: Scalar>(
+        &self,
+        _duration: T,
+        _q: &Self::Vector<T>,
+        _force: &Self::Vector<T>,
+        _p: &Self::Vector<T>,
+        _change: &mut Self::Vector<T>,
+    ) -> bool {
+        false
+    }
+
     /// The number m of holonomic constraints `φ(q) = 0` of a system of class [`Constrained`](crate::Constrained).
     ///
     /// ```

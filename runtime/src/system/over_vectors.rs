@@ -104,6 +104,11 @@ pub trait System<V: Vector>: Sized {
         0.0
     }
 
+    /// The flow of a kick with friction: see [`Hamiltonian::kick`].
+    fn kick(&self, _duration: V::Scalar, _q: &V, _force: &V, _p: &V, _change: &mut V) -> bool {
+        false
+    }
+
     /// The number of constraints: see [`Hamiltonian::constraints`].
     fn constraints(&self) -> usize {
         0
@@ -222,6 +227,11 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     #[inline(always)]
     fn friction(&self, component: usize) -> f64 {
         Hamiltonian::friction(self, component)
+    }
+
+    #[inline(always)]
+    fn kick(&self, duration: V::Scalar, q: &V, force: &V, p: &V, change: &mut V) -> bool {
+        Hamiltonian::kick::<V::Scalar>(self, duration, q, force, p, change)
     }
 
     fn constraints(&self) -> usize {

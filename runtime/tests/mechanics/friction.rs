@@ -169,3 +169,95 @@ fn inside_a_step() {
     let slope = (error(0.04) / error(0.02)).log2();
     assert!(slope > 3.7, "{slope}");
 }
+
+/// H = p²/2 + q⁴/4 with a friction that depends on the place, −γ(q)p, γ = (1 + q²)/4: its flow at a fixed position is known.
+struct Molasses;
+
+type Line<T> = SVector<T, 1>;
+
+impl Molasses {
+    fn rate<T: Scalar>(q: &Line<T>) -> T {
+        (q[0] * q[0] + T::one()) * T::from_f64(0.25)
+    }
+}
+
+impl Hamiltonian for Molasses {
+    type Class = Damped;
+    type Vector<T: Scalar> = Line<T>;
+
+    const UNIT_MASSES: bool = true;
+    const FORCED: bool = true;
+
+    fn velocity<T: Scalar>(&self, _: T, _: &Line<T>, p: &Line<T>, velocity: &mut Line<T>) {
+        *velocity = *p;
+    }
+
+    fn force<T: Scalar>(&self, _: T, q: &Line<T>, _: &Line<T>, force: &mut Line<T>) {
+        force[0] = -q[0] * q[0] * q[0];
+    }
+
+    fn applied_force<T: Scalar>(&self, _: T, q: &Line<T>, p: &Line<T>, applied: &mut Line<T>) {
+        applied[0] = -Self::rate(q) * p[0];
+    }
+
+    fn kick<T: Scalar>(
+        &self,
+        duration: T,
+        q: &Line<T>,
+        force: &Line<T>,
+        p: &Line<T>,
+        change: &mut Line<T>,
+    ) -> bool {
+        let rate = Self::rate(q);
+        let loss = T::one() - (-rate * duration).exp();
+        change[0] = loss * (force[0] / rate - p[0]);
+        true
+    }
+}
+
+symplectic::hamiltonian! {
+    /// The same by stages.
+    pub MolassesByStages
+    q: [x], p: [px];
+    H = px^2/2 + x^4/4
+    force: { x = -(1 + x^2) px/4 }
+}
+
+symplectic::tableau! { pub Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
+
+#[test]
+fn a_flow_of_the_user() {
+    let start: State<Line<f64>> = State::from_arrays(0.0, [1.5], [0.5]);
+    let mut exact =
+        Integrator::new(Gauss4, MolassesByStages, start.clone(), 1.0 / 64.0).expect("a run");
+    let end = exact.integrate_to(3.0).expect("steps").clone();
+    fn errors<M: Method + ProvedFor<Damped>>(
+        method: M,
+        start: &State<Line<f64>>,
+        end: &State<Line<f64>>,
+        steps: u32,
+    ) -> f64 {
+        let size = 3.0 / f64::from(steps);
+        let mut run = Integrator::new(method, Molasses, start.clone(), size).expect("a run");
+        let found = run.integrate_to(3.0).expect("steps");
+        (found.q - end.q).norm() + (found.p - end.p).norm()
+    }
+    let slope = |coarse: f64, fine: f64| (coarse / fine).log2();
+    let found = slope(
+        errors(StoermerVerlet, &start, &end, 200),
+        errors(StoermerVerlet, &start, &end, 400),
+    );
+    assert!((found - 2.0).abs() < 0.05, "{found}");
+    let found = slope(
+        errors(ForestRuth, &start, &end, 200),
+        errors(ForestRuth, &start, &end, 400),
+    );
+    assert!((found - 4.0).abs() < 0.05, "{found}");
+    // Between the steps, with the slope of the momentum at both ends.
+    let mut run = Integrator::new(ForestRuth, Molasses, start.clone(), 0.01).expect("a run");
+    run.step().expect("a step");
+    let inside = run.dense().expect("a step").state(0.005).expect("inside");
+    let mut exact = Integrator::new(Gauss4, MolassesByStages, start, 0.005).expect("a run");
+    let middle = exact.step().expect("a step");
+    assert!((inside.p - middle.p).norm() < 1e-9);
+}

@@ -22,7 +22,11 @@ symplectic::hamiltonian! {
 }
 
 fn near(a: f64, b: f64) -> State<Vector2<f64>> {
-    State::from_arrays(0.0, [0.8 + a, 0.3 - 0.4 * b], [0.2 + 0.5 * a - 0.6 * b, 0.7 + b])
+    State::from_arrays(
+        0.0,
+        [0.8 + a, 0.3 - 0.4 * b],
+        [0.2 + 0.5 * a - 0.6 * b, 0.7 + b],
+    )
 }
 
 /// Along a family of steps `dL_d = p1·dq1 − p0·dq0`, `dH_d⁺ = p0·dq0 + q1·dp1` and `dH_d⁻ = −q0·dp0 − p1·dq1`.
