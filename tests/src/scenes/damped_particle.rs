@@ -1,8 +1,8 @@
 //! A particle in the plane with the potential `V = |q|²(|q|² − 1)²`, `H = |p|²/2 + V(q)`, to be damped by the force
 //! `−10⁻³ q'`.
 //!
-//! The system here is the conservative part: the integrators take no forces yet. [`DAMPING`] is ready for them, and for
-//! the check of the energy, which falls at the rate `−DAMPING |q'|²`.
+//! [`DampedParticle`] is the system without that force, [`WithFriction`] the one with it: its energy falls at the rate
+//! `−DAMPING |q'|²`.
 //!
 //! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff; a well at the origin and one around the unit
 //! circle, with a ridge of the height 4/27 between them.
@@ -49,6 +49,14 @@ impl SeparableHamiltonian for DampedParticle {
     }
 }
 
+symplectic::hamiltonian! {
+    /// The system with its friction.
+    pub WithFriction { damping: 1e-3 }
+    q: [2], p: [2];
+    H = |p|^2/2 + |q|^2 (|q|^2 - 1)^2
+    force: { q[i] = -damping p[i] }
+}
+
 /// From the slope outside of the circle, with the momentum (0, 1/2): above the ridge.
 pub fn start<T: Scalar>() -> State<SVector<T, 2>> {
     let vector = |components: [f64; 2]| SVector::from(components.map(T::from_f64));
@@ -70,6 +78,22 @@ mod tests {
         let state = State::from_arrays(0.0, [0.7, -0.4], [0.2, 0.5]);
         check::derivatives(&DampedParticle, &state, 1e-5, 1e-8);
         check::needs(NEEDS, &DampedParticle, &state);
+    }
+
+    /// The friction is added to the same force, and the work of it is what the energy loses.
+    #[test]
+    fn friction_is_the_only_difference() {
+        use symplectic::System;
+        let State { q, p, .. } = State::from_arrays(0.0, [0.7, -0.4], [0.2, 0.5]);
+        let (mut with, mut without) = (q, q);
+        WithFriction::new().force(0.0, &q, &p, &mut with);
+        System::force(&DampedParticle, 0.0, &q, &p, &mut without);
+        assert!((with - without + p * DAMPING).norm() < 4e-16);
+        let energies = [
+            WithFriction::new().energy(0.0, &q, &p),
+            System::energy(&DampedParticle, 0.0, &q, &p),
+        ];
+        assert!(energies[0].is_some() && energies[0] == energies[1]);
     }
 
     #[test]

@@ -110,6 +110,33 @@ fn forces<T: Scalar>([sine, first, second]: [T; 3], cosine: T, p: &SVector<T, 2>
     ])
 }
 
+symplectic::hamiltonian! {
+    /// The same in Cartesian coordinates, on two rods.
+    pub OnRods { g: 9.8 }
+    q: [x1, y1, x2, y2], p: [px1, py1, px2, py2];
+    H = (px1^2 + py1^2 + px2^2 + py2^2)/2 + g (y1 + y2)
+    constraints: { first = x1^2 + y1^2 - 1, second = (x2 - x1)^2 + (y2 - y1)^2 - 1 }
+}
+
+/// The state of [`OnRods`] for a state in angles.
+pub fn on_rods(state: &State<SVector<f64, 2>>) -> State<SVector<f64, 4>> {
+    let ([(s1, c1), (s2, c2)], v) = (
+        [state.q[0].sin_cos(), state.q[1].sin_cos()],
+        velocities(Scalar::cos(state.q[0] - state.q[1]), &state.p),
+    );
+    let (first, second) = ([v[0] * c1, v[0] * s1], [v[1] * c2, v[1] * s2]);
+    State::from_arrays(
+        state.time,
+        [s1, -c1, s1 + s2, -c1 - c2],
+        [
+            first[0],
+            first[1],
+            first[0] + second[0],
+            first[1] + second[1],
+        ],
+    )
+}
+
 /// At rest with the angles (1, 1/2).
 pub fn start<T: Scalar>() -> State<SVector<T, 2>> {
     State::new(
@@ -134,6 +161,25 @@ mod tests {
         let state = State::new(0.0, SVector::from([1.0, -0.4]), SVector::from([0.7, -1.3]));
         check::derivatives(&DoublePendulum, &state, 1e-5, 1e-8);
         check::needs(NEEDS, &DoublePendulum, &state);
+    }
+
+    /// Angles and rods have the same energy, and the rods their lengths.
+    #[test]
+    fn rods_are_the_same_motion() {
+        use symplectic::System;
+        let state = State::new(0.0, SVector::from([1.0, -0.4]), SVector::from([0.7, -1.3]));
+        let rods = on_rods(&state);
+        let energies = [
+            System::energy(&DoublePendulum, 0.0, &state.q, &state.p),
+            System::energy(&OnRods::new(), 0.0, &rods.q, &rods.p),
+        ];
+        let [Some(angles), Some(cartesian)] = energies else {
+            panic!("both are known")
+        };
+        assert!((angles - cartesian).abs() < 1e-14);
+        let mut lengths = [1.0; 2];
+        System::constraint_values(&OnRods::new(), &rods.q, &mut lengths);
+        assert!(lengths.iter().all(|length| length.abs() < 1e-15));
     }
 
     #[test]

@@ -9,13 +9,13 @@ use symplectic::{Error, Integrator, Separable, State, System, Vector};
 use symplectic_report::{Ladder, Problem, Reference, Study};
 use symplectic_tests::methods::{Gauss8, Midpoint, VelocityVerlet};
 use symplectic_tests::scenes::{
-    argon_crystal, charged_particle, double_pendulum, fput_chain, fput_springs,
+    argon_crystal, charged_particle, damped_particle, double_pendulum, fput_chain, fput_springs,
     harmonic_oscillator, henon_heiles, hyperbolic, kepler, nonseparable, outer_solar_system,
     pendulum, point_vortices, post_newtonian_kepler, pythagorean_three_body, sine_gordon,
 };
 
 use crate::peers::{with_forest_ruth, with_peers, with_rk4};
-use crate::sets::{Set, coupled, explicit, implicit, more_explicit, newton};
+use crate::sets::{Set, constrained, coupled, explicit, implicit, more_explicit, newton};
 
 /// A scene: what it is called on the command line, and how it is added to a study.
 pub type Scene = (&'static str, fn(Study) -> Result<Study, Error>);
@@ -46,6 +46,8 @@ pub const SCENES: &[Scene] = &[
     ("fput-chain-16", short_fput_chain),
     ("fput-chain-65536", long_fput_chain),
     ("double-pendulum", double_pendulum),
+    ("double-pendulum-on-rods", double_pendulum_on_rods),
+    ("damped-particle", damped_particle),
     ("nonseparable", nonseparable),
     ("charged-particle", charged_particle),
     ("post-newtonian-kepler", post_newtonian_kepler),
@@ -221,6 +223,42 @@ fn double_pendulum(study: Study) -> Result<Study, Error> {
             "H = (p₁² + 2p₂² − 2p₁p₂ cos δ)/(2(1 + sin² δ)) − g(2 cos q₁ + cos q₂), δ = q₁ − q₂",
         )
         .needing("a method for general Hamiltonians; not separable, chaotic");
+    Ok(study.problem(with_peers::<_, _, 2, 4>(
+        coupled(problem),
+        &system,
+        &start,
+        end,
+        0.5,
+    )))
+}
+
+fn double_pendulum_on_rods(study: Study) -> Result<Study, Error> {
+    let (angles, end) = (double_pendulum::start(), 10.0);
+    let known = Reference::computed(Gauss8, double_pendulum::DoublePendulum, &angles, end, 0.025)?;
+    let reference = Reference::known(
+        double_pendulum::on_rods(&known.end),
+        format!("in angles: {}", known.origin),
+        known.uncertainty.max(4.0 * f64::EPSILON),
+    );
+    let problem = Problem::new(
+        "Double pendulum on rods",
+        double_pendulum::OnRods::new(),
+        double_pendulum::on_rods(&angles),
+        reference,
+        0.25,
+    )
+    .described("H = |p|²/2 + g(y₁ + y₂), two masses on rods of length 1: two holonomic constraints")
+    .needing("a method that is `constrained`");
+    Ok(study.problem(constrained(problem)))
+}
+
+fn damped_particle(study: Study) -> Result<Study, Error> {
+    let (start, end) = (damped_particle::start(), 100.0);
+    let system = damped_particle::WithFriction::new();
+    let reference = Reference::computed(Gauss8, system, &start, end, 0.025)?;
+    let problem = Problem::new("Damped particle", system, start.clone(), reference, 0.5)
+        .described("H = |p|²/2 + |q|²(|q|² − 1)² and the force −p/1000 (Marsden & West, Figure 2)")
+        .needing("a method for general Hamiltonians: the force depends on the momentum");
     Ok(study.problem(with_peers::<_, _, 2, 4>(
         coupled(problem),
         &system,

@@ -3,12 +3,12 @@
 //! Every method is generic over the system once, here: a scene chooses a set and says its numbers.
 
 use symplectic::system::Unconstrained;
-use symplectic::{Integrator, Separable, System, Vector};
+use symplectic::{Constrained, Integrator, Separable, System, Vector};
 use symplectic_report::Problem;
 use symplectic_tests::methods::{
     BlanesMoanS6, BlanesMoanS10, BlanesMoanSrkn11b, BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4,
-    Gauss6, Gauss8, KahanLi8, Lobatto3, SofroniouSpaletta10, StoermerVerlet, SymplecticEuler,
-    VelocityVerlet, Yoshida8,
+    Gauss6, Gauss8, KahanLi8, Lobatto3, Lobatto4, SofroniouSpaletta10, StoermerVerlet,
+    SymplecticEuler, VelocityVerlet, Yoshida8,
 };
 
 /// A problem with methods that are to be run on it.
@@ -80,6 +80,20 @@ where
     run!(implicit(problem), integrator => Ok(integrator);
         StoermerVerlet "Störmer–Verlet, implicit" plain,
         Lobatto3 "Lobatto 3" plain,
+    )
+}
+
+/// Methods for holonomic constraints.
+pub fn constrained<V, S>(problem: Problem<V, S>) -> Problem<V, S>
+where
+    V: Vector<Scalar = f64>,
+    S: System<V, Class = Constrained<Separable>> + Clone + 'static,
+{
+    run!(problem, integrator => Ok(integrator);
+        StoermerVerlet "RATTLE" plain,
+        Lobatto3 "Lobatto 3" plain,
+        Lobatto4 "Lobatto 4" plain,
+        Lobatto4 "Lobatto 4, compensated" new,
     )
 }
 
