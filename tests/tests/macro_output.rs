@@ -222,7 +222,7 @@ fn every_property_is_required_of_a_method_that_has_it() -> Result<(), symplectic
     assert_eq!(held, Properties::NAMES.iter().copied().collect());
     assert_eq!(
         Properties::NAMES.len(),
-        10,
+        11,
         "a new property belongs into the list of `Verlet` or `Midpoint`"
     );
     Ok(())
