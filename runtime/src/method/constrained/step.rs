@@ -395,15 +395,15 @@ pub(in crate::method) fn show_stages<V: Vector, S: System<V>>(
     show: &mut impl FnMut(StageView<'_, V>),
 ) {
     let mut last = 0;
-    for i in 0..tableau.weights.len() {
+    for (i, (q, &weight)) in q.iter().zip(tableau.weights).enumerate() {
         if !same_momentum::<V, S>(tableau, i) {
             last = i;
         }
         show(StageView {
-            weight: step.size * tableau.weights[i].double(),
+            weight: step.size * weight.double(),
             time: step.at(tableau.nodes[i]),
             momentum_time: step.at(tableau.momentum_nodes[i]),
-            q: &q[i],
+            q,
             p: &p[last],
         });
     }
