@@ -151,7 +151,7 @@ pub trait Hamiltonian {
     /// p' = force(t, q, p) = −∂H/∂q + f(t, q, p)
     /// ```
     ///
-    /// [`force`](Self::force) contains f already, so steps need nothing else; [balances](crate::variational::step_with_stages) of energy and
+    /// [`force`](Self::force) contains f already, so steps need nothing else; [balances](crate::Integrator::step_with_stages) of energy and
     /// momentum, and Newton's iteration, take it from here. A force that depends on momenta makes the class
     /// [`General`](crate::General), where a method has its order for general Hamiltonians (Marsden & West, 2001, Example 3.2.5); one that
     /// depends on time and positions only leaves a separable system separable.
@@ -280,7 +280,7 @@ pub trait Hamiltonian {
     /// use symplectic::nalgebra::SVector;
     /// use symplectic::{Damped, Error, Hamiltonian, Integrator, Scalar, State};
     ///
-    /// symplectic::splitting! { StrangSplitting { base: velocity-verlet } }
+    /// symplectic::tableau! { StrangSplitting { base: velocity-verlet } }
     ///
     /// /// A ball in free flight with the drag −p|p|/10, without a potential: the flow of the drag is p/(1 + |p|τ/10).
     /// struct Ball;
