@@ -301,8 +301,8 @@ pub enum Error {
 
     /// A system of class `Constrained` or `Nonholonomic` without a constraint, or with more constraints than positions.
     #[error(
-        "the system has {constraints} constraints on {dimension} components of the position; write `constraints`, or \
-         `nonholonomic_constraints` in class `Nonholonomic`, and at most as many as there are components"
+        "the system has {constraints} constraints on {dimension} components of the position; it needs at least one and at most one for \
+         each component: `constraints` says how many, in class `Nonholonomic` `nonholonomic_constraints`"
     )]
     ConstraintCount {
         /// Number of constraints.

@@ -250,8 +250,10 @@ impl<M: Method> Plan for DampedPlan<M> {
         for (k, (rate, &p)) in pairs.enumerate() {
             *rate -= V::Scalar::from_f64(system.friction(k)) * p;
         }
-        if S::FORCED {
-            let mut applied = rate.zeros_like();
+        // Only a system that makes its own kicks leaves the applied force out of its force.
+        let mut applied = rate.zeros_like();
+        let own_kicks = system.kick(V::Scalar::from_f64(0.0), q, rate, momentum, &mut applied);
+        if S::FORCED && own_kicks {
             system.applied_force(V::Scalar::from_f64(time), q, momentum, &mut applied);
             let pairs = rate.as_mut_slice().iter_mut().zip(applied.as_slice());
             pairs.for_each(|(rate, &applied)| *rate += applied);

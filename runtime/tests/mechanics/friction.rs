@@ -256,8 +256,41 @@ fn a_flow_of_the_user() {
     // Between the steps, with the slope of the momentum at both ends.
     let mut run = Integrator::new(ForestRuth, Molasses, start.clone(), 0.01).expect("a run");
     run.step().expect("a step");
-    let inside = run.dense().expect("a step").state(0.005).expect("inside");
-    let mut exact = Integrator::new(Gauss4, MolassesByStages, start, 0.005).expect("a run");
-    let middle = exact.step().expect("a step");
-    assert!((inside.p - middle.p).norm() < 1e-9);
+    // At the middle an error of both slopes would cancel.
+    let inside = run.dense().expect("a step").state(0.0025).expect("inside");
+    let mut exact = Integrator::new(Gauss4, MolassesByStages, start, 0.0025).expect("a run");
+    let quarter = exact.step().expect("a step");
+    assert!((inside.p - quarter.p).norm() < 1e-9);
+}
+
+symplectic::hamiltonian! {
+    /// An oscillator with friction, and a drive that is an applied force.
+    pub DrivenWithFriction
+    q: [x], p: [px];
+    H = (px^2 + x^2)/2
+    force: { x = 5 cos(t) }
+    friction: 0.2
+}
+
+/// The applied force of a formula is in its force, and counts once between the steps too.
+#[test]
+fn an_applied_force_beside_friction() {
+    let start: State<Line<f64>> = State::from_arrays(0.0, [0.3], [0.5]);
+    let run =
+        |size| Integrator::new(ForestRuth, DrivenWithFriction, start.clone(), size).expect("a run");
+    let mut whole = run(0.01);
+    whole.step().expect("a step");
+    let inside = whole
+        .dense()
+        .expect("a step")
+        .state(0.0025)
+        .expect("inside");
+    let mut part = run(0.0025);
+    let exact = part.step().expect("a step");
+    assert!((inside.p - exact.p).norm() < 1e-8);
+    // x = 25 sin t is the motion that is driven: −x + x = 0 and 5 cos t = 0.2 p.
+    let start: State<Line<f64>> = State::from_arrays(0.0, [0.0], [25.0]);
+    let mut run = Integrator::new(ForestRuth, DrivenWithFriction, start, 0.01).expect("a run");
+    let end = run.integrate_to(10.0).expect("steps");
+    assert!((end.q[0] - 25.0 * 10.0_f64.sin()).abs() < 1e-6);
 }
