@@ -97,16 +97,9 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         S: System<V, Class = Self::Class>,
     {
         let mut memory = ConstrainedStages::like(step.q);
-        let [mut q, mut q_low, mut p, mut p_low] = core::array::from_fn(|_| step.q.zeros_like());
-        let outcome = Outcome {
-            q: &mut q,
-            q_low: &mut q_low,
-            p: &mut p,
-            p_low: &mut p_low,
-        };
-        let taken =
-            memory.take::<M, R, S>(step, system, WarmStart::default(), stopping, outcome, show);
-        Some(taken.map(|_| ()))
+        Some(taken_once_more(step, |kept, outcome| {
+            memory.take::<M, R, S>(step, system, kept, stopping, outcome, show)
+        }))
     }
 
     /// The stages are in the memory.
@@ -170,6 +163,21 @@ impl<V: Vector> ConstrainedStages<V> {
         };
         in_turn(M::CONSTRAINED, step, kept, between, outcome, take)
     }
+}
+
+/// Takes a step with nothing kept from the one before, for what `take` shows of it; its result is left.
+pub(super) fn taken_once_more<V: Vector>(
+    step: &Step<'_, V>,
+    take: impl FnOnce(WarmStart, Outcome<'_, V>) -> Result<StepStatistics, Failure>,
+) -> Result<(), Failure> {
+    let [mut q, mut q_low, mut p, mut p_low] = core::array::from_fn(|_| step.q.zeros_like());
+    let outcome = Outcome {
+        q: &mut q,
+        q_low: &mut q_low,
+        p: &mut p,
+        p_low: &mut p_low,
+    };
+    take(WarmStart::default(), outcome).map(|_| ())
 }
 
 /// Takes the steps of a composition one after another. `take` takes one; it is told whether the one before ended where it starts.

@@ -21,7 +21,7 @@ pub use start::consistent_momentum;
 use core::marker::PhantomData;
 
 use crate::error::Error;
-use crate::method::constrained::{add_to_force, in_turn, show_stages};
+use crate::method::constrained::{add_to_force, in_turn, show_stages, taken_once_more};
 use crate::method::{
     EvaluationObserver, Failure, Inside, Interpolation, Method, Outcome, Plan, Solver,
     StageStorage, StageView, Step, StepStatistics, Stopping, WarmStart, check_no_friction,
@@ -88,16 +88,9 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
         S: System<V, Class = Self::Class>,
     {
         let mut memory = NonholonomicStages::like(step.q);
-        let [mut q, mut q_low, mut p, mut p_low] = core::array::from_fn(|_| step.q.zeros_like());
-        let outcome = Outcome {
-            q: &mut q,
-            q_low: &mut q_low,
-            p: &mut p,
-            p_low: &mut p_low,
-        };
-        let kept = WarmStart::default();
-        let taken = memory.take::<M, R, S, C>(step, system, kept, stopping, outcome, show);
-        Some(taken.map(|_| ()))
+        Some(taken_once_more(step, |kept, outcome| {
+            memory.take::<M, R, S, C>(step, system, kept, stopping, outcome, show)
+        }))
     }
 
     /// The stages are in the memory.
