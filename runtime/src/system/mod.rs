@@ -10,6 +10,7 @@ pub(crate) mod hamiltonian_macro;
 pub(crate) mod in_lanes;
 #[cfg(feature = "alloc")]
 pub(crate) mod jacobian;
+pub(crate) mod lagrangian;
 pub(crate) mod lagrangian_macro;
 pub(crate) mod linearity;
 pub(crate) mod local_force;
@@ -35,6 +36,7 @@ pub use hamiltonian_macro::hamiltonian;
 pub use in_lanes::SystemLanes;
 #[cfg(feature = "alloc")]
 pub use jacobian::{BandMatrix, Jacobian};
+pub use lagrangian::Lagrangian;
 pub use lagrangian_macro::lagrangian;
 #[doc(hidden)]
 pub use local_force::{Components, MOST_ROW_STAGES, StageRows};

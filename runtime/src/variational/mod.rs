@@ -8,6 +8,7 @@ mod checks;
 mod discrete_lagrangian;
 pub(crate) mod generating_function;
 mod integrator;
+mod lagrangian;
 mod regular;
 pub(crate) mod stages;
 mod symmetry;

@@ -1,0 +1,64 @@
+//! Systems that are given by their Lagrangian.
+
+use crate::number::{Scalar, Vector};
+
+/// A mechanical system given by its Lagrangian `L(t, q, v)`, written once for every scalar. Its derivatives are exact, by hyper-dual numbers:
+/// the momentum `p = ∂L/∂v`, the rate `p' = ∂L/∂q + f`, and their Jacobians.
+///
+/// L need not be quadratic in the velocities. [`lagrangian!`](macro@crate::lagrangian) writes this trait from a formula.
+///
+/// ```
+/// use symplectic::nalgebra::SVector;
+/// use symplectic::{Lagrangian, Scalar};
+///
+/// /// A relativistic particle in a harmonic trap, with rest mass and speed of light 1: L = −√(1 − v²) − q²/2.
+/// struct Relativistic;
+///
+/// impl Lagrangian for Relativistic {
+///     type Vector<T: Scalar> = SVector<T, 1>;
+///
+///     fn lagrangian<T: Scalar>(&self, _time: T, q: &SVector<T, 1>, v: &SVector<T, 1>) -> T {
+///         -(T::one() - v[0] * v[0]).sqrt() - q[0] * q[0] * T::from_f64(0.5)
+///     }
+/// }
+/// ```
+pub trait Lagrangian {
+    /// The vectors that positions, velocities and momenta are.
+    type Vector<T: Scalar>: Vector<Scalar = T>;
+
+    /// Whether there is an applied [`force`](Self::force).
+    const FORCED: bool = false;
+
+    /// `L(t, q, v)`; an energy.
+    fn lagrangian<T: Scalar>(&self, time: T, q: &Self::Vector<T>, v: &Self::Vector<T>) -> T;
+
+    /// Writes the applied force `f(t, q, v)`, which is not in L, into `force`; it is zero before. It counts with `FORCED = true`.
+    fn force<T: Scalar>(
+        &self,
+        _time: T,
+        _q: &Self::Vector<T>,
+        _v: &Self::Vector<T>,
+        _force: &mut Self::Vector<T>,
+    ) {
+    }
+}
+
+impl<L: Lagrangian> Lagrangian for &L {
+    type Vector<T: Scalar> = L::Vector<T>;
+
+    const FORCED: bool = L::FORCED;
+
+    fn lagrangian<T: Scalar>(&self, time: T, q: &L::Vector<T>, v: &L::Vector<T>) -> T {
+        (**self).lagrangian(time, q, v)
+    }
+
+    fn force<T: Scalar>(
+        &self,
+        time: T,
+        q: &L::Vector<T>,
+        v: &L::Vector<T>,
+        force: &mut L::Vector<T>,
+    ) {
+        (**self).force(time, q, v, force);
+    }
+}

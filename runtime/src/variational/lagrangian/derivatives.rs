@@ -1,0 +1,147 @@
+//! The derivatives of a Lagrangian.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use num_traits::Zero;
+
+use crate::error::Error;
+use crate::number::{Scalar, Vector};
+use crate::number::hyper_dual::HyperDual;
+use crate::system::Lagrangian;
+
+/// The momentum and its rate at a state of positions and velocities, with their Jacobians, and room to evaluate them. Matrices are by rows.
+pub(crate) struct Derivatives<L: Lagrangian> {
+    q: L::Vector<HyperDual>,
+    v: L::Vector<HyperDual>,
+    force: L::Vector<HyperDual>,
+    /// L.
+    pub(crate) value: f64,
+    /// `∂L/∂v`
+    pub(crate) momentum: Vec<f64>,
+    /// `∂L/∂q + f`
+    pub(crate) rate: Vec<f64>,
+    /// `∂²L/∂v∂q`
+    pub(crate) momentum_by_position: Vec<f64>,
+    /// `∂²L/∂v∂v`
+    pub(crate) momentum_by_velocity: Vec<f64>,
+    /// `∂²L/∂q∂q + ∂f/∂q`
+    pub(crate) rate_by_position: Vec<f64>,
+    /// `∂²L/∂q∂v + ∂f/∂v`
+    pub(crate) rate_by_velocity: Vec<f64>,
+}
+
+impl<L: Lagrangian> Derivatives<L> {
+    /// Room for vectors of this many components.
+    pub(crate) fn new(n: usize) -> Result<Self, Error> {
+        let zeros = || L::Vector::from_slice(&vec![HyperDual::zero(); n]);
+        let matrix = || vec![0.0; n * n];
+        Ok(Self {
+            q: zeros()?,
+            v: zeros()?,
+            force: zeros()?,
+            value: 0.0,
+            momentum: vec![0.0; n],
+            rate: vec![0.0; n],
+            momentum_by_position: matrix(),
+            momentum_by_velocity: matrix(),
+            rate_by_position: matrix(),
+            rate_by_velocity: matrix(),
+        })
+    }
+
+    /// Evaluates the value, the momentum and its rate, in one evaluation for each component.
+    pub(crate) fn first(&mut self, lagrangian: &L, time: f64, q: &[f64], v: &[f64]) {
+        self.place(q, v);
+        for k in 0..q.len() {
+            self.q.as_mut_slice()[k].first = 1.0;
+            self.v.as_mut_slice()[k].second = 1.0;
+            let dual = lagrangian.lagrangian(HyperDual::from_f64(time), &self.q, &self.v);
+            self.q.as_mut_slice()[k].first = 0.0;
+            self.v.as_mut_slice()[k].second = 0.0;
+            self.value = dual.value;
+            (self.rate[k], self.momentum[k]) = (dual.first, dual.second);
+        }
+        if L::FORCED {
+            self.evaluate_force(lagrangian, time);
+            for (rate, force) in self.rate.iter_mut().zip(self.force.as_slice()) {
+                *rate += force.value;
+            }
+        }
+    }
+
+    /// Evaluates everything: n(2n + 1) evaluations for n components, and n of a force.
+    pub(crate) fn second(&mut self, lagrangian: &L, time: f64, q: &[f64], v: &[f64]) {
+        self.place(q, v);
+        let n = q.len();
+        for row in 0..n {
+            self.q.as_mut_slice()[row].first = 1.0;
+            for column in 0..n {
+                self.v.as_mut_slice()[column].second = 1.0;
+                let dual = lagrangian.lagrangian(HyperDual::from_f64(time), &self.q, &self.v);
+                self.v.as_mut_slice()[column].second = 0.0;
+                self.value = dual.value;
+                (self.rate[row], self.momentum[column]) = (dual.first, dual.second);
+                self.rate_by_velocity[row * n + column] = dual.mixed;
+                self.momentum_by_position[column * n + row] = dual.mixed;
+            }
+            for column in row..n {
+                self.q.as_mut_slice()[column].second = 1.0;
+                let dual = lagrangian.lagrangian(HyperDual::from_f64(time), &self.q, &self.v);
+                self.q.as_mut_slice()[column].second = 0.0;
+                self.rate_by_position[row * n + column] = dual.mixed;
+                self.rate_by_position[column * n + row] = dual.mixed;
+            }
+            self.q.as_mut_slice()[row].first = 0.0;
+            self.v.as_mut_slice()[row].first = 1.0;
+            for column in row..n {
+                self.v.as_mut_slice()[column].second = 1.0;
+                let dual = lagrangian.lagrangian(HyperDual::from_f64(time), &self.q, &self.v);
+                self.v.as_mut_slice()[column].second = 0.0;
+                self.momentum_by_velocity[row * n + column] = dual.mixed;
+                self.momentum_by_velocity[column * n + row] = dual.mixed;
+            }
+            self.v.as_mut_slice()[row].first = 0.0;
+        }
+        if L::FORCED {
+            self.add_force(lagrangian, time);
+        }
+    }
+
+    /// Whether the value, the momentum and its rate are finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        let mut numbers = self.momentum.iter().chain(&self.rate);
+        self.value.is_finite() && numbers.all(|number| number.is_finite())
+    }
+
+    fn place(&mut self, q: &[f64], v: &[f64]) {
+        for (duals, values) in [(&mut self.q, q), (&mut self.v, v)] {
+            let pairs = duals.as_mut_slice().iter_mut().zip(values);
+            pairs.for_each(|(dual, &value)| *dual = HyperDual::from_f64(value));
+        }
+    }
+
+    fn evaluate_force(&mut self, lagrangian: &L, time: f64) {
+        self.force.as_mut_slice().fill(HyperDual::zero());
+        let time = HyperDual::from_f64(time);
+        lagrangian.force(time, &self.q, &self.v, &mut self.force);
+    }
+
+    fn add_force(&mut self, lagrangian: &L, time: f64) {
+        let n = self.rate.len();
+        for column in 0..n {
+            self.q.as_mut_slice()[column].first = 1.0;
+            self.v.as_mut_slice()[column].second = 1.0;
+            self.evaluate_force(lagrangian, time);
+            self.q.as_mut_slice()[column].first = 0.0;
+            self.v.as_mut_slice()[column].second = 0.0;
+            for (row, force) in self.force.as_slice().iter().enumerate() {
+                self.rate_by_position[row * n + column] += force.first;
+                self.rate_by_velocity[row * n + column] += force.second;
+                if column == 0 {
+                    self.rate[row] += force.value;
+                }
+            }
+        }
+    }
+}
