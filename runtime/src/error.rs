@@ -420,11 +420,10 @@ pub enum Error {
         iterations: u32,
     },
 
-    /// The matrix D1D2 of a discrete Lagrangian is singular: the position at the end of the step does not follow from the momentum at its
-    /// start.
+    /// A Lagrangian, discrete or not, is singular: the position at the end of the step does not follow from the momentum at its start.
     #[error(
-        "step {step} of size {step_size} at time {time}: D1D2 of the discrete Lagrangian is singular (pivot {pivot:e} for component \
-         {component}); take a Lagrangian that determines every velocity, or keep away from this position"
+        "step {step} of size {step_size} at time {time}: the Lagrangian does not determine component {component} at the end of the step \
+         (pivot {pivot:e}); take a Lagrangian that determines every velocity, or keep away from this position"
     )]
     IrregularLagrangian {
         /// Time at the start of the step.
@@ -503,6 +502,8 @@ pub enum Quantity {
     Torque,
     /// A discrete Lagrangian, its derivatives or its forces.
     DiscreteLagrangian,
+    /// A Lagrangian, its first derivatives or its force.
+    Lagrangian,
 }
 
 impl fmt::Display for Quantity {
@@ -519,6 +520,7 @@ impl fmt::Display for Quantity {
             Self::Attitude => "attitude",
             Self::Torque => "torque",
             Self::DiscreteLagrangian => "discrete Lagrangian",
+            Self::Lagrangian => "Lagrangian",
         })
     }
 }

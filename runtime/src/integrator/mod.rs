@@ -3,6 +3,7 @@
 pub(crate) mod clock;
 pub(crate) mod last_event;
 pub(crate) mod last_step;
+pub(crate) mod pace;
 pub(crate) mod partial_step;
 pub(crate) mod retry;
 pub(crate) mod statistics;

@@ -7,8 +7,7 @@ use super::body::RigidBody;
 use super::free_step::{NoRotation, rotation};
 use super::state::RotationState;
 use crate::error::{Error, Quantity};
-use crate::integrator::clock::{Clock, uniform};
-use crate::integrator::validation::check_step_size;
+use crate::integrator::pace::{Pace, Stepper};
 use crate::method::Method;
 use crate::method::symmetric_steps::{Part, SymmetricSteps};
 
@@ -37,10 +36,8 @@ pub struct RotationIntegrator<B> {
     body: B,
     moments: Vector3<f64>,
     steps: SymmetricSteps,
-    step_size: f64,
-    clock: Clock,
+    pace: Pace,
     course: Course,
-    taken: u64,
     state: RotationState,
 }
 
@@ -109,7 +106,7 @@ impl<B: RigidBody> RotationIntegrator<B> {
         state: RotationState,
         step_size: f64,
     ) -> Result<Self, Error> {
-        check_step_size(step_size)?;
+        let pace = Pace::new(state.time, step_size)?;
         let moments = body.moments();
         for (axis, &value) in moments.iter().enumerate() {
             if !(value > 0.0 && value.is_finite()) {
@@ -121,10 +118,8 @@ impl<B: RigidBody> RotationIntegrator<B> {
             body,
             moments,
             steps,
-            step_size,
-            clock: Clock::new(state.time, step_size),
+            pace,
             course: Course::new(&state),
-            taken: 0,
             state,
         })
     }
@@ -135,8 +130,7 @@ impl<B: RigidBody> RotationIntegrator<B> {
     ///
     /// [`Error::HalfTurn`], [`Error::NoEndOfStep`], [`Error::NonFinite`] for a torque, [`Error::TimeResolution`]; the state is untouched.
     pub fn step(&mut self) -> Result<&RotationState, Error> {
-        self.advance(self.step_size, self.clock.next())?;
-        self.clock.tick();
+        self.one_step()?;
         Ok(&self.state)
     }
 
@@ -146,19 +140,8 @@ impl<B: RigidBody> RotationIntegrator<B> {
     ///
     /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last good step.
     pub fn integrate_to(&mut self, end: f64) -> Result<&RotationState, Error> {
-        let (count, size) = uniform(self.state.time, end, self.step_size)?;
-        let mut clock = Clock::new(self.state.time, size);
-        let mut outcome = Ok(());
-        for number in 1..=count {
-            let time = if number == count { end } else { clock.next() };
-            outcome = self.advance(size, time);
-            if outcome.is_err() {
-                break;
-            }
-            clock.tick();
-        }
-        self.clock = Clock::new(self.state.time, self.step_size);
-        outcome.map(|()| &self.state)
+        self.steps_to(end)?;
+        Ok(&self.state)
     }
 
     /// The present state, rounded.
@@ -189,12 +172,12 @@ impl<B: RigidBody> RotationIntegrator<B> {
 
     /// The step size.
     pub const fn step_size(&self) -> f64 {
-        self.step_size
+        self.pace.step_size()
     }
 
     /// Steps taken.
     pub const fn steps(&self) -> u64 {
-        self.taken
+        self.pace.taken()
     }
 
     /// Changes the step size; negative to go backward.
@@ -203,32 +186,7 @@ impl<B: RigidBody> RotationIntegrator<B> {
     ///
     /// [`Error::StepSize`]; the one before then holds.
     pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
-        check_step_size(step_size)?;
-        self.step_size = step_size;
-        self.clock = Clock::new(self.state.time, step_size);
-        Ok(())
-    }
-
-    /// One step of size `size`, to the time `end`.
-    fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
-        let start = self.state.time;
-        if end == start {
-            return Err(Error::TimeResolution {
-                time: end,
-                step_size: size,
-            });
-        }
-        let mut course = self.course;
-        for part in self.steps.parts(start, size, end) {
-            self.kick_free_step_kick(&mut course, part)
-                .map_err(|failure| failure.error(start, size, self.taken + 1))?;
-        }
-        let attitude = course.attitude.rounded();
-        let momentum = attitude.inverse_transform_vector(&course.spatial());
-        self.course = course;
-        self.state = RotationState::new(end, attitude, momentum);
-        self.taken += 1;
-        Ok(())
+        self.pace.set_step_size(self.state.time, step_size)
     }
 
     /// A step of order 2.
@@ -256,6 +214,30 @@ impl<B: RigidBody> RotationIntegrator<B> {
         } else {
             Err(Failure::Torque)
         }
+    }
+}
+
+impl<B: RigidBody> Stepper for RotationIntegrator<B> {
+    fn pace(&mut self) -> &mut Pace {
+        &mut self.pace
+    }
+
+    fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
+        let start = self.state.time;
+        let mut course = self.course;
+        for part in self.steps.parts(start, size, end) {
+            self.kick_free_step_kick(&mut course, part)
+                .map_err(|failure| failure.error(start, size, number))?;
+        }
+        let attitude = course.attitude.rounded();
+        let momentum = attitude.inverse_transform_vector(&course.spatial());
+        self.course = course;
+        self.state = RotationState::new(end, attitude, momentum);
+        Ok(())
     }
 }
 

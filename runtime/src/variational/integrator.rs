@@ -3,10 +3,11 @@
 use num_traits::Float;
 
 use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
-use super::regular::{Factors, Singular};
+use super::failure::Failure;
+use super::regular::Factors;
 use crate::error::{Error, Quantity};
-use crate::integrator::clock::{Clock, uniform};
-use crate::integrator::validation::{check_state, check_step_size};
+use crate::integrator::pace::{Pace, Stepper};
+use crate::integrator::validation::check_state;
 use crate::method::Method;
 use crate::method::symmetric_steps::{Part, SymmetricSteps};
 use crate::number::Vector;
@@ -62,8 +63,7 @@ use crate::state::State;
 pub struct VariationalIntegrator<L: DiscreteLagrangian> {
     lagrangian: L,
     steps: SymmetricSteps,
-    step_size: f64,
-    clock: Clock,
+    pace: Pace,
     state: State<L::Vector<f64>>,
     /// The state inside a step.
     next: State<L::Vector<f64>>,
@@ -71,7 +71,6 @@ pub struct VariationalIntegrator<L: DiscreteLagrangian> {
     derivatives: Derivatives<L>,
     factors: Factors,
     action: Option<f64>,
-    taken: u64,
 }
 
 /// Iterations after which Newton's iteration does not converge any more: it takes 3 to 6.
@@ -111,20 +110,18 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
         state: State<L::Vector<f64>>,
         step_size: f64,
     ) -> Result<Self, Error> {
-        check_step_size(step_size)?;
+        let pace = Pace::new(state.time, step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
         Ok(Self {
             lagrangian,
             steps,
-            step_size,
-            clock: Clock::new(state.time, step_size),
+            pace,
             next: state.clone(),
             q1: state.q.clone(),
             derivatives: Derivatives::new(&state.q)?,
             factors: Factors::new(state.q.dimension()),
             state,
             action: None,
-            taken: 0,
         })
     }
 
@@ -134,8 +131,7 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
     ///
     /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is untouched.
     pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
-        self.advance(self.step_size, self.clock.next())?;
-        self.clock.tick();
+        self.one_step()?;
         Ok(&self.state)
     }
 
@@ -145,19 +141,8 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
     ///
     /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last good step.
     pub fn integrate_to(&mut self, end: f64) -> Result<&State<L::Vector<f64>>, Error> {
-        let (count, size) = uniform(self.state.time, end, self.step_size)?;
-        let mut clock = Clock::new(self.state.time, size);
-        let mut outcome = Ok(());
-        for number in 1..=count {
-            let time = if number == count { end } else { clock.next() };
-            outcome = self.advance(size, time);
-            if outcome.is_err() {
-                break;
-            }
-            clock.tick();
-        }
-        self.clock = Clock::new(self.state.time, self.step_size);
-        outcome.map(|()| &self.state)
+        self.steps_to(end)?;
+        Ok(&self.state)
     }
 
     /// The present state.
@@ -177,12 +162,12 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
 
     /// The step size.
     pub const fn step_size(&self) -> f64 {
-        self.step_size
+        self.pace.step_size()
     }
 
     /// Steps taken.
     pub const fn steps(&self) -> u64 {
-        self.taken
+        self.pace.taken()
     }
 
     /// Changes the step size; negative to go backward.
@@ -191,35 +176,7 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
     ///
     /// [`Error::StepSize`]; the one before then holds.
     pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
-        check_step_size(step_size)?;
-        self.step_size = step_size;
-        self.clock = Clock::new(self.state.time, step_size);
-        Ok(())
-    }
-
-    /// One step of size `size`, to the time `end`.
-    fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
-        let start = self.state.time;
-        if end == start {
-            return Err(Error::TimeResolution {
-                time: end,
-                step_size: size,
-            });
-        }
-        let (from, to) = (&self.state, &mut self.next);
-        to.q.as_mut_slice().copy_from_slice(from.q.as_slice());
-        to.p.as_mut_slice().copy_from_slice(from.p.as_slice());
-        let mut action = 0.0;
-        for part in self.steps.parts(start, size, end) {
-            self.part(part)
-                .map_err(|failure| failure.error(start, size, self.taken + 1))?;
-            action += self.derivatives.value;
-        }
-        self.next.time = end;
-        core::mem::swap(&mut self.state, &mut self.next);
-        self.action = Some(action);
-        self.taken += 1;
-        Ok(())
+        self.pace.set_step_size(self.state.time, step_size)
     }
 
     /// A step of the discrete Lagrangian, from `next` to `next`.
@@ -239,7 +196,7 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
         }
         let mut numbers = p.as_slice().iter();
         if !(self.derivatives.value.is_finite() && numbers.all(|number| number.is_finite())) {
-            return Err(Failure::NonFinite);
+            return Err(Failure::NonFinite { stage: None });
         }
         core::mem::swap(q, &mut self.q1);
         Ok(())
@@ -259,7 +216,7 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
             };
             self.derivatives.second(&self.lagrangian, at);
             if !self.derivatives.is_finite() {
-                return Err(Failure::NonFinite);
+                return Err(Failure::NonFinite { stage: None });
             }
             self.factors
                 .factor(&self.derivatives.mixed)
@@ -279,41 +236,37 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
             }
             residual = changed / largest;
         }
-        Err(Failure::NotFound { residual })
+        Err(Failure::NotFound {
+            residual,
+            iterations: MAX_ITERATIONS,
+        })
     }
 }
 
-/// Why a step was not taken.
-enum Failure {
-    NonFinite,
-    Singular(Singular),
-    NotFound { residual: f64 },
-}
+impl<L: DiscreteLagrangian> Stepper for VariationalIntegrator<L> {
+    fn pace(&mut self) -> &mut Pace {
+        &mut self.pace
+    }
 
-impl Failure {
-    fn error(self, time: f64, step_size: f64, step: u64) -> Error {
-        match self {
-            Self::NonFinite => Error::NonFinite {
-                time,
-                step_size,
-                step,
-                what: Quantity::DiscreteLagrangian,
-                stage: None,
-            },
-            Self::Singular(Singular { component, pivot }) => Error::IrregularLagrangian {
-                time,
-                step_size,
-                step,
-                component,
-                pivot,
-            },
-            Self::NotFound { residual } => Error::NoEndOfStep {
-                time,
-                step_size,
-                step,
-                residual,
-                iterations: MAX_ITERATIONS,
-            },
+    fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
+        let start = self.state.time;
+        let (from, to) = (&self.state, &mut self.next);
+        to.q.as_mut_slice().copy_from_slice(from.q.as_slice());
+        to.p.as_mut_slice().copy_from_slice(from.p.as_slice());
+        let mut action = 0.0;
+        for part in self.steps.parts(start, size, end) {
+            self.part(part).map_err(|failure| {
+                failure.error(Quantity::DiscreteLagrangian, start, size, number)
+            })?;
+            action += self.derivatives.value;
         }
+        self.next.time = end;
+        core::mem::swap(&mut self.state, &mut self.next);
+        self.action = Some(action);
+        Ok(())
     }
 }

@@ -6,6 +6,7 @@
 
 mod checks;
 mod discrete_lagrangian;
+mod failure;
 pub(crate) mod generating_function;
 mod integrator;
 mod lagrangian;

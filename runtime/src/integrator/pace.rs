@@ -1,0 +1,90 @@
+//! Steps of one size, for integrators without stages.
+
+use super::clock::{Clock, uniform};
+use super::validation::check_step_size;
+use crate::error::Error;
+
+/// The step size, the times of the steps, and their number.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pace {
+    step_size: f64,
+    clock: Clock,
+    taken: u64,
+}
+
+impl Pace {
+    /// Steps of this size from `time` on.
+    pub(crate) fn new(time: f64, step_size: f64) -> Result<Self, Error> {
+        check_step_size(step_size)?;
+        Ok(Self {
+            step_size,
+            clock: Clock::new(time, step_size),
+            taken: 0,
+        })
+    }
+
+    pub(crate) const fn step_size(&self) -> f64 {
+        self.step_size
+    }
+
+    /// Steps taken.
+    pub(crate) const fn taken(&self) -> u64 {
+        self.taken
+    }
+
+    /// Steps of another size from `time` on.
+    pub(crate) fn set_step_size(&mut self, time: f64, step_size: f64) -> Result<(), Error> {
+        let taken = self.taken;
+        *self = Self {
+            taken,
+            ..Self::new(time, step_size)?
+        };
+        Ok(())
+    }
+}
+
+/// Something that takes steps.
+pub(crate) trait Stepper {
+    fn pace(&mut self) -> &mut Pace;
+
+    fn time(&self) -> f64;
+
+    /// Takes a step of size `size` to the time `end`; its number is `number`. Where it fails nothing has changed.
+    fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error>;
+
+    /// One step: after `k` of them the time is `start + k h`.
+    fn one_step(&mut self) -> Result<(), Error> {
+        let pace = *self.pace();
+        self.counted(pace.step_size, pace.clock.next())?;
+        self.pace().clock.tick();
+        Ok(())
+    }
+
+    /// The smallest number of equal steps to `end` that are no longer than the step size.
+    fn steps_to(&mut self, end: f64) -> Result<(), Error> {
+        let start = self.time();
+        let step_size = self.pace().step_size;
+        let (count, size) = uniform(start, end, step_size)?;
+        let clock = Clock::new(start, size);
+        let outcome = (1..=count).try_for_each(|number| {
+            let last = number == count;
+            self.counted(size, if last { end } else { clock.later(number) })
+        });
+        let time = self.time();
+        self.pace().clock = Clock::new(time, step_size);
+        outcome
+    }
+
+    fn counted(&mut self, size: f64, end: f64) -> Result<(), Error> {
+        if end == self.time() {
+            return Err(Error::TimeResolution {
+                time: end,
+                step_size: size,
+            });
+        }
+        let number = self.pace().taken + 1;
+        self.advance(size, end, number)?;
+        self.pace().taken = number;
+        Ok(())
+    }
+}

@@ -1,0 +1,49 @@
+//! Steps that are not taken.
+
+use super::regular::Singular;
+use crate::error::{Error, Quantity};
+
+/// Why a step was not taken.
+pub(super) enum Failure {
+    /// Something is not finite: at this stage, from 1.
+    NonFinite {
+        stage: Option<usize>,
+    },
+    Singular(Singular),
+    NotFound {
+        residual: f64,
+        iterations: u32,
+    },
+}
+
+impl Failure {
+    /// The error of the step with this number; `what` is not finite.
+    pub(super) fn error(self, what: Quantity, time: f64, step_size: f64, step: u64) -> Error {
+        match self {
+            Self::NonFinite { stage } => Error::NonFinite {
+                time,
+                step_size,
+                step,
+                what,
+                stage,
+            },
+            Self::Singular(Singular { component, pivot }) => Error::IrregularLagrangian {
+                time,
+                step_size,
+                step,
+                component,
+                pivot,
+            },
+            Self::NotFound {
+                residual,
+                iterations,
+            } => Error::NoEndOfStep {
+                time,
+                step_size,
+                step,
+                residual,
+                iterations,
+            },
+        }
+    }
+}
