@@ -438,6 +438,18 @@ pub enum Error {
         pivot: f64,
     },
 
+    /// No velocity of a Lagrangian belongs to a momentum.
+    #[error(
+        "no velocity was found for this momentum at time {time}{}; take a Lagrangian whose ∂²L/∂v∂v is regular, and a momentum that it can have",
+        Undetermined(*component)
+    )]
+    NoVelocity {
+        /// The time.
+        time: f64,
+        /// The component that ∂L/∂v does not determine, from 0; `None` where Newton's iteration does not converge.
+        component: Option<usize>,
+    },
+
     /// A rigid body turns by π or more in a step, where the rotation of the step is no longer unique.
     #[error(
         "step {step} of size {step_size} at time {time}: the body turns by {angle} rad, and a step is for less than half a turn; take a \
@@ -521,6 +533,20 @@ impl fmt::Display for Quantity {
             Self::Torque => "torque",
             Self::DiscreteLagrangian => "discrete Lagrangian",
             Self::Lagrangian => "Lagrangian",
+        })
+    }
+}
+
+/// The component that is not determined, or nothing.
+struct Undetermined(Option<usize>);
+
+impl fmt::Display for Undetermined {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.map_or(Ok(()), |component| {
+            write!(
+                formatter,
+                ": ∂L/∂v does not determine component {component}"
+            )
         })
     }
 }

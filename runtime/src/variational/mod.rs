@@ -2,7 +2,7 @@
 //!
 //! A method has a [generating function](generating_function()) for each of its steps, and [stages](StagesOfStep) with the work and the impulse
 //! of applied forces. A [`DiscreteLagrangian`] that is given has steps that it generates, by a [`VariationalIntegrator`]; what holds for it
-//! is asked of a [`DiscretePath`].
+//! is asked of a [`DiscretePath`]. A [`LagrangianIntegrator`] takes the steps of a method for a [`Lagrangian`](crate::Lagrangian).
 
 mod checks;
 mod discrete_lagrangian;
@@ -19,5 +19,6 @@ pub use checks::DiscretePath;
 pub use discrete_lagrangian::DiscreteLagrangian;
 pub use generating_function::{GeneratingFunction, generating_function};
 pub use integrator::VariationalIntegrator;
+pub use lagrangian::{LagrangianIntegrator, momentum_of_velocity, velocity_of_momentum};
 pub use stages::{StageOfStep, StagesOfStep};
 pub use symmetry::momentum_map;

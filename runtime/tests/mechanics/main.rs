@@ -5,6 +5,7 @@ mod forces;
 mod formulas;
 mod friction;
 mod holonomic;
+mod lagrangians;
 mod nonholonomic;
 mod nonholonomic_formulas;
 mod nonholonomic_start;

@@ -1,3 +1,10 @@
-//! Lagrangians: their derivatives, and the steps that need no Hamiltonian.
+//! Lagrangians: momenta and velocities, and the steps that need no Hamiltonian.
 
+mod coefficients;
 pub(crate) mod derivatives;
+mod integrator;
+mod legendre;
+mod stages;
+
+pub use integrator::LagrangianIntegrator;
+pub use legendre::{momentum_of_velocity, velocity_of_momentum};

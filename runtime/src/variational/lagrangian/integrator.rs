@@ -1,0 +1,218 @@
+//! Steps of a Lagrangian.
+
+use super::coefficients::StageCoefficients;
+use super::legendre::{momentum_of_velocity, velocity_of_momentum};
+use super::stages::{Stages, Start};
+use crate::error::{Error, Quantity};
+use crate::integrator::pace::{Pace, Stepper};
+use crate::integrator::validation::check_state;
+use crate::method::{Method, ProvedFor};
+use crate::number::Vector;
+use crate::state::State;
+use crate::system::{General, Lagrangian};
+
+/// Takes the steps of a partitioned Runge–Kutta method in Lagrangian form (Marsden & West 2001, 2.6.1):
+///
+/// ```text
+/// Q_i = q0 + h Σ_j a_ij V_j      P_i = p0 + h Σ_j ã_ij (∂L/∂q + f)_j      P_i = ∂L/∂v(t0 + c_i h, Q_i, V_i)
+/// q1 = q0 + h Σ_i b_i V_i        p1 = p0 + h Σ_i b̃_i (∂L/∂q + f)_i
+/// ```
+///
+/// $$ Q_i = q_0 + h \sum_j a_{ij} V_j \qquad P_i = p_0 + h \sum_j \tilde a_{ij} \Big( \frac{\partial L}{\partial q} + f \Big)_j \qquad
+/// P_i = \frac{\partial L}{\partial v}(t_0 + c_i h, Q_i, V_i) $$
+///
+/// They are the steps of the same method for the Hamiltonian of L, without it: the unknowns are the stage velocities. L need not be
+/// quadratic in v, and it may be degenerate if the method determines every velocity (Gauss methods do where L is linear in v).
+///
+/// Without a force the step has the discrete Lagrangian `Ld = h Σ_i b_i L(Q_i, V_i)`, whose value is [`action`](Self::action); it is
+/// symplectic, and conserves the momentum maps of linear symmetries of L.
+///
+/// # Cost
+///
+/// Newton's iteration begins with the velocities of the step before, and takes new derivatives when it contracts slowly. For s stages and
+/// n components these are s n(2n + 1) evaluations of L by hyper-dual numbers and the elimination of a full matrix of size sn; an iteration
+/// takes s n evaluations. A step allocates nothing. A step that fails leaves the state as it was.
+///
+/// ```
+/// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
+/// use symplectic::nalgebra::SVector;
+/// use symplectic::variational::LagrangianIntegrator;
+/// use symplectic::{Lagrangian, Scalar};
+///
+/// /// A relativistic particle in Kepler's potential: L = −√(1 − |v|²) + 1/|q|, with the speed of light 1.
+/// struct Relativistic;
+///
+/// impl Lagrangian for Relativistic {
+///     type Vector<T: Scalar> = SVector<T, 2>;
+///
+///     fn lagrangian<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, v: &SVector<T, 2>) -> T {
+///         q.dot(q).sqrt().recip() - (T::one() - v.dot(v)).sqrt()
+///     }
+/// }
+///
+/// # fn main() -> Result<(), symplectic::Error> {
+/// let (q, v) = (SVector::from([4.0, 0.0]), SVector::from([0.0, 0.4]));
+/// let mut run = LagrangianIntegrator::from_velocity(Gauss3, Relativistic, 0.0, q, v, 0.5)?;
+/// let energy = run.energy()?;
+/// run.integrate_to(1000.0)?;
+/// assert!((run.energy()? - energy).abs() < 1e-6);
+/// let state = run.state();
+/// let angular_momentum = 4.0 * 0.4 / (1.0_f64 - 0.16).sqrt();
+/// assert!((state.q.perp(&state.p) - angular_momentum).abs() < 1e-12);
+/// # Ok(())
+/// # }
+/// ```
+pub struct LagrangianIntegrator<L: Lagrangian> {
+    lagrangian: L,
+    pace: Pace,
+    state: State<L::Vector<f64>>,
+    next: State<L::Vector<f64>>,
+    stages: Stages<L>,
+    action: Option<f64>,
+}
+
+impl<L: Lagrangian> LagrangianIntegrator<L> {
+    /// An integrator at `state`, with steps of size `step_size`, negative to go backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`].
+    pub fn new<M: Method + ProvedFor<General>>(
+        _method: M,
+        lagrangian: L,
+        state: State<L::Vector<f64>>,
+        step_size: f64,
+    ) -> Result<Self, Error> {
+        let n = state.q.dimension();
+        check_state(state.time, &state.q, &state.p, n)?;
+        Ok(Self {
+            pace: Pace::new(state.time, step_size)?,
+            stages: Stages::new(StageCoefficients::of::<M>(), n)?,
+            next: state.clone(),
+            lagrangian,
+            state,
+            action: None,
+        })
+    }
+
+    /// [`new`](Self::new) with the momentum `∂L/∂v` of the velocity `v`.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Self::new), and [`Error::NonFiniteState`] where the momentum is not finite.
+    pub fn from_velocity<M: Method + ProvedFor<General>>(
+        method: M,
+        lagrangian: L,
+        time: f64,
+        q: L::Vector<f64>,
+        v: L::Vector<f64>,
+        step_size: f64,
+    ) -> Result<Self, Error> {
+        let p = momentum_of_velocity(&lagrangian, time, &q, &v)?;
+        Self::new(method, lagrangian, State::new(time, q, p), step_size)
+    }
+
+    /// Takes one step and returns the state after it. The time after `k` steps is `start + k h`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is untouched.
+    pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
+        self.one_step()?;
+        Ok(&self.state)
+    }
+
+    /// Goes to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last good step.
+    pub fn integrate_to(&mut self, end: f64) -> Result<&State<L::Vector<f64>>, Error> {
+        self.steps_to(end)?;
+        Ok(&self.state)
+    }
+
+    /// The present state.
+    pub const fn state(&self) -> &State<L::Vector<f64>> {
+        &self.state
+    }
+
+    /// The velocity of the present state.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`velocity_of_momentum`].
+    pub fn velocity(&self) -> Result<L::Vector<f64>, Error> {
+        let State { time, q, p } = &self.state;
+        velocity_of_momentum(&self.lagrangian, *time, q, p)
+    }
+
+    /// The energy `p·v − L` of the present state.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`velocity_of_momentum`].
+    pub fn energy(&self) -> Result<f64, Error> {
+        let State { time, q, p } = &self.state;
+        let v = self.velocity()?;
+        let pairs = p.as_slice().iter().zip(v.as_slice());
+        let kinetic: f64 = pairs.map(|(p, v)| p * v).sum();
+        Ok(kinetic - self.lagrangian.lagrangian(*time, q, &v))
+    }
+
+    /// The discrete Lagrangian `h Σ_i b_i L_i` of the last step; `None` before the first one.
+    pub const fn action(&self) -> Option<f64> {
+        self.action
+    }
+
+    /// The Lagrangian.
+    pub const fn lagrangian(&self) -> &L {
+        &self.lagrangian
+    }
+
+    /// The step size.
+    pub const fn step_size(&self) -> f64 {
+        self.pace.step_size()
+    }
+
+    /// Steps taken.
+    pub const fn steps(&self) -> u64 {
+        self.pace.taken()
+    }
+
+    /// Changes the step size; negative to go backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`]; the one before then holds.
+    pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
+        self.pace.set_step_size(self.state.time, step_size)
+    }
+}
+
+impl<L: Lagrangian> Stepper for LagrangianIntegrator<L> {
+    fn pace(&mut self) -> &mut Pace {
+        &mut self.pace
+    }
+
+    fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
+        let start = Start {
+            time: self.state.time,
+            size,
+            q: self.state.q.as_slice(),
+            p: self.state.p.as_slice(),
+        };
+        let (q1, p1) = (self.next.q.as_mut_slice(), self.next.p.as_mut_slice());
+        self.stages
+            .take(&self.lagrangian, start, q1, p1)
+            .map_err(|failure| failure.error(Quantity::Lagrangian, start.time, size, number))?;
+        self.next.time = end;
+        self.action = Some(self.stages.action(size));
+        core::mem::swap(&mut self.state, &mut self.next);
+        Ok(())
+    }
+}

@@ -1,0 +1,118 @@
+//! Momenta and velocities of a Lagrangian.
+
+use num_traits::Float;
+
+use super::derivatives::Derivatives;
+use crate::error::{Error, Quantity};
+use crate::integrator::validation::check_state;
+use crate::number::Vector;
+use crate::system::Lagrangian;
+use crate::variational::regular::Factors;
+
+/// The momentum `p = ∂L/∂v(t, q, v)`, with the dimension of `q`.
+///
+/// # Errors
+///
+/// [`Error::Dimension`] where `q` and `v` differ, [`Error::NonFiniteState`] where they or the momentum are not finite.
+pub fn momentum_of_velocity<L: Lagrangian>(
+    lagrangian: &L,
+    time: f64,
+    q: &L::Vector<f64>,
+    v: &L::Vector<f64>,
+) -> Result<L::Vector<f64>, Error> {
+    check_state(time, q, v, q.dimension())?;
+    let mut derivatives = Derivatives::new(q.dimension())?;
+    derivatives.first(lagrangian, time, q.as_slice(), v.as_slice());
+    if !derivatives.is_finite() {
+        let what = Quantity::Lagrangian;
+        return Err(Error::NonFiniteState { what });
+    }
+    let mut momentum = q.zeros_like();
+    momentum
+        .as_mut_slice()
+        .copy_from_slice(&derivatives.momentum);
+    Ok(momentum)
+}
+
+/// The velocity `v` with `∂L/∂v(t, q, v) = p`: Newton's iteration from `v = 0`, with changes halved that lead to where L is not finite.
+///
+/// # Errors
+///
+/// [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`], [`Error::NoVelocity`] where L does not determine the velocity or
+/// none is found.
+///
+/// ```
+/// use symplectic::nalgebra::SVector;
+/// use symplectic::variational::{momentum_of_velocity, velocity_of_momentum};
+/// use symplectic::{Lagrangian, Scalar};
+///
+/// /// A free particle at relativistic speeds: p = v/√(1 − v²).
+/// struct Free;
+///
+/// impl Lagrangian for Free {
+///     type Vector<T: Scalar> = SVector<T, 1>;
+///
+///     fn lagrangian<T: Scalar>(&self, _time: T, _q: &SVector<T, 1>, v: &SVector<T, 1>) -> T {
+///         -(T::one() - v[0] * v[0]).sqrt()
+///     }
+/// }
+///
+/// # fn main() -> Result<(), symplectic::Error> {
+/// let (q, v) = (SVector::from([0.0]), SVector::from([0.8]));
+/// let p = momentum_of_velocity(&Free, 0.0, &q, &v)?;
+/// assert!((p[0] - 4.0 / 3.0).abs() < 1e-15);
+/// assert!((velocity_of_momentum(&Free, 0.0, &q, &p)?[0] - 0.8).abs() < 1e-15);
+/// # Ok(())
+/// # }
+/// ```
+pub fn velocity_of_momentum<L: Lagrangian>(
+    lagrangian: &L,
+    time: f64,
+    q: &L::Vector<f64>,
+    p: &L::Vector<f64>,
+) -> Result<L::Vector<f64>, Error> {
+    let n = q.dimension();
+    check_state(time, q, p, n)?;
+    let mut derivatives = Derivatives::new(n)?;
+    let mut factors = Factors::new(n);
+    let mut velocity = q.zeros_like();
+    let mut change = q.zeros_like();
+    let not_found = |component| Error::NoVelocity { time, component };
+    let mut last = f64::INFINITY;
+    for _ in 0..MAX_ITERATIONS {
+        derivatives.second(lagrangian, time, q.as_slice(), velocity.as_slice());
+        let pairs = velocity.as_mut_slice().iter_mut();
+        let pairs = pairs.zip(change.as_mut_slice());
+        if !derivatives.is_finite() {
+            for (velocity, change) in pairs {
+                *change *= 0.5;
+                *velocity -= *change;
+            }
+            last = f64::INFINITY;
+            continue;
+        }
+        factors
+            .factor(&derivatives.momentum_by_velocity)
+            .map_err(|singular| not_found(Some(singular.component)))?;
+        let right = p.as_slice().iter().zip(&derivatives.momentum);
+        let step = factors.solve(right.map(|(p, momentum)| p - momentum));
+        let (mut changed, mut size) = (0.0_f64, 0.0_f64);
+        for ((velocity, change), &step) in pairs.zip(step) {
+            *velocity += step;
+            *change = step;
+            changed = changed.max(Float::abs(step));
+            size = size.max(Float::abs(*velocity));
+        }
+        // Quadratic convergence: roundings are left.
+        if changed <= 4.0 * f64::EPSILON * size
+            || (changed <= 1e-12 * size && changed >= last / 2.0)
+        {
+            return Ok(velocity);
+        }
+        last = changed;
+    }
+    Err(not_found(None))
+}
+
+/// Iterations and halvings together.
+const MAX_ITERATIONS: u32 = 200;

@@ -1,0 +1,275 @@
+//! The stages of a step in Lagrangian form.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use num_traits::Float;
+
+use super::coefficients::StageCoefficients;
+use super::derivatives::Derivatives;
+use crate::error::Error;
+use crate::system::Lagrangian;
+use crate::variational::failure::Failure;
+use crate::variational::regular::{Factors, Singular};
+
+/// The unknown velocities of a step, and what follows from them. Each list is of vectors one after the other.
+pub(super) struct Stages<L: Lagrangian> {
+    coefficients: StageCoefficients,
+    /// The unknowns `V_k`.
+    unknowns: Vec<f64>,
+    /// `P'_i`.
+    rates: Vec<f64>,
+    /// `L_i`.
+    values: Vec<f64>,
+    /// Position and velocity at a stage.
+    q: Vec<f64>,
+    v: Vec<f64>,
+    residual: Vec<f64>,
+    change: Vec<f64>,
+    matrix: Vec<f64>,
+    factors: Factors,
+    derivatives: Derivatives<L>,
+}
+
+/// The start of a step.
+#[derive(Clone, Copy)]
+pub(super) struct Start<'a> {
+    pub(super) time: f64,
+    pub(super) size: f64,
+    pub(super) q: &'a [f64],
+    pub(super) p: &'a [f64],
+}
+
+/// Iterations after which Newton's iteration does not converge any more.
+const MAX_ITERATIONS: u32 = 60;
+/// Halvings of a change that leads to where L is not finite.
+const MAX_HALVINGS: u32 = 60;
+/// A matrix is kept while the changes become smaller by this factor.
+const CONTRACTION: f64 = 0.25;
+/// Relative to the velocities: changes below the first are roundings, and below the second they may be where they become no smaller.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+const STATIONARY: f64 = 1e-9;
+
+impl<L: Lagrangian> Stages<L> {
+    /// Room for vectors of `n` components.
+    pub(super) fn new(coefficients: StageCoefficients, n: usize) -> Result<Self, Error> {
+        let (stages, unknowns) = (coefficients.stages(), coefficients.unknowns());
+        let size = unknowns * n;
+        Ok(Self {
+            unknowns: vec![0.0; size],
+            rates: vec![0.0; stages * n],
+            values: vec![0.0; stages],
+            q: vec![0.0; n],
+            v: vec![0.0; n],
+            residual: vec![0.0; size],
+            change: vec![0.0; size],
+            matrix: vec![0.0; size * size],
+            factors: Factors::new(size),
+            derivatives: Derivatives::new(n)?,
+            coefficients,
+        })
+    }
+
+    /// Takes a step, and writes its end.
+    pub(super) fn take(
+        &mut self,
+        lagrangian: &L,
+        start: Start<'_>,
+        q1: &mut [f64],
+        p1: &mut [f64],
+    ) -> Result<(), Failure> {
+        self.find(lagrangian, start)?;
+        self.end(start, q1, p1);
+        let mut numbers = q1.iter().chain(p1.iter());
+        if numbers.all(|number| number.is_finite()) {
+            Ok(())
+        } else {
+            Err(Failure::NonFinite { stage: None })
+        }
+    }
+
+    /// Finds the stages: Newton's iteration, from the unknowns of the step before.
+    fn find(&mut self, lagrangian: &L, start: Start<'_>) -> Result<(), Failure> {
+        let (mut fresh, mut last) = (true, f64::INFINITY);
+        self.evaluate(lagrangian, start, fresh)?;
+        for _ in 0..MAX_ITERATIONS {
+            if fresh {
+                self.factor(start.q.len())?;
+            }
+            let change = self.factors.solve(self.residual.iter().map(|entry| -entry));
+            self.change.copy_from_slice(change);
+            for (unknown, change) in self.unknowns.iter_mut().zip(&self.change) {
+                *unknown += change;
+            }
+            let (changed, size) = (largest(&self.change), largest(&self.unknowns));
+            let slow = changed > CONTRACTION * last;
+            let done = changed <= ROUNDING * size || (slow && changed <= STATIONARY * size);
+            let whole = self.evaluate_on_the_way(lagrangian, start, slow && !done)?;
+            if done && whole {
+                return Ok(());
+            }
+            fresh = slow || !whole;
+            last = if whole { changed } else { f64::INFINITY };
+        }
+        Err(Failure::NotFound {
+            residual: last / largest(&self.unknowns),
+            iterations: MAX_ITERATIONS,
+        })
+    }
+
+    fn factor(&mut self, n: usize) -> Result<(), Failure> {
+        self.factors.factor(&self.matrix).map_err(|singular| {
+            Failure::Singular(Singular {
+                component: singular.component % n,
+                ..singular
+            })
+        })
+    }
+
+    /// Evaluates where the last change has led; if something is not finite there, after as many halvings of the change as it takes. Returns
+    /// whether the change is whole.
+    fn evaluate_on_the_way(
+        &mut self,
+        lagrangian: &L,
+        start: Start<'_>,
+        with_matrix: bool,
+    ) -> Result<bool, Failure> {
+        let mut outcome = self.evaluate(lagrangian, start, with_matrix);
+        if outcome.is_ok() {
+            return Ok(true);
+        }
+        for _ in 0..MAX_HALVINGS {
+            for (unknown, change) in self.unknowns.iter_mut().zip(&mut self.change) {
+                *change *= 0.5;
+                *unknown -= *change;
+            }
+            outcome = self.evaluate(lagrangian, start, true);
+            if outcome.is_ok() {
+                break;
+            }
+        }
+        outcome.map(|()| false)
+    }
+
+    /// Evaluates the stages, the residual of the equations, and with `with_matrix` its derivative by the unknowns.
+    fn evaluate(
+        &mut self,
+        lagrangian: &L,
+        start: Start<'_>,
+        with_matrix: bool,
+    ) -> Result<(), Failure> {
+        let n = start.q.len();
+        for (row, &factor) in self
+            .residual
+            .chunks_exact_mut(n)
+            .zip(&self.coefficients.start)
+        {
+            for (residual, p) in row.iter_mut().zip(start.p) {
+                *residual = -factor * p;
+            }
+        }
+        if with_matrix {
+            self.matrix.fill(0.0);
+        }
+        for stage in 0..self.coefficients.stages() {
+            self.place(start, stage);
+            let time = start.time + self.coefficients.nodes[stage] * start.size;
+            if with_matrix {
+                self.derivatives.second(lagrangian, time, &self.q, &self.v);
+            } else {
+                self.derivatives.first(lagrangian, time, &self.q, &self.v);
+            }
+            if !self.derivatives.is_finite() {
+                return Err(Failure::NonFinite {
+                    stage: Some(stage + 1),
+                });
+            }
+            self.values[stage] = self.derivatives.value;
+            self.rates[stage * n..][..n].copy_from_slice(&self.derivatives.rate);
+            self.add(stage, start.size, with_matrix);
+        }
+        Ok(())
+    }
+
+    /// Position and velocity at a stage.
+    fn place(&mut self, start: Start<'_>, stage: usize) {
+        self.q.fill(0.0);
+        self.v.fill(0.0);
+        let rows = [
+            (&mut self.q, &self.coefficients.positions[stage]),
+            (&mut self.v, &self.coefficients.velocities[stage]),
+        ];
+        for (out, row) in rows {
+            add_combination(out, row, &self.unknowns);
+        }
+        for (q, q0) in self.q.iter_mut().zip(start.q) {
+            *q = q0 + start.size * *q;
+        }
+    }
+
+    /// Adds what a stage contributes to the equations.
+    fn add(&mut self, stage: usize, h: f64, with_matrix: bool) {
+        let (n, size) = (self.q.len(), self.residual.len());
+        let (coefficients, at) = (&self.coefficients, &self.derivatives);
+        let rows = coefficients.forces.iter().zip(&coefficients.momenta);
+        for (k, (of_forces, of_momenta)) in rows.enumerate() {
+            let (of_force, of_momentum) = (h * of_forces[stage], of_momenta[stage]);
+            for i in 0..n {
+                self.residual[k * n + i] += of_force * at.rate[i] + of_momentum * at.momentum[i];
+            }
+            if !with_matrix || (of_force == 0.0 && of_momentum == 0.0) {
+                continue;
+            }
+            let columns = coefficients.positions[stage]
+                .iter()
+                .zip(&coefficients.velocities[stage]);
+            for (l, (position, &velocity)) in columns.enumerate() {
+                let position = h * position;
+                for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+                    let entry = i * n + j;
+                    let rate = position * at.rate_by_position[entry]
+                        + velocity * at.rate_by_velocity[entry];
+                    let momentum = position * at.momentum_by_position[entry]
+                        + velocity * at.momentum_by_velocity[entry];
+                    self.matrix[(k * n + i) * size + l * n + j] +=
+                        of_force * rate + of_momentum * momentum;
+                }
+            }
+        }
+    }
+
+    /// Writes the end of the step whose stages are found.
+    fn end(&self, start: Start<'_>, q1: &mut [f64], p1: &mut [f64]) {
+        let StageCoefficients { end, weights, .. } = &self.coefficients;
+        for (out, from, row, vectors) in [
+            (q1, start.q, end, &self.unknowns),
+            (p1, start.p, weights, &self.rates),
+        ] {
+            out.fill(0.0);
+            add_combination(out, row, vectors);
+            for (out, from) in out.iter_mut().zip(from) {
+                *out = from + start.size * *out;
+            }
+        }
+    }
+
+    /// `h Σ_i b_i L_i`, the value of the discrete Lagrangian.
+    pub(super) fn action(&self, size: f64) -> f64 {
+        let terms = self.coefficients.weights.iter().zip(&self.values);
+        size * terms.map(|(weight, value)| weight * value).sum::<f64>()
+    }
+}
+
+/// Adds `Σ_k row_k vector_k` to `out`.
+fn add_combination(out: &mut [f64], row: &[f64], vectors: &[f64]) {
+    for (factor, vector) in row.iter().zip(vectors.chunks_exact(out.len())) {
+        for (out, component) in out.iter_mut().zip(vector) {
+            *out += factor * component;
+        }
+    }
+}
+
+fn largest(numbers: &[f64]) -> f64 {
+    let sizes = numbers.iter().map(|&number| Float::abs(number));
+    sizes.fold(0.0, f64::max)
+}
