@@ -137,6 +137,22 @@ pub(crate) fn splitting(definition: &Definition) -> Result<Option<Exact>, ErrorK
     sequence.map(|sequence| sequence.exact()).transpose()
 }
 
+/// The number of functions of the basis, where the quadrature formula has more nodes.
+///
+/// # Errors
+/// Those of reading the definition.
+pub(crate) fn fewer_functions(definition: &Definition) -> Result<Option<usize>, ErrorKind> {
+    let problem = read_again(definition)?;
+    Ok(match problem.construction {
+        Construction::Galerkin { basis, nodes, .. }
+            if basis.len() < nodes.len() && !problem.exchange =>
+        {
+            Some(basis.len())
+        }
+        _ => None,
+    })
+}
+
 /// A definition that has been derived before, read once more.
 fn read_again(definition: &Definition) -> Result<Problem, ErrorKind> {
     let unlimited = Limits { stages: usize::MAX };

@@ -25,7 +25,7 @@ use quote::{format_ident, quote};
 
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
-use crate::derive::substeps;
+use crate::derive::{fewer_functions, substeps};
 use crate::error::ErrorKind;
 use crate::pair::Staircase;
 use crate::schedule::Class;
@@ -89,6 +89,10 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
     let (methods, substeps) = substeps(&provenance.definition)?;
     let parts = (&methods[..], &substeps[..]);
     let plans = plan::plans(tableau, &numbers, parts, names);
+    let functions = fewer_functions(&provenance.definition)?.map(|count| {
+        let count = literal::count(count);
+        quote!(const FUNCTIONS: usize = #count;)
+    });
     let constrained = constrained::code(tableau, &numbers, parts);
     let nonholonomic = nonholonomic::code(tableau, &numbers, parts);
     let proved = proved(
@@ -118,6 +122,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
                 const DEFINITION: &'static str = #definition;
                 #coefficients
                 #orders
+                #functions
                 #constrained
                 #nonholonomic
                 type General = #general;

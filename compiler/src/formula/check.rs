@@ -42,6 +42,9 @@ impl System {
             };
             return Err(kind.into());
         }
+        if self.without_hamiltonian().is_some() {
+            return Ok(());
+        }
         if self.friction.is_some() {
             self.check_friction(structure, input)?;
         }

@@ -8,9 +8,10 @@ use super::derivative::gradient;
 use super::display::{Notation, number_text};
 use super::graph::{Base, Coordinate, Half, Id, Index, Loop, LoopId, LoopRange, Number, integer};
 use super::hessian::MomentumHessian;
+use super::lagrangian_form;
 use super::structure::{Kinetic, Structure};
 use super::syntax::Length;
-use super::system::{Layout, Regularity, Shape, System};
+use super::system::{Layout, Legendre, Shape, System};
 
 /// Most second derivatives that are shown.
 const MOST_LINES: usize = 2_000;
@@ -122,6 +123,9 @@ impl System {
 
 /// The documentation of the type of a system.
 pub fn page(system: &System, structure: &Structure) -> String {
+    if let Some(page) = lagrangian_form::page(system) {
+        return page;
+    }
     let energy = system.formula(system.energy, Notation::Text);
     let equations = system.equations_of_motion(Notation::Text).join("\n");
     let mut text = format!("H = {energy}\n\n{equations}");
@@ -147,6 +151,11 @@ fn katex(system: &System) -> String {
     let mut lines = vec![format!("H = {energy}")];
     lines.extend(system.equations_of_motion(Notation::Latex));
     lines.extend(system.constraint_equations(Notation::Latex));
+    displays(&lines)
+}
+
+/// Lines for KaTeX in Markdown; nothing if they are long.
+pub(super) fn displays(lines: &[String]) -> String {
     let mut display = String::new();
     for line in lines {
         display.push_str("$$");
@@ -189,6 +198,11 @@ pub fn text(system: &System, structure: &Structure) -> String {
         section("Lagrangian", &[format!("L = {lagrangian}")]);
         section("momenta", &system.momentum_equations(Notation::Text));
     }
+    if let Some(lines) = lagrangian_form::equations(system, Notation::Text) {
+        section("equations of motion", &lines);
+        section("found in the formula", &[lagrangian_form::FACT.to_owned()]);
+        return text;
+    }
     section(
         "Hamiltonian",
         &[format!(
@@ -218,13 +232,16 @@ pub fn latex(system: &System) -> String {
         lines.push(format!("L = {lagrangian}"));
         lines.extend(system.momentum_equations(Notation::Latex));
     }
-    lines.push(format!(
-        "H = {}",
-        system.formula(system.energy, Notation::Latex)
-    ));
-    lines.extend(system.equations_of_motion(Notation::Latex));
-    lines.extend(system.constraint_equations(Notation::Latex));
-    lines.extend(system.second_derivatives(Notation::Latex));
+    match lagrangian_form::equations(system, Notation::Latex) {
+        Some(equations) => lines.extend(equations),
+        None => {
+            let energy = system.formula(system.energy, Notation::Latex);
+            lines.push(format!("H = {energy}"));
+            lines.extend(system.equations_of_motion(Notation::Latex));
+            lines.extend(system.constraint_equations(Notation::Latex));
+            lines.extend(system.second_derivatives(Notation::Latex));
+        }
+    }
     let lines: Vec<String> = lines
         .iter()
         .map(|line| match line.find(['=']) {
@@ -249,6 +266,17 @@ pub fn json(system: &System, structure: &Structure) -> Value {
     let parameters: Vec<Value> = system.parameters.iter().map(|parameter| {
         json!({ "name": parameter.name, "value": parameter_value(&parameter.shape) })
     }).collect();
+    if system.without_hamiltonian().is_some() {
+        let both = |lines: &dyn Fn(Notation) -> Value| json!({ "text": lines(Notation::Text), "latex": lines(Notation::Latex) });
+        return json!({
+            "name": system.name,
+            "parameters": parameters,
+            "lagrangian": both(&|notation| json!(system.lagrangian_formula(notation))),
+            "momenta": both(&|notation| json!(system.momentum_equations(notation))),
+            "equations_of_motion": both(&|notation| json!(lagrangian_form::equations(system, notation))),
+            "hamiltonian": null,
+        });
+    }
     let kinetic = match (&structure.split, structure.kinetic) {
         (Err(_), _) => None,
         (Ok(_), Kinetic::Unit) => Some("unit"),
@@ -307,9 +335,10 @@ pub fn json(system: &System, structure: &Structure) -> Value {
             "latex": system.lagrangian_formula(Notation::Latex),
         });
         all["momenta"] = both(System::momentum_equations);
-        all["regular_mass_matrix"] = json!(match lagrangian.regularity {
-            Regularity::Proved => "proved",
-            Regularity::AtRandomPoints => "at random points",
+        all["regular_mass_matrix"] = json!(match lagrangian.legendre {
+            Legendre::Regular => Some("proved"),
+            Legendre::RegularAtRandomPoints => Some("at random points"),
+            Legendre::None => None,
         });
     }
     all
@@ -375,14 +404,14 @@ pub fn facts(system: &System, structure: &Structure) -> Vec<String> {
                 .to_owned(),
         );
     }
-    match system.lagrangian.as_ref().map(|known| known.regularity) {
-        Some(Regularity::Proved) => {
+    match system.lagrangian.as_ref().map(|known| known.legendre) {
+        Some(Legendre::Regular) => {
             facts.push("the mass matrix is proved regular".to_owned());
         }
-        Some(Regularity::AtRandomPoints) => {
+        Some(Legendre::RegularAtRandomPoints) => {
             facts.push("the mass matrix is regular at random points".to_owned());
         }
-        None => {}
+        Some(Legendre::None) | None => {}
     }
     match structure.hessian {
         MomentumHessian::Zero => {

@@ -50,9 +50,13 @@ pub enum FormulaError {
     },
     /// A Lagrangian that is not quadratic in the velocities.
     #[error(
-        "this term is not quadratic in the velocities: only L = v·M v/2 + A·v − U, with functions M, A and U of q and t, is taken so far"
+        "this term is not quadratic in the velocities, so there is no formula of H for `{what}`: take L = v·M v/2 + A·v − U, with functions M, A \
+         and U of q and t, or leave `{what}` out"
     )]
-    NotQuadratic,
+    NotQuadratic {
+        /// The part of the definition that needs H.
+        what: &'static str,
+    },
     /// A mass matrix without an inverse.
     #[error(
         "{reason}: {constraint} is a primary constraint; only Lagrangians with a regular mass matrix are taken so far"

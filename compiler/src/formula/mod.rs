@@ -35,6 +35,7 @@ pub mod evaluate;
 pub mod function;
 pub mod graph;
 pub mod hessian;
+mod lagrangian_form;
 pub mod legendre;
 pub mod modular;
 pub mod parse;
@@ -49,7 +50,7 @@ pub use error::FormulaError;
 pub use structure::{Kinetic, Structure};
 pub use syntax::Form;
 pub use system::{
-    Bonds, Constraint, Invariant, Lagrangian, Layout, Parameter, Regularity, Shape, System,
+    Bonds, Constraint, Invariant, Lagrangian, Layout, Legendre, Parameter, Shape, System,
 };
 
 use crate::error::Error;

@@ -82,7 +82,11 @@ impl Structure {
             }
             _ => None,
         };
-        let symmetries = Symmetries::of(system);
+        let mut symmetries = Symmetries::of(system);
+        if system.without_hamiltonian().is_some() {
+            // Velocities are not turned with the positions.
+            symmetries.rotations.clear();
+        }
         Structure {
             split,
             kinetic,

@@ -25,9 +25,9 @@ pub struct System {
     pub functions: Vec<[String; 3]>,
     /// All formulas.
     pub graph: Graph,
-    /// H
+    /// H; L where H [does not follow](Legendre::None).
     pub energy: Id,
-    /// The Lagrangian that H was derived from.
+    /// The Lagrangian, if one was given.
     pub lagrangian: Option<Lagrangian>,
     /// The names of the velocities, where coordinates have names and velocities are known.
     pub velocities: Vec<String>,
@@ -51,22 +51,26 @@ pub struct System {
     pub places: HashMap<Id, Span>,
 }
 
-/// A Lagrangian `L = v·M v/2 + A·v − U` with a regular matrix M.
+/// A Lagrangian.
 #[derive(Debug, Clone)]
 pub struct Lagrangian {
     /// L
     pub formula: Id,
-    /// How it is known that M is regular.
-    pub regularity: Regularity,
+    /// Applied forces, as functions of the velocities.
+    pub applied: Vec<Scatter>,
+    /// Whether H follows from L.
+    pub legendre: Legendre,
 }
 
-/// How it is known that a matrix is regular.
+/// Whether H follows from a Lagrangian.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Regularity {
-    /// It consists of numbers, and its determinant is not zero.
-    Proved,
-    /// Its determinant is not zero at random points.
-    AtRandomPoints,
+pub enum Legendre {
+    /// It does: `L = v·M v/2 + A·v − U`, and M consists of numbers, with a determinant that is not zero.
+    Regular,
+    /// It does, and the determinant of M is not zero at random points.
+    RegularAtRandomPoints,
+    /// L is not quadratic in the velocities: there is no formula of H, and the formula of the energy is L.
+    None,
 }
 
 /// A parameter.
@@ -136,6 +140,12 @@ impl Layout {
 }
 
 impl System {
+    /// The Lagrangian, if there is no formula of H.
+    pub fn without_hamiltonian(&self) -> Option<&Lagrangian> {
+        let lagrangian = self.lagrangian.as_ref()?;
+        (lagrangian.legendre == Legendre::None).then_some(lagrangian)
+    }
+
     /// Whether there is nothing but H: no constraint, no applied force, no friction.
     pub fn is_free(&self) -> bool {
         !self.is_constrained() && self.applied.is_empty() && self.friction.is_none()

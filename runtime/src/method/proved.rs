@@ -66,6 +66,7 @@ impl<M: Method> Method for LowerOrder<M> {
     const COEFFICIENTS: Coefficients = M::COEFFICIENTS;
     const ORDERS: Orders = M::ORDERS;
     const NEEDS_QUADRATIC_KINETIC: bool = false;
+    const FUNCTIONS: usize = M::FUNCTIONS;
     type General = M::General;
     type Separable = M::Separable;
 }

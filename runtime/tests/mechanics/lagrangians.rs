@@ -1,11 +1,12 @@
 //! Steps in Lagrangian form, against the same methods for Hamiltonians.
 
-use symplectic::nalgebra::{SVector, Vector2};
+use symplectic::nalgebra::{DVector, SMatrix, SVector, Vector2};
 use symplectic::variational::{
     LagrangianIntegrator, generating_function, momentum_of_velocity, velocity_of_momentum,
 };
 use symplectic::{
-    Error, General, Integrator, Lagrangian, Method, ProvedFor, Scalar, State, System,
+    Error, General, Hamiltonian, Integrator, Lagrangian, Method, ProvedFor, Quantity, Scalar,
+    State, System,
 };
 
 symplectic::tableau! {
@@ -17,6 +18,10 @@ symplectic::tableau! {
     Lobatto2 { basis: polynomial(2), nodes: lobatto(2) }
     Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
     Lobatto4 { basis: polynomial(4), nodes: lobatto(4) }
+    OneOfTwo { basis: polynomial(1), quadrature: gauss(2) }
+    TwoOfThree { basis: polynomial(2), quadrature: gauss(3) }
+    ThreeOfFour { basis: polynomial(3), quadrature: lobatto(4) }
+    Uneven { basis: polynomial(2), quadrature: [0, 1/4, 1] }
     Cosine { basis: [1, cos(pi*t)], nodes: [0, 1] }
 }
 
@@ -72,7 +77,7 @@ symplectic::hamiltonian! {
 }
 
 fn near_perihelion() -> State<Vector2<f64>> {
-    let (q, v) = (Vector2::new(4.0, 0.0), Vector2::new(0.1, 0.4));
+    let (q, v) = (Vector2::new(2.0, 0.0), Vector2::new(0.1, 0.6));
     let p = momentum_of_velocity(&Particle { friction: 0.0 }, 0.0, &q, &v).expect("a momentum");
     State::new(0.0, q, p)
 }
@@ -93,7 +98,8 @@ where
     L: Lagrangian<Vector<f64> = SVector<f64, N>>,
     S: System<SVector<f64, N>, Class = General>,
 {
-    let mut one = LagrangianIntegrator::new(method, lagrangian, start.clone(), 0.25).expect("a start");
+    let mut one =
+        LagrangianIntegrator::new(method, lagrangian, start.clone(), 0.25).expect("a start");
     let mut other = Integrator::new(method, system, start, 0.25).expect("a start");
     for _ in 0..10 {
         one.step().expect("a step");
@@ -112,4 +118,340 @@ fn the_steps_are_those_of_the_hamiltonian() {
         )*};
     }
     each!(Gauss1 Gauss2 Gauss3 Gauss4 Gauss6 Lobatto2 Lobatto3 Lobatto4 Cosine);
+}
+
+type Run<L> = LagrangianIntegrator<L>;
+
+/// The slope of the errors at t = 4, against a run of order 12 by the Hamiltonian.
+fn slope<L, S, const N: usize>(
+    make: impl Fn(State<SVector<f64, N>>, f64) -> Result<Run<L>, Error>,
+    system: S,
+    start: &State<SVector<f64, N>>,
+    steps: u32,
+) -> f64
+where
+    L: Lagrangian<Vector<f64> = SVector<f64, N>>,
+    S: System<SVector<f64, N>>,
+    Gauss6: ProvedFor<S::Class>,
+{
+    let mut exact = Integrator::new(Gauss6, system, start.clone(), 0.02).expect("a start");
+    let exact = exact.integrate_to(4.0).expect("a run").clone();
+    let error = |steps: u32| {
+        let mut run = make(start.clone(), 4.0 / f64::from(steps)).expect("a start");
+        distance(run.integrate_to(4.0).expect("a run"), &exact)
+    };
+    (error(steps) / error(2 * steps)).log2()
+}
+
+#[test]
+fn orders() {
+    macro_rules! each {
+        ($($method:ident $steps:literal $order:literal;)*) => {$(
+            let particle = Particle { friction: 0.1 };
+            let make = |start, h| Run::new($method, particle, start, h);
+            let system = Relativistic { friction: 0.1 };
+            let found = slope(make, system, &near_perihelion(), $steps);
+            assert!((found - f64::from($order)).abs() < 0.05, "{}: {found}", $method::NAME);
+        )*};
+    }
+    each! {
+        Gauss1 128 2; Gauss2 32 4; Gauss3 12 6; Lobatto2 128 2; Lobatto3 32 4; Lobatto4 12 6; Cosine 128 2;
+    }
+}
+
+#[test]
+fn orders_where_l_depends_on_time() {
+    let start = State::from_arrays(0.0, [1.0], [0.5]);
+    macro_rules! each {
+        ($($method:ident $steps:literal $order:literal;)*) => {$(
+            let make = |start, h| Run::new($method, Swing, start, h);
+            let found = slope(make, SwingByHamiltonian, &start, $steps);
+            assert!((found - f64::from($order)).abs() < 0.05, "{}: {found}", $method::NAME);
+        )*};
+    }
+    each! { Gauss1 128 2; Gauss2 64 4; Gauss3 64 6; Lobatto2 128 2; Lobatto3 64 4; }
+}
+
+#[test]
+fn galerkin_orders() {
+    macro_rules! each {
+        ($($method:ident $steps:literal $order:literal;)*) => {$(
+            let particle = Particle { friction: 0.0 };
+            let make = |start, h| Run::galerkin($method, particle, start, h);
+            let system = Relativistic { friction: 0.0 };
+            let found = slope(make, system, &near_perihelion(), $steps);
+            assert!((found - f64::from($order)).abs() < 0.05, "{}: {found}", $method::NAME);
+        )*};
+    }
+    // min(2s, order of the quadrature formula)
+    each! { OneOfTwo 256 2; TwoOfThree 32 4; ThreeOfFour 12 6; Uneven 256 3; Gauss2 32 4; }
+}
+
+symplectic::lagrangian! {
+    /// The system of Hénon and Heiles.
+    HenonHeiles q: [x, y], v: [vx, vy];
+    L = (vx^2 + vy^2)/2 - (x^2 + y^2)/2 - x^2 y + y^3/3
+}
+
+#[test]
+fn galerkin_is_the_tableau_for_a_quadratic_kinetic_energy_only() {
+    let steps =
+        |mut run: Run<_>| -> State<Vector2<f64>> { run.integrate_to(5.0).expect("a run").clone() };
+    let start = State::from_arrays(0.0, [0.1, 0.2], [0.3, -0.2]);
+    let tableau = Run::new(TwoOfThree, HenonHeiles, start.clone(), 0.5).expect("a start");
+    let galerkin = Run::galerkin(TwoOfThree, HenonHeiles, start, 0.5).expect("a start");
+    assert!(distance(&steps(tableau), &steps(galerkin)) < 1e-14);
+
+    let ends = |run: Result<Run<Particle>, Error>| {
+        run.expect("a start")
+            .integrate_to(5.0)
+            .expect("a run")
+            .clone()
+    };
+    let (particle, start) = (Particle { friction: 0.0 }, near_perihelion());
+    let tableau = ends(Run::new(TwoOfThree, particle, start.clone(), 0.5));
+    let galerkin = ends(Run::galerkin(TwoOfThree, particle, start, 0.5));
+    assert!(distance(&tableau, &galerkin) > 1e-7);
+}
+
+/// Equations (30) of Leok & Zhang with the Hamiltonian, for ψ = 1, x − 1/2 and the Gauss formula with three nodes, at the step that (38) takes
+/// with the Lagrangian: their Proposition 2.
+#[test]
+fn galerkin_steps_obey_the_hamiltonian_equations() {
+    let (h, particle, system) = (
+        0.5,
+        Particle { friction: 0.0 },
+        Relativistic { friction: 0.0 },
+    );
+    let start = near_perihelion();
+    let mut run = Run::galerkin(TwoOfThree, particle, start.clone(), h).expect("a start");
+    let end = run.step().expect("a step").clone();
+
+    let far = 0.15_f64.sqrt();
+    let nodes = [0.5 - far, 0.5, 0.5 + far];
+    let weights = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
+    // ∫_0^1 ψ_2 = 0, so V_1 is the mean velocity. V_2 is not seen at the ends; its own equation gives it, by Newton's iteration with differences.
+    let first = (end.q - start.q) / h;
+    let residuals = |second: Vector2<f64>| {
+        let (mut impulse, mut one, mut two) =
+            (Vector2::zeros(), Vector2::zeros(), Vector2::zeros());
+        for (c, b) in nodes.into_iter().zip(weights) {
+            let q = start.q + first * (h * c) + second * (h * (c * c - c) / 2.0);
+            let v = first + second * (c - 0.5);
+            let p = momentum_of_velocity(&particle, 0.0, &q, &v).expect("a momentum");
+            let (mut velocity, mut force) = (Vector2::zeros(), Vector2::zeros());
+            Hamiltonian::velocity(&system, 0.0, &q, &p, &mut velocity);
+            Hamiltonian::force(&system, 0.0, &q, &p, &mut force);
+            // The third line of (30): Σ_i ψ_i(c_j) V_i = ∂H/∂p.
+            assert!((velocity - v).amax() < 1e-14);
+            impulse += force * (h * b);
+            one += p * b - force * (h * b * (1.0 - c));
+            two += p * (b * (c - 0.5)) + force * (h * b * (c * c - c) / 2.0);
+        }
+        (impulse, one - start.p, two)
+    };
+    let mut second = Vector2::zeros();
+    for _ in 0..20 {
+        let two = residuals(second).2;
+        let step = 1e-4;
+        let along = |k: usize| {
+            let mut moved = second;
+            moved[k] += step;
+            (residuals(moved).2 - two) / step
+        };
+        let slopes = SMatrix::<f64, 2, 2>::from_columns(&[along(0), along(1)]);
+        second -= slopes.try_inverse().expect("regular") * two;
+    }
+    let (impulse, one, two) = residuals(second);
+    assert!(two.amax() < 1e-15);
+    assert!(one.amax() < 1e-14, "{one}");
+    assert!((start.p + impulse - end.p).amax() < 1e-14);
+}
+
+/// The map of a step, by central differences, is symplectic.
+#[test]
+fn steps_are_symplectic() {
+    let step = |state: SVector<f64, 4>, galerkin: bool| {
+        let start = State::from_arrays(0.0, [state[0], state[1]], [state[2], state[3]]);
+        let particle = Particle { friction: 0.0 };
+        let run = match galerkin {
+            true => Run::galerkin(TwoOfThree, particle, start, 0.5),
+            false => Run::new(Lobatto3, particle, start, 0.5),
+        };
+        let mut run = run.expect("a start");
+        let end = run.step().expect("a step");
+        SVector::from([end.q[0], end.q[1], end.p[0], end.p[1]])
+    };
+    let State { q, p, .. } = near_perihelion();
+    let at = SVector::from([q[0], q[1], p[0], p[1]]);
+    let mut form = SMatrix::<f64, 4, 4>::zeros();
+    for k in 0..2 {
+        form[(k, k + 2)] = 1.0;
+        form[(k + 2, k)] = -1.0;
+    }
+    for galerkin in [false, true] {
+        let columns = [0, 1, 2, 3].map(|k| {
+            let mut moved = [at, at];
+            moved[0][k] += 1e-4;
+            moved[1][k] -= 1e-4;
+            (step(moved[0], galerkin) - step(moved[1], galerkin)) / 2e-4
+        });
+        let jacobian = SMatrix::<f64, 4, 4>::from_columns(&columns);
+        let defect = (jacobian.transpose() * form * jacobian - form).amax();
+        assert!(defect < 1e-8, "{galerkin}: {defect:e}");
+    }
+}
+
+#[test]
+fn the_action_is_that_of_the_generating_function() -> Result<(), Error> {
+    let start = State::from_arrays(0.0, [1.0], [0.5]);
+    let mut run = Run::new(Gauss3, Swing, start.clone(), 0.25)?;
+    let p1 = run.step()?.p;
+    let generating = generating_function(Gauss3, &SwingByHamiltonian, 0.0, &start.q, &p1, 0.25)?;
+    let action = run.action().expect("a step");
+    assert!((generating.discrete_lagrangian(&p1) - action).abs() < 1e-15);
+    Ok(())
+}
+
+/// Two vortices by a Lagrangian that is linear in the velocities: L = y1 x1' + y2 x2' + ln |r1 − r2|.
+struct Vortices;
+
+impl Lagrangian for Vortices {
+    type Vector<T: Scalar> = SVector<T, 4>;
+
+    fn lagrangian<T: Scalar>(&self, _: T, q: &SVector<T, 4>, v: &SVector<T, 4>) -> T {
+        let (x, y) = (q[0] - q[2], q[1] - q[3]);
+        q[1] * v[0] + q[3] * v[2] + (x * x + y * y).sqrt().ln()
+    }
+}
+
+symplectic::hamiltonian! {
+    VorticesByHamiltonian q: [xa, xb], p: [ya, yb];
+    H = -ln(sqrt((xa - xb)^2 + (ya - yb)^2))
+}
+
+#[test]
+fn a_lagrangian_that_is_linear_in_velocities() -> Result<(), Error> {
+    let (a, b) = ([1.0, 0.3], [-0.5, -0.2]);
+    let q = SVector::from([a[0], a[1], b[0], b[1]]);
+    let mut run = Run::from_velocity(Gauss2, Vortices, 0.0, q, SVector::zeros(), 0.1)?;
+    let start = State::from_arrays(0.0, [a[0], b[0]], [a[1], b[1]]);
+    let mut other = Integrator::new(Gauss2, VorticesByHamiltonian, start, 0.1)?;
+    for _ in 0..100 {
+        run.step()?;
+        other.step()?;
+        let (q, State { q: x, p: y, .. }) = (run.state().q, other.state());
+        let far = [q[0] - x[0], q[1] - y[0], q[2] - x[1], q[3] - y[1]];
+        assert!(far.iter().all(|far| far.abs() < 1e-13), "{far:?}");
+    }
+    assert!(matches!(
+        run.velocity(),
+        Err(Error::NoVelocity {
+            component: Some(0),
+            ..
+        })
+    ));
+    Ok(())
+}
+
+symplectic::lagrangian! {
+    /// The relativistic particle with friction, from its formula.
+    FromFormula { friction: 0 }
+    q: [x, y], v: [vx, vy];
+    L = 1/sqrt(x^2 + y^2) - sqrt(1 - vx^2 - vy^2)
+    force: { x = -friction vx, y = -friction vy }
+}
+
+symplectic::lagrangian! {
+    /// Particles on springs in a ring, with kinetic energies v²/2 + v⁴/4.
+    Ring q: [..], v: [..];
+    L = sum(i: v[i]^2/2 + v[i]^4/4 - q[i]^2/2) - sum(i: q[i])^2/4
+}
+
+#[test]
+fn formulas() -> Result<(), Error> {
+    let (by_hand, formula) = (Particle { friction: 0.1 }, FromFormula { friction: 0.1 });
+    let start = near_perihelion();
+    let p = formula.momentum_of_velocity(0.0, &start.q, &Vector2::new(0.1, 0.6));
+    assert!((p - start.p).amax() < 1e-15);
+    let mut one = Run::new(Gauss3, by_hand, start.clone(), 0.2)?;
+    let mut other = Run::new(Gauss3, formula, start, 0.2)?;
+    let (one, other) = (one.integrate_to(10.0)?, other.integrate_to(10.0)?);
+    assert!(distance(one, other) < 1e-13);
+
+    let (q, v) = (
+        DVector::from_vec(vec![0.5, -0.2, 0.1]),
+        DVector::from_vec(vec![0.1, 0.4, 0.0]),
+    );
+    let mut run = Run::from_velocity(Gauss3, Ring, 0.0, q, v, 0.1)?;
+    let energy = run.energy()?;
+    run.integrate_to(50.0)?;
+    assert!((run.energy()? - energy).abs() < 1e-9);
+    Ok(())
+}
+
+/// L without a velocity, and one that is not finite.
+struct Wrong {
+    strange: bool,
+}
+
+impl Lagrangian for Wrong {
+    type Vector<T: Scalar> = V2<T>;
+
+    fn lagrangian<T: Scalar>(&self, _: T, q: &V2<T>, v: &V2<T>) -> T {
+        let kinetic = v[0] * v[0] * T::from_f64(0.5);
+        let potential = if self.strange {
+            (q[0] - q[0]).ln()
+        } else {
+            q[0] * q[0]
+        };
+        kinetic - potential
+    }
+}
+
+#[test]
+fn errors() {
+    let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
+    let run = |strange| Run::new(Gauss2, Wrong { strange }, start.clone(), 0.1).expect("a start");
+    let mut singular = run(false);
+    let error = singular.step().expect_err("no second velocity");
+    assert!(
+        matches!(
+            error,
+            Error::IrregularLagrangian {
+                component: 1,
+                step: 1,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    assert_eq!(singular.state(), &start);
+    let error = run(true).step().expect_err("no number");
+    let what = Quantity::Lagrangian;
+    assert!(matches!(error, Error::NonFinite { what: found, stage: Some(1), .. } if found == what));
+
+    // No velocity below that of light has an infinite momentum.
+    let (q, p) = (Vector2::new(1.0, 0.0), Vector2::new(f64::INFINITY, 0.0));
+    let particle = Particle { friction: 0.0 };
+    assert!(matches!(
+        velocity_of_momentum(&particle, 0.0, &q, &p),
+        Err(Error::NonFiniteState {
+            what: Quantity::Momentum
+        })
+    ));
+    let v = velocity_of_momentum(&particle, 0.0, &q, &Vector2::new(1e6, 0.0)).expect("a velocity");
+    assert!((v[0] - (1.0 - 0.5e-12)).abs() < 1e-15);
+    let p = Vector2::new(1.0, 0.0);
+    assert!(matches!(
+        velocity_of_momentum(&Wrong { strange: false }, 0.0, &q, &p),
+        Err(Error::NoVelocity {
+            component: Some(1),
+            ..
+        })
+    ));
+    assert!(matches!(
+        Run::new(Gauss2, particle, near_perihelion(), 0.0),
+        Err(Error::StepSize { .. })
+    ));
 }

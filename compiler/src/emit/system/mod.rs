@@ -1,7 +1,7 @@
 //! From a system that was read from a formula to Rust code.
 //!
 //! The type has a field for each parameter, and implements the trait of the class that was found: `SeparableHamiltonian`, `Hamiltonian`, or
-//! the parts of a chain. The order of evaluation is that of [`operations`]; sums over indices are loops, so the code is as long for a
+//! the parts of a chain; and `Lagrangian`, if it was given by one. The order of evaluation is that of [`operations`]; sums over indices are loops, so the code is as long for a
 //! thousand bodies as for three.
 
 mod band;
@@ -12,6 +12,7 @@ mod expression;
 mod fields;
 mod invariants;
 mod jacobian;
+mod lagrangian;
 mod momentum;
 mod names;
 mod operations;
@@ -89,7 +90,9 @@ impl<'a> Emitter<'a> {
 
     fn code(mut self) -> TokenStream {
         let fields = self.fields();
+        let lagrangian = self.lagrangian();
         let dynamics = match (self.structure.chain, self.structure.split) {
+            _ if self.system.without_hamiltonian().is_some() => TokenStream::new(),
             (Some(parts), _) => self.chain(&parts),
             (None, Ok(split)) if self.system.is_free() => self.separable(split),
             (None, split) => self.general(split.ok()),
@@ -106,6 +109,8 @@ impl<'a> Emitter<'a> {
                 use ::symplectic::emitted::{One as _, Scalar, Zero as _};
 
                 #dynamics
+
+                #lagrangian
 
                 #momentum
 

@@ -16,7 +16,7 @@ pub use self::totals::STRETCH;
 use super::error::FormulaError;
 use super::graph::{Base, Coordinate, Graph, Half, Id, Index, LoopId, Node};
 use super::syntax::{CoordinatesKind, Definition, Form, Length, Span};
-use super::system::{Bonds, Invariant, Lagrangian, Layout, Parameter, Regularity, Shape, System};
+use super::system::{Bonds, Invariant, Lagrangian, Layout, Legendre, Parameter, Shape, System};
 use crate::error::Error;
 use crate::expression::Input;
 
@@ -204,7 +204,8 @@ impl Elaborator<'_> {
             }
             Form::Lagrangian => Some(Lagrangian {
                 formula: energy,
-                regularity: Regularity::AtRandomPoints,
+                applied: applied.clone(),
+                legendre: Legendre::None,
             }),
         };
         Ok(System {

@@ -2,7 +2,8 @@
 //!
 //! M and A are derivatives of the graph of L, and H is a graph again, as if it had been written. M falls into blocks: a body of a sum over
 //! all bodies, and velocities that are not coupled. A block of up to three velocities is inverted by its adjugate, a larger one by
-//! elimination. M has to be regular ([`Regularity`]); otherwise positions and momenta obey a primary constraint.
+//! elimination. M has to be regular; otherwise positions and momenta obey a primary constraint. Where L is not quadratic in the velocities,
+//! it is taken as it is ([`Legendre::None`]).
 
 mod inverse;
 mod masses;
@@ -17,12 +18,12 @@ use super::check::at;
 use super::derivative::{Scatter, gradient};
 use super::display::Notation;
 use super::error::FormulaError;
-use super::graph::{Coordinate, Graph, Half, Id, Node, Number, integer};
+use super::graph::{Coordinate, Graph, Half, Id, Index, Node, Number, integer};
 use super::modular::Points;
 use super::rewrite::{Copier, at_rest, flat};
 use super::structure::terms;
 use super::syntax::{CoordinatesKind, Definition, Span};
-use super::system::{Regularity, System};
+use super::system::{Lagrangian, Layout, Legendre, System};
 use crate::error::Error;
 use crate::expression::Input;
 
@@ -41,8 +42,13 @@ pub(super) fn transform(
         .as_ref()
         .map_or(0..0, |written| written.span.clone());
     if let Some(part) = not_quadratic(&mut system.graph, formula) {
-        let place = system.place_of(part).unwrap_or(&whole);
-        return Err(input.error(place, FormulaError::NotQuadratic.into()));
+        return match needs_hamiltonian(&system) {
+            None => every_velocity(system, definition, input),
+            Some(what) => {
+                let place = system.place_of(part).unwrap_or(&whole);
+                Err(input.error(place, FormulaError::NotQuadratic { what }.into()))
+            }
+        };
     }
     let Some(masses) = Masses::of(&mut system, formula) else {
         let kind = FormulaError::Unsupported {
@@ -102,12 +108,14 @@ pub(super) fn transform(
         part.value = copier.copy(part.value, graph);
     }
     system.energy = energy;
-    if let Some(lagrangian) = &mut system.lagrangian {
-        lagrangian.formula = formula;
-        if masses.are_numbers {
-            lagrangian.regularity = Regularity::Proved;
-        }
-    }
+    system.lagrangian = Some(Lagrangian {
+        formula,
+        applied: system.applied.clone(),
+        legendre: match masses.are_numbers {
+            true => Legendre::Regular,
+            false => Legendre::RegularAtRandomPoints,
+        },
+    });
     // Of nodes that have become one, the place of the first.
     let old = std::mem::take(&mut system.places);
     let ordered: BTreeMap<Id, Span> = old.into_iter().collect();
@@ -117,6 +125,55 @@ pub(super) fn transform(
         }
     }
     forces_of_momenta(&mut system, definition, input)?;
+    Ok(system)
+}
+
+/// A part of the definition that is about H.
+fn needs_hamiltonian(system: &System) -> Option<&'static str> {
+    let parts = [
+        ("constraints", !system.constraints.is_empty()),
+        ("nonholonomic", !system.nonholonomic.is_empty()),
+        ("friction", system.friction.is_some()),
+        ("invariants", !system.invariants.is_empty()),
+        ("require", !system.required.is_empty()),
+    ];
+    parts
+        .into_iter()
+        .find_map(|(what, there)| there.then_some(what))
+}
+
+/// The system of a Lagrangian by itself, if every velocity that has a name is in it.
+fn every_velocity(
+    mut system: System,
+    definition: &Definition,
+    input: Input<'_>,
+) -> Result<System, Error> {
+    let Layout::Named([names, _]) = &system.layout else {
+        return Ok(system);
+    };
+    let velocities: Vec<Coordinate> = (0..names.len())
+        .map(|k| Coordinate {
+            half: Half::V,
+            index: Index::number(k as i64),
+            component: 0,
+        })
+        .collect();
+    for velocity in 0..velocities.len() {
+        let own = system.graph.coordinate(velocities[velocity].clone());
+        if system.graph.below([system.energy]).contains(&own) {
+            continue;
+        }
+        let residual = system.graph.coordinate(velocities[velocity].of(Half::P));
+        let constraint = Constraint {
+            velocity,
+            block: vec![velocity],
+            velocities,
+            residual,
+            appears: false,
+        };
+        let span = velocity_span(definition, velocity).unwrap_or(0..0);
+        return Err(input.error(&span, constraint.error(&system).into()));
+    }
     Ok(system)
 }
 

@@ -1,6 +1,9 @@
 //! The coefficients of a step in Lagrangian form.
 
+use alloc::vec;
 use alloc::vec::Vec;
+
+use num_traits::Float;
 
 use crate::method::Method;
 use crate::number::Coefficient;
@@ -40,9 +43,54 @@ impl StageCoefficients {
             velocities: identity(),
             forces: tableau.a_tilde.iter().map(negative).collect(),
             momenta: identity(),
-            start: alloc::vec![1.0; stages],
+            start: vec![1.0; stages],
             end: doubles(tableau.b),
             weights: doubles(tableau.b_tilde),
+            nodes: doubles(tableau.c),
+        }
+    }
+
+    /// Those of the Galerkin method of the same basis and quadrature formula (Leok & Zhang, 38), with unknown coordinates of the velocity in the
+    /// space of the basis:
+    ///
+    /// ```text
+    /// 0 = h Σ_i b_i (∫_0^{c_i} ψ_k − ∫_0^1 ψ_k) P'_i + Σ_i b_i ψ_k(c_i) P_i − ∫_0^1 ψ_k p0
+    /// ```
+    ///
+    /// At the nodes the velocities of that space are those `Q̇` for which a position `q0 + h Σ_j a_ij Q̇_j` is exact, and their span is that of
+    /// the rows of `a_ij/b_j` and of the row of ones. The basis here is one of that span, orthonormal for the quadrature formula.
+    pub(super) fn galerkin<M: Method>() -> Self {
+        if M::FUNCTIONS == M::STAGES {
+            return Self::of::<M>();
+        }
+        let tableau = &M::COEFFICIENTS;
+        let weights = doubles(tableau.b);
+        let rows: Vec<Vec<f64>> = tableau.a.iter().map(|row| doubles(row)).collect();
+        let basis = orthonormal(&rows, &weights, M::FUNCTIONS);
+        let along = |row: &[f64]| -> Vec<f64> {
+            let sum = |function: &Vec<f64>| row.iter().zip(function).map(|(a, psi)| a * psi).sum();
+            basis.iter().map(sum).collect()
+        };
+        let end = along(&weights);
+        let positions: Vec<Vec<f64>> = rows.iter().map(|row| along(row)).collect();
+        let forces = (0..basis.len()).map(|k| {
+            let nodes = positions.iter().zip(&weights);
+            nodes.map(|(row, b)| b * (row[k] - end[k])).collect()
+        });
+        let momenta = basis.iter().map(|function| {
+            let nodes = function.iter().zip(&weights);
+            nodes.map(|(psi, b)| b * psi).collect()
+        });
+        Self {
+            forces: forces.collect(),
+            momenta: momenta.collect(),
+            velocities: (0..weights.len())
+                .map(|i| basis.iter().map(|function| function[i]).collect())
+                .collect(),
+            start: end.clone(),
+            positions,
+            end,
+            weights,
             nodes: doubles(tableau.c),
         }
     }
@@ -56,6 +104,42 @@ impl StageCoefficients {
     pub(super) fn stages(&self) -> usize {
         self.nodes.len()
     }
+}
+
+/// So many functions on the nodes, orthonormal for the weights up to their sign, with the span of `a_ij/b_j` and of one: by Gram and Schmidt,
+/// twice each, the largest remainder first.
+fn orthonormal(rows: &[Vec<f64>], weights: &[f64], count: usize) -> Vec<Vec<f64>> {
+    let product = |x: &[f64], y: &[f64]| -> f64 {
+        let terms = x.iter().zip(y).zip(weights);
+        terms.map(|((x, y), b)| b * x * y).sum()
+    };
+    let mut candidates: Vec<Vec<f64>> = vec![vec![1.0; weights.len()]];
+    candidates.extend(rows.iter().map(|row| {
+        let entries = row.iter().zip(weights);
+        entries.map(|(a, b)| a / b).collect()
+    }));
+    let mut basis: Vec<(Vec<f64>, f64)> = Vec::new();
+    while basis.len() < count {
+        let norms = candidates.iter().map(|candidate| {
+            let squares = candidate.iter().zip(weights);
+            squares.map(|(x, b)| Float::abs(*b) * x * x).sum::<f64>()
+        });
+        let largest = norms.enumerate().max_by(|x, y| x.1.total_cmp(&y.1));
+        let Some((place, _)) = largest else { break };
+        let mut function = candidates.swap_remove(place);
+        let square = product(&function, &function);
+        let size = Float::sqrt(Float::abs(square));
+        function.iter_mut().for_each(|x| *x /= size);
+        basis.push((function, if square < 0.0 { -1.0 } else { 1.0 }));
+        for candidate in &mut candidates {
+            for (function, sign) in basis.iter().chain(&basis) {
+                let overlap = sign * product(candidate, function);
+                let pairs = candidate.iter_mut().zip(function);
+                pairs.for_each(|(x, y)| *x -= overlap * y);
+            }
+        }
+    }
+    basis.into_iter().map(|(function, _)| function).collect()
 }
 
 fn doubles(row: &[Coefficient]) -> Vec<f64> {

@@ -83,11 +83,61 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         state: State<L::Vector<f64>>,
         step_size: f64,
     ) -> Result<Self, Error> {
+        Self::by(StageCoefficients::of::<M>(), lagrangian, state, step_size)
+    }
+
+    /// An integrator by the Galerkin method of the basis and the quadrature formula of `M` (Leok & Zhang 2011, 38), at `state`. The
+    /// positions inside a step are combinations of integrals of the s basis functions, and the action is that of the quadrature formula, with
+    /// r ≥ s nodes; of all such paths the step takes the one with stationary action.
+    ///
+    /// For r = s it is the Runge–Kutta method. For r > s, `tableau! { … basis: …, quadrature: … }`, it is that method only where
+    /// `L = v·Mv/2 − U(q)`: on other systems both have the order of `M` and differ by their errors. There are s unknown velocities, not r.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Self::new).
+    ///
+    /// ```
+    /// symplectic::tableau! { Rectangular { basis: polynomial(2), quadrature: gauss(3) } }
+    /// use symplectic::State;
+    /// use symplectic::variational::LagrangianIntegrator;
+    ///
+    /// symplectic::lagrangian! {
+    ///     /// A particle on a rotating parabola.
+    ///     Bead q: [x], v: [vx];
+    ///     L = (1 + x^2) vx^2/2 - x^2/4
+    /// }
+    ///
+    /// # fn main() -> Result<(), symplectic::Error> {
+    /// let start = State::from_arrays(0.0, [1.0], [0.0]);
+    /// let mut run = LagrangianIntegrator::galerkin(Rectangular, Bead, start, 0.1)?;
+    /// let energy = run.energy()?;
+    /// run.integrate_to(100.0)?;
+    /// assert!((run.energy()? - energy).abs() < 1e-6);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn galerkin<M: Method + ProvedFor<General>>(
+        _method: M,
+        lagrangian: L,
+        state: State<L::Vector<f64>>,
+        step_size: f64,
+    ) -> Result<Self, Error> {
+        let coefficients = StageCoefficients::galerkin::<M>();
+        Self::by(coefficients, lagrangian, state, step_size)
+    }
+
+    fn by(
+        coefficients: StageCoefficients,
+        lagrangian: L,
+        state: State<L::Vector<f64>>,
+        step_size: f64,
+    ) -> Result<Self, Error> {
         let n = state.q.dimension();
         check_state(state.time, &state.q, &state.p, n)?;
         Ok(Self {
             pace: Pace::new(state.time, step_size)?,
-            stages: Stages::new(StageCoefficients::of::<M>(), n)?,
+            stages: Stages::new(coefficients, n)?,
             next: state.clone(),
             lagrangian,
             state,

@@ -78,7 +78,7 @@ pub fn velocity_of_momentum<L: Lagrangian>(
     let mut velocity = q.zeros_like();
     let mut change = q.zeros_like();
     let not_found = |component| Error::NoVelocity { time, component };
-    let mut last = f64::INFINITY;
+    let (mut last, mut stalled) = (f64::INFINITY, 0);
     for _ in 0..MAX_ITERATIONS {
         derivatives.second(lagrangian, time, q.as_slice(), velocity.as_slice());
         let pairs = velocity.as_mut_slice().iter_mut();
@@ -103,10 +103,9 @@ pub fn velocity_of_momentum<L: Lagrangian>(
             changed = changed.max(Float::abs(step));
             size = size.max(Float::abs(*velocity));
         }
-        // Quadratic convergence: roundings are left.
-        if changed <= 4.0 * f64::EPSILON * size
-            || (changed <= 1e-12 * size && changed >= last / 2.0)
-        {
+        stalled +=
+            u32::from(changed <= STATIONARY * size && changed > last / 2.0 && changed < 2.0 * last);
+        if changed <= 4.0 * f64::EPSILON * size || stalled == MOST_STALLED {
             return Ok(velocity);
         }
         last = changed;
@@ -114,5 +113,9 @@ pub fn velocity_of_momentum<L: Lagrangian>(
     Err(not_found(None))
 }
 
+/// Changes below this, relative to the velocity, that become no smaller are roundings of `∂L/∂v`.
+const STATIONARY: f64 = 1e-9;
+/// So many of them are enough.
+const MOST_STALLED: u32 = 4;
 /// Iterations and halvings together.
-const MAX_ITERATIONS: u32 = 200;
+const MAX_ITERATIONS: u32 = 1000;

@@ -1,0 +1,47 @@
+//! A Lagrangian as it is.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::Emitter;
+
+impl Emitter<'_> {
+    /// The trait of a Lagrangian and its forces; nothing where there are constraints or friction, which it does not know.
+    pub(super) fn lagrangian(&self) -> TokenStream {
+        let Some(lagrangian) = &self.system.lagrangian else {
+            return TokenStream::new();
+        };
+        if self.system.is_constrained() || self.system.friction.is_some() {
+            return TokenStream::new();
+        }
+        let [generics, _, arguments] = self.generics();
+        let (name, scalar) = (&self.header.name, &self.scalar);
+        let over = self.vector(&quote!(#scalar));
+        let outside = quote!(return #scalar::from_f64(f64::NAN););
+        let value = self.values(&["q", "v"], &[lagrangian.formula], outside);
+        let force = (!lagrangian.applied.is_empty()).then(|| {
+            let parts = [("force", lagrangian.applied.clone())];
+            let statements = self.derivatives(&["q", "v"], &parts, &["force"]);
+            quote! {
+                const FORCED: bool = true;
+
+                fn force<#scalar: Scalar>(&self, time: #scalar, q: &#over, v: &#over, force: &mut #over) {
+                    #statements
+                }
+            }
+        });
+        quote! {
+            #[allow(unused_variables, non_snake_case, clippy::all)]
+            impl #generics ::symplectic::Lagrangian for #name #arguments {
+                type Vector<#scalar: Scalar> = #over;
+
+                fn lagrangian<#scalar: Scalar>(&self, time: #scalar, q: &#over, v: &#over) -> #scalar {
+                    #value
+                    result_1
+                }
+
+                #force
+            }
+        }
+    }
+}
