@@ -10,7 +10,7 @@ use symplectic_compiler::formula::derivative::gradient;
 use symplectic_compiler::formula::display::Notation;
 use symplectic_compiler::formula::evaluate::{Evaluator, Point};
 use symplectic_compiler::formula::graph::{Half, Id, integer};
-use symplectic_compiler::formula::{Form, Kinetic, Regularity, Structure, System, description};
+use symplectic_compiler::formula::{Form, Kinetic, Legendre, Structure, System, description};
 
 fn lagrangian(text: &str) -> (System, Structure) {
     read(Form::Lagrangian, text)
@@ -112,17 +112,17 @@ fn masses_in_cartesian_velocities_come_out_short() {
 
 #[test]
 fn what_is_found_in_a_lagrangian() {
-    let regularity = |(read, _): (System, Structure)| read.lagrangian.map(|known| known.regularity);
+    let regularity = |(read, _): (System, Structure)| read.lagrangian.map(|known| known.legendre);
     let single = |l: &str| lagrangian(&format!("S {{ m: 2 }} q: [4], v: [4]; L = {l} - |q|^2"));
     // Constant masses, proved; products of velocities only; masses that are set later.
     let (_, structure) = single("v[0] v[1] + v[2] v[3] + v[0] v[3]/2 + (v[0] + v[2])^2/2");
     assert_eq!(structure.kinetic, Kinetic::Quadratic);
     assert_eq!(single("|v|^2/2").1.kinetic, Kinetic::Unit);
     assert_eq!(single("m |v|^2/2 + v[0]").1.kinetic, Kinetic::Diagonal);
-    let proved = Some(Regularity::Proved);
+    let proved = Some(Legendre::Regular);
     assert_eq!(regularity(single("v[0] v[1] + v[2] v[3]")), proved);
     assert_eq!(regularity(single("|v|^2/2 + q[1] v[0]")), proved);
-    let found = Some(Regularity::AtRandomPoints);
+    let found = Some(Legendre::RegularAtRandomPoints);
     assert_eq!(regularity(single("m |v|^2/2")), found);
     let sphere = lagrangian("S q: [a, b], v: [va, vb]; L = (va^2 + sin(a)^2 vb^2)/2 - cos(a)");
     assert_eq!(sphere.1.cyclic, [1]);
@@ -141,6 +141,50 @@ fn what_is_found_in_a_lagrangian() {
     assert_eq!(angular.1.rotations, [[0, 1]]);
 }
 
+/// L that is not quadratic in the velocities is taken as it is.
+#[test]
+fn lagrangians_without_a_hamiltonian() {
+    let text = "Particle { m: 1, c: 1, drag: 0 } q: [x, y], v: [vx, vy];
+        L = -m c^2 sqrt(1 - (vx^2 + vy^2)/c^2) - (x^2 + y^2)/2
+        force: { x = -drag vx, y = -drag vy }";
+    let (read, structure) = lagrangian(text);
+    expect_file!["emission/lagrangian_particle.rs"].assert_eq(&code(&read, &structure));
+    expect![[r#"
+        Particle
+
+        parameters
+          m = 1
+          c = 1
+          drag = 0
+
+        Lagrangian
+          L = −m c² √(1 − (vx² + vy²)/c²) − (1/2) (x² + y²)
+
+        momenta
+          px = vx ((m c²/√(1 − (vx² + vy²)/c²))/c²)
+          py = vy ((m c²/√(1 − (vx² + vy²)/c²))/c²)
+
+        equations of motion
+          px' = −x − vx drag
+          py' = −y − vy drag
+
+        found in the formula
+          not quadratic in the velocities, so there is no formula of H: steps are those of `symplectic::variational::LagrangianIntegrator`, by L and its derivatives
+    "#]].assert_eq(&description::text(&read, &structure));
+    expect![[r#"
+        \begin{aligned}
+          L &= -m\,{c}^{2}\,\sqrt{1 - \frac{\left({\mathrm{vx}}^{2} + {\mathrm{vy}}^{2}\right)}{{c}^{2}}} - \tfrac{1}{2}\,\left({x}^{2} + {y}^{2}\right) \\
+          \mathrm{px} &= \mathrm{vx}\,\left(\frac{\left(\frac{m\,{c}^{2}}{\sqrt{1 - \frac{\left({\mathrm{vx}}^{2} + {\mathrm{vy}}^{2}\right)}{{c}^{2}}}}\right)}{{c}^{2}}\right) \\
+          \mathrm{py} &= \mathrm{vy}\,\left(\frac{\left(\frac{m\,{c}^{2}}{\sqrt{1 - \frac{\left({\mathrm{vx}}^{2} + {\mathrm{vy}}^{2}\right)}{{c}^{2}}}}\right)}{{c}^{2}}\right) \\
+          \dot{\mathrm{px}} &= -x - \mathrm{vx}\,\mathrm{drag} \\
+          \dot{\mathrm{py}} &= -y - \mathrm{vy}\,\mathrm{drag}
+        \end{aligned}
+    "#]].assert_eq(&description::latex(&read));
+    let json = description::json(&read, &structure);
+    assert_eq!(json["hamiltonian"], serde_json::Value::Null);
+    assert_eq!(json["momenta"]["text"].as_array().map(Vec::len), Some(2));
+}
+
 #[test]
 fn wrong_lagrangians_are_refused_at_their_place() {
     let all = [
@@ -155,9 +199,10 @@ fn wrong_lagrangians_are_refused_at_their_place() {
         "P<N> q: [N], v: [N]; L = sum(i: (v[i]^2 + q[i]^2)/2 + q[i] v[i] sum(j: v[j]))",
         "P q: [..], v: [..]; L = sum(i: v[i]^2/2) + sum(i: v[i])^2",
         "P q: [17], v: [17]; L = sum(i: v[i])^2",
-        "P { m, c } q: [3], v: [3]; L = -m c^2 sqrt(1 - |v|^2/c^2) - |q|^2",
-        "P q: [x], v: [vx]; L = vx^2/2 + x vx^4 - x^2",
-        "P<N> q: [N; 2], v: [N; 2]; L = sum(i: |v[i]|^2/2 + |v[i]|^4/8)",
+        "P { m, c } q: [3], v: [3]; L = -m c^2 sqrt(1 - |v|^2/c^2) - |q|^2 require: [separable]",
+        "P q: [x, y], v: [vx, vy]; L = (vx^2 + vy^2)/2 + x vx^4 - x^2 constraints: { line = x - y }",
+        "P<N> q: [N; 2], v: [N; 2]; L = sum(i: |v[i]|^2/2 + |v[i]|^4/8) friction: 1",
+        "P q: [x, y], v: [vx, vy]; L = vx^4/4 - x^2 - y^2",
         "P q: [x], v: [vx]; L = x^2",
         "P q: [x], v: [vx]; L = vx^2/2 + px",
         "P q: [3], v: [3]; L = |v|^2/2 + dot(p, q)",

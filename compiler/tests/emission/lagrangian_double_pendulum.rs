@@ -163,6 +163,23 @@ const _: () = {
         }
     }
     #[allow(unused_variables, non_snake_case, clippy::all)]
+    impl ::symplectic::Lagrangian for DoublePendulum {
+        type Vector<T: Scalar> = ::symplectic::nalgebra::SVector<T, 2>;
+        fn lagrangian<T: Scalar>(
+            &self,
+            time: T,
+            q: &::symplectic::nalgebra::SVector<T, 2>,
+            v: &::symplectic::nalgebra::SVector<T, 2>,
+        ) -> T {
+            let q = &q.data.0[0];
+            let v = &v.data.0[0];
+            let [(_, x1), (_, x2), (_, x3)] = T::sin_cos_all([q[0] - q[1], q[0], q[1]]);
+            let result_1 = T::from_f64(self.g) * (T::from_f64(2.0) * x2 + x3)
+                + v[0] * v[0] + T::from_f64(0.5) * (v[1] * v[1]) + v[0] * v[1] * x1;
+            result_1
+        }
+    }
+    #[allow(unused_variables, non_snake_case, clippy::all)]
     impl DoublePendulum {
         /// The momenta `p = ∂L/∂v` of these velocities: `State::new(t, q, system.momentum_of_velocity(t, &q, &v))` is where to start.
         pub fn momentum_of_velocity<T: Scalar>(

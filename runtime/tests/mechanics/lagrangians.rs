@@ -376,7 +376,7 @@ fn formulas() -> Result<(), Error> {
     assert!((p - start.p).amax() < 1e-15);
     let mut one = Run::new(Gauss3, by_hand, start.clone(), 0.2)?;
     let mut other = Run::new(Gauss3, formula, start, 0.2)?;
-    let (one, other) = (one.integrate_to(10.0)?, other.integrate_to(10.0)?);
+    let (one, other) = (one.integrate_to(3.0)?, other.integrate_to(3.0)?);
     assert!(distance(one, other) < 1e-13);
 
     let (q, v) = (
