@@ -169,6 +169,8 @@ mod book {
     struct Forces;
     #[doc = include_str!("../../docs/src/guide/rigid-bodies.md")]
     struct RigidBodies;
+    #[doc = include_str!("../../docs/src/guide/lagrangians.md")]
+    struct Lagrangians;
     #[doc = include_str!("../../docs/src/guide/discrete-lagrangians.md")]
     struct DiscreteLagrangians;
     #[doc = include_str!("../../docs/src/guide/nonholonomic.md")]

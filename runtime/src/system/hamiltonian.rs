@@ -52,7 +52,8 @@ use crate::system::{Gradients, Jacobian};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a Hamiltonian system",
     label = "implement `SeparableHamiltonian`, or `Hamiltonian` with `type Class = General`",
-    note = "for doubles alone there are closures, `separable(…)` and `hamiltonian(…)`, and the trait `System`"
+    note = "for doubles alone there are closures, `separable(…)` and `hamiltonian(…)`, and the trait `System`",
+    note = "a Lagrangian that is not quadratic in the velocities is for `variational::LagrangianIntegrator`"
 )]
 pub trait Hamiltonian {
     /// What the derivatives depend on: [`General`](crate::General) or [`Separable`].
@@ -491,7 +492,8 @@ pub trait Hamiltonian {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a Hamiltonian system",
     label = "implement `SeparableHamiltonian`, or `Hamiltonian` with `type Class = General`",
-    note = "for doubles alone there are closures, `separable(…)` and `hamiltonian(…)`, and the trait `System`"
+    note = "for doubles alone there are closures, `separable(…)` and `hamiltonian(…)`, and the trait `System`",
+    note = "a Lagrangian that is not quadratic in the velocities is for `variational::LagrangianIntegrator`"
 )]
 pub trait SeparableHamiltonian {
     /// Positions and momenta over a scalar: [`SVector<T, N>`](nalgebra::SVector), or `DVector<T>` where the dimension is known at

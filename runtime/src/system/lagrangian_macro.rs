@@ -1,7 +1,8 @@
 //! The macro `lagrangian!`.
 
-/// A system from the formula of its Lagrangian: the Hamiltonian follows, and from it everything that
-/// [`hamiltonian!`](macro@crate::hamiltonian) derives.
+/// A system from the formula of its Lagrangian. If L is quadratic in the velocities, the Hamiltonian follows, and from it everything that
+/// [`hamiltonian!`](macro@crate::hamiltonian) derives. Otherwise the type has the trait [`Lagrangian`](trait@crate::Lagrangian), and a
+/// [`LagrangianIntegrator`](crate::variational::LagrangianIntegrator) takes its steps.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -36,10 +37,10 @@
 ///
 /// # From L to H
 ///
-/// L has to be quadratic in the velocities, with functions M, A and U of the positions and the time. Then
+/// L is quadratic in the velocities if there are functions M, A and U of the positions and the time with
 /// $$ L = \tfrac12 v^T M v + A^T v - U \qquad p = \frac{\partial L}{\partial v} = M v + A \qquad
 /// H = \tfrac12 (p - A)^T M^{-1} (p - A) + U $$
-/// and H is a formula too. Velocities that M does not couple are not coupled in H: a sum over bodies stays a loop, of any length, and the code
+/// Then H is a formula too. Velocities that M does not couple are not coupled in H: a sum over bodies stays a loop, of any length, and the code
 /// is that of the same system written with H. Two or three coupled velocities are inverted in closed form, up to sixteen by elimination.
 /// Cartesian velocities may be written with sines and cosines of angles: `cos a cos b + sin a sin b = cos(a − b)` is used in M.
 ///
@@ -60,13 +61,29 @@
 /// }
 /// ```
 ///
-/// Nor is L taken if it is not quadratic in the velocities, as that of a relativistic particle. Write such a system with
-/// [`hamiltonian!`](macro@crate::hamiltonian).
+/// # Other Lagrangians
 ///
-/// ```compile_fail
+/// If L is not quadratic in the velocities, H has no formula. The documentation of the type says so, and steps are those of the same methods
+/// in Lagrangian form, whose unknowns are velocities. Applied forces may be there; constraints, friction, invariants and `require` need H.
+///
+/// ```
+/// use symplectic::nalgebra::SVector;
+/// use symplectic::variational::LagrangianIntegrator;
+///
+/// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
+///
 /// symplectic::lagrangian! {
-///     // error: this term is not quadratic in the velocities
+///     /// A relativistic particle in a trap.
 ///     Relativistic { m: 1, c: 1 } q: [3], v: [3]; L = -m c^2 sqrt(1 - |v|^2/c^2) - |q|^2/2
 /// }
+///
+/// # fn main() -> Result<(), symplectic::Error> {
+/// let (q, v) = (SVector::from([1.0, 0.0, 0.0]), SVector::from([0.0, 0.9, 0.0]));
+/// let mut run = LagrangianIntegrator::from_velocity(Gauss3, Relativistic::new(), 0.0, q, v, 0.05)?;
+/// let energy = run.energy()?;
+/// run.integrate_to(100.0)?;
+/// assert!((run.energy()? - energy).abs() < 1e-8);
+/// # Ok(())
+/// # }
 /// ```
 pub use symplectic_macros::lagrangian;
