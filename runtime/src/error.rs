@@ -329,12 +329,15 @@ pub enum Error {
 
     /// The gradient of a constraint is not its derivative.
     #[error(
-        "the gradient of constraint {constraint} is not its derivative: in one direction {stated:e} where differences of the constraint give \
-         {found:e}; correct `constraint_gradients`"
+        "the gradient of constraint {constraint}{} is not its derivative: in one direction {stated:e} where differences of the constraint give \
+         {found:e}; correct `constraint_gradients`",
+        Named(*name)
     )]
     GradientMismatch {
         /// The constraint, from 0.
         constraint: usize,
+        /// Its name, if it has one.
+        name: Option<ConstraintName>,
         /// Size of the derivative in a direction, as stated.
         stated: f64,
         /// Size of the derivative by differences.
@@ -353,12 +356,15 @@ pub enum Error {
 
     /// The start is not on the constraints.
     #[error(
-        "the state is not on the constraints: constraint {constraint} is {value:e} and changes at the rate {rate:e}, where both must \
-         be 0; `consistent(&system, state)` gives a state that is"
+        "the state is not on the constraints: constraint {constraint}{} is {value:e} and changes at the rate {rate:e}, where both must \
+         be 0; `consistent(&system, state)` gives a state that is",
+        Named(*name)
     )]
     InconsistentStart {
         /// The constraint, from 0: the one that is farthest from 0.
         constraint: usize,
+        /// Its name, if it has one.
+        name: Option<ConstraintName>,
         /// |φ| of it.
         value: f64,
         /// |G ∂H/∂p| of it.
@@ -367,12 +373,15 @@ pub enum Error {
 
     /// The velocity at the start does not obey the non-holonomic constraints.
     #[error(
-        "the velocity does not obey the constraints: w·q' of constraint {constraint} is {rate:e}, and must be 0; \
-         `consistent_momentum(&system, state)` gives a state with a velocity that does"
+        "the velocity does not obey the constraints: w·q' of constraint {constraint}{} is {rate:e}, and must be 0; \
+         `consistent_momentum(&system, state)` gives a state with a velocity that does",
+        Named(*name)
     )]
     InconsistentVelocity {
         /// The constraint, from 0: the one that is farthest from 0.
         constraint: usize,
+        /// Its name, if it has one.
+        name: Option<ConstraintName>,
         /// |w ∂H/∂p| of it.
         rate: f64,
     },
@@ -390,14 +399,17 @@ pub enum Error {
 
     /// The gradient of a constraint vanishes or depends on those of the constraints before it: there are no unique multipliers.
     #[error(
-        "at time {time} constraint {constraint} depends on those before it, or its gradient vanishes (pivot {pivot:e}); leave it out, \
-         or keep away from this configuration"
+        "at time {time} constraint {constraint}{} depends on those before it, or its gradient vanishes (pivot {pivot:e}); leave it out, \
+         or keep away from this configuration",
+        Named(*name)
     )]
     DependentConstraints {
         /// Time at the start of the step.
         time: f64,
         /// The constraint, from 0.
         constraint: usize,
+        /// Its name, if it has one.
+        name: Option<ConstraintName>,
         /// What is left of its row of `G M⁻¹ Gᵀ`, relative to its diagonal entry.
         pivot: f64,
     },
@@ -534,6 +546,55 @@ impl fmt::Display for Quantity {
             Self::DiscreteLagrangian => "discrete Lagrangian",
             Self::Lagrangian => "Lagrangian",
         })
+    }
+}
+
+impl Error {
+    /// The error with the name of the constraint that it is about.
+    pub(crate) fn named(mut self, of: impl Fn(usize) -> Option<ConstraintName>) -> Self {
+        if let Self::GradientMismatch {
+            constraint, name, ..
+        }
+        | Self::InconsistentStart {
+            constraint, name, ..
+        }
+        | Self::InconsistentVelocity {
+            constraint, name, ..
+        }
+        | Self::DependentConstraints {
+            constraint, name, ..
+        } = &mut self
+        {
+            *name = of(*constraint);
+        }
+        self
+    }
+}
+
+/// What a constraint is called: `rod`, or `rods[3]` in a family.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ConstraintName {
+    /// The name of it, or of its family.
+    pub name: &'static str,
+    /// The number in the family, from 0.
+    pub member: Option<usize>,
+}
+
+impl fmt::Display for ConstraintName {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.name)?;
+        self.member
+            .map_or(Ok(()), |member| write!(formatter, "[{member}]"))
+    }
+}
+
+/// " (`name`)", or nothing.
+struct Named(Option<ConstraintName>);
+
+impl fmt::Display for Named {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0
+            .map_or(Ok(()), |name| write!(formatter, " (`{name}`)"))
     }
 }
 

@@ -87,7 +87,7 @@ pub mod system;
 #[cfg(feature = "alloc")]
 pub mod variational;
 
-pub use error::{Error, Quantity};
+pub use error::{ConstraintName, Error, Quantity};
 #[cfg(feature = "alloc")]
 pub use integrator::{Checkpoint, CheckpointError};
 pub use integrator::{Integrator, Retry, Statistics};

@@ -83,6 +83,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         }
         let error = attempt.error(failure, &fault, &self.course.memory, &self.course.next.0);
         self.course.forget();
-        error
+        error.named(|constraint| self.system.constraint_name(constraint))
     }
 }

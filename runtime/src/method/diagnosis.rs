@@ -144,6 +144,7 @@ impl Attempt {
                 Error::DependentConstraints {
                     time,
                     constraint,
+                    name: None,
                     pivot,
                 }
             }

@@ -1,5 +1,6 @@
 //! The systems that are integrated: a Hamiltonian, written once for every scalar.
 
+use crate::error::ConstraintName;
 use crate::number::{F64x2, F64x4, F64x8, Scalar, Vector};
 use crate::system::{Class, Separable};
 #[cfg(feature = "alloc")]
@@ -398,6 +399,11 @@ pub trait Hamiltonian {
     /// They are compared with differences of `φ` when an integrator is made.
     #[cfg(feature = "alloc")]
     fn constraint_gradients<T: Scalar>(&self, _q: &Self::Vector<T>, _gradients: &mut Gradients<T>) {
+    }
+
+    /// The name of a constraint, holonomic or not, for errors.
+    fn constraint_name(&self, _constraint: usize) -> Option<ConstraintName> {
+        None
     }
 
     /// The number m of non-holonomic constraints `w(q)·q' = 0` of a system of class [`Nonholonomic`](crate::Nonholonomic).

@@ -2,6 +2,7 @@
 
 use num_traits::Zero;
 
+use crate::error::ConstraintName;
 use crate::method::Solver;
 use crate::number::{F64x2, F64x4, F64x8, Vector};
 use crate::solver::Automatic;
@@ -120,6 +121,11 @@ pub trait System<V: Vector>: Sized {
     /// Sets their gradients: see [`Hamiltonian::constraint_gradients`].
     #[cfg(feature = "alloc")]
     fn constraint_gradients(&self, _q: &V, _gradients: &mut Gradients<V::Scalar>) {}
+
+    /// The name of a constraint: see [`Hamiltonian::constraint_name`].
+    fn constraint_name(&self, _constraint: usize) -> Option<ConstraintName> {
+        None
+    }
 
     /// The number of non-holonomic constraints: see [`Hamiltonian::nonholonomic_constraints`].
     fn nonholonomic_constraints(&self) -> usize {
@@ -247,6 +253,10 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     #[inline(always)]
     fn constraint_gradients(&self, q: &V, gradients: &mut Gradients<V::Scalar>) {
         Hamiltonian::constraint_gradients::<V::Scalar>(self, q, gradients);
+    }
+
+    fn constraint_name(&self, constraint: usize) -> Option<ConstraintName> {
+        Hamiltonian::constraint_name(self, constraint)
     }
 
     fn nonholonomic_constraints(&self) -> usize {

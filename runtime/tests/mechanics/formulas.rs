@@ -1,7 +1,7 @@
 //! Constraints and friction from formulas, against the same motion in other coordinates.
 
 use symplectic::nalgebra::{DVector, SMatrix, SVector};
-use symplectic::{Error, Hamiltonian, Integrator, State, consistent};
+use symplectic::{ConstraintName, Error, Hamiltonian, Integrator, State, consistent};
 
 symplectic::tableau! {
     Rattle { basis: polynomial(2), nodes: lobatto(2), require: [constrained] }
@@ -160,6 +160,37 @@ fn molecules_from_data() -> Result<(), Error> {
         assert!((found - exact).abs() < 1e-13);
     }
     Ok(())
+}
+
+/// Errors say what the constraint is called.
+#[test]
+fn constraints_have_names() {
+    let rods = Molecules::new(vec![1.0; 3], vec![(0, 1), (1, 2)], vec![1.0, 1.0]);
+    let q = DVector::from_vec(vec![0.0, 0.0, 1.0, 0.0, 1.0, 1.5]);
+    let start = State::new(0.0, q, DVector::zeros(6));
+    let error = Integrator::new(Rattle, rods, start, 0.1)
+        .map(|_| ())
+        .expect_err("too long");
+    let Error::InconsistentStart { name, .. } = error else {
+        panic!("{error}");
+    };
+    let member = Some(1);
+    assert_eq!(
+        name,
+        Some(ConstraintName {
+            name: "rod",
+            member
+        })
+    );
+    assert!(
+        error.to_string().contains("constraint 1 (`rod[1]`)"),
+        "{error}"
+    );
+
+    let start = State::from_arrays(0.0, [1.0, 0.0, 1.0, 0.0], [0.0; 4]);
+    let error = Integrator::new(Rattle, Plane::default(), start, 0.1);
+    let error = error.map(|_| ()).expect_err("a rod without length");
+    assert!(error.to_string().contains("`second`"), "{error}");
 }
 
 /// A pair outside the positions is an error of the start, and no panic.

@@ -83,10 +83,13 @@ impl Emitter<'_> {
         );
         let scalar = &self.scalar;
         let over = self.vector(&quote!(#scalar));
+        let names = self.constraint_names(&constraints, &starts);
         quote! {
             fn constraints(&self) -> usize {
                 #count
             }
+
+            #names
 
             #[inline(always)]
             fn constraint_values<#scalar: Scalar>(&self, q: &#over, values: &mut [#scalar]) {
@@ -128,16 +131,49 @@ impl Emitter<'_> {
         );
         let scalar = &self.scalar;
         let over = self.vector(&quote!(#scalar));
+        let names = self.constraint_names(&constraints, &starts);
         quote! {
             fn nonholonomic_constraints(&self) -> usize {
                 #count
             }
+
+            #names
 
             ::symplectic::emitted::if_alloc! {
                 #[inline(always)]
                 fn nonholonomic_rows<#scalar: Scalar>(&self, q: &#over, rows: &mut ::symplectic::system::Gradients<#scalar>) {
                     #rows
                 }
+            }
+        }
+    }
+
+    /// The name of each constraint, for errors.
+    fn constraint_names(&self, constraints: &[Constraint], starts: &[TokenStream]) -> TokenStream {
+        let (mut before, mut rules) = (&starts[0], Vec::new());
+        for (constraint, end) in constraints.iter().zip(&starts[1..]) {
+            let name = &constraint.name;
+            let parts = Literal::usize_unsuffixed(constraint.parts.len());
+            let number = match before.to_string().as_str() {
+                "0" => quote!(constraint),
+                _ => quote!((constraint - (#before))),
+            };
+            let member = match (constraint.over, constraint.parts.len()) {
+                (None, 1) => quote!(::core::option::Option::None),
+                (None, _) | (Some(_), 1) => quote!(::core::option::Option::Some(#number)),
+                (Some(_), _) => quote!(::core::option::Option::Some(#number / #parts)),
+            };
+            rules.push(quote! {
+                if constraint < #end {
+                    return ::core::option::Option::Some(::symplectic::ConstraintName { name: #name, member: #member });
+                }
+            });
+            before = end;
+        }
+        quote! {
+            fn constraint_name(&self, constraint: usize) -> ::core::option::Option<::symplectic::ConstraintName> {
+                #(#rules)*
+                ::core::option::Option::None
             }
         }
     }

@@ -83,7 +83,7 @@ impl<V: Vector> Examined<V> {
             ..
         } = self;
         let looked = metric.look(system, time, (q, p), point, scratch);
-        looked.map_err(|failure| error(failure, time))?;
+        looked.map_err(|failure| error(failure, time).named(|k| system.constraint_name(k)))?;
         system.constraint_values(q, &mut self.values);
         let velocity = &mut self.scratch[0];
         system.velocity(V::Scalar::from_f64(time), q, p, velocity);
@@ -177,6 +177,7 @@ pub(super) const fn error(failure: Failure, time: f64) -> Error {
         Failure::DependentConstraints { constraint, pivot } => Error::DependentConstraints {
             time,
             constraint,
+            name: None,
             pivot,
         },
         Failure::NonFinite { what, .. } => Error::NonFiniteState { what },
@@ -221,6 +222,7 @@ pub(crate) fn check_start<V: Vector, S: System<V>>(
     };
     Err(Error::InconsistentStart {
         constraint,
+        name: system.constraint_name(constraint),
         value: examined.values[constraint].magnitude(),
         rate: examined.rates[constraint].magnitude(),
     })
@@ -262,6 +264,7 @@ fn check_gradients<V: Vector, S: System<V>>(
             if terms[constraint].relative(difference, found.magnitude()) > GRADIENT {
                 return Err(Error::GradientMismatch {
                     constraint,
+                    name: system.constraint_name(constraint),
                     stated: stated.magnitude(),
                     found: found.magnitude(),
                 });

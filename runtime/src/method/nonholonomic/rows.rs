@@ -1,5 +1,6 @@
 //! A system whose constraints are the rows of w.
 
+use crate::error::ConstraintName;
 use crate::number::Vector;
 use crate::solver::FixedPoint;
 use crate::system::{Class, Gradients, Nonholonomic, System, Unconstrained};
@@ -30,6 +31,10 @@ where
 
     fn constraints(&self) -> usize {
         self.0.nonholonomic_constraints()
+    }
+
+    fn constraint_name(&self, constraint: usize) -> Option<ConstraintName> {
+        self.0.constraint_name(constraint)
     }
 
     #[inline(always)]

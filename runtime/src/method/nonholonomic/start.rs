@@ -21,6 +21,7 @@ pub(super) fn check_start<V: Vector, S: System<V>>(
     }
     Err(Error::InconsistentVelocity {
         constraint,
+        name: system.constraint_name(constraint),
         rate: examined.rate(constraint),
     })
 }
