@@ -2,9 +2,10 @@
 //!
 //! A method has a [generating function](generating_function()) for each of its steps, and [stages](StagesOfStep) with the work and the impulse
 //! of applied forces. A [`DiscreteLagrangian`] that is given has steps that it generates, by a [`VariationalIntegrator`]; what holds for it
-//! is asked of a [`DiscretePath`].
+//! is asked of a [`DiscretePath`]. Degenerate Lagrangians, and constraints on velocities, are for a [`DiracIntegrator`].
 
 mod checks;
+mod dirac;
 mod discrete_lagrangian;
 pub(crate) mod generating_function;
 mod integrator;
@@ -15,6 +16,10 @@ mod symmetry;
 mod two_ends;
 
 pub use checks::DiscretePath;
+pub use dirac::{
+    DiracIntegrator, DiracRule, DiracSystem, PrimaryConstraint, momentum_of_velocity,
+    primary_constraints,
+};
 pub use discrete_lagrangian::DiscreteLagrangian;
 pub use generating_function::{GeneratingFunction, generating_function};
 pub use integrator::VariationalIntegrator;

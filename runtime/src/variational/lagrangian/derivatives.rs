@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 use num_traits::Zero;
 
 use crate::error::Error;
-use crate::number::{Scalar, Vector};
 use crate::number::hyper_dual::HyperDual;
+use crate::number::{Scalar, Vector};
 use crate::system::Lagrangian;
 
 /// The momentum and its rate at a state of positions and velocities, with their Jacobians, and room to evaluate them. Matrices are by rows.
