@@ -25,8 +25,8 @@ pub struct PrimaryConstraint<V> {
     pub value: f64,
 }
 
-/// The primary constraints of a Lagrangian at a state of positions and velocities (Leok & Ohsawa, arXiv:0810.0740v1, §4): one for each
-/// dimension of the kernel of `∂²L/∂v∂v`, none if the Lagrangian is regular.
+/// Dirac's primary constraints of a Lagrangian, at a state of positions and velocities: one for each dimension of the kernel of
+/// `∂²L/∂v∂v`, none if the Lagrangian is regular.
 ///
 /// Allocates memory; for tests and reports.
 ///
