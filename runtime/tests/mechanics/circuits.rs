@@ -132,6 +132,120 @@ fn what_the_circuit_conserves() {
     }
 }
 
+/// The linear circuit with a resistor R and a voltage Et in series with the inductor: the force Et − R v0.
+#[derive(Clone, Copy)]
+struct Driven;
+
+const RESISTANCE: f64 = 0.3;
+const RAMP: f64 = 0.8;
+const LINEAR: Circuit = Circuit { beta: 0.0 };
+
+impl Lagrangian for Driven {
+    type Vector<T: Scalar> = V4<T>;
+
+    const FORCED: bool = true;
+
+    fn lagrangian<T: Scalar>(&self, time: T, q: &V4<T>, v: &V4<T>) -> T {
+        LINEAR.lagrangian(time, q, v)
+    }
+
+    fn force<T: Scalar>(&self, time: T, _: &V4<T>, v: &V4<T>, force: &mut V4<T>) {
+        force[0] = T::from_f64(RAMP) * time - T::from_f64(RESISTANCE) * v[0];
+    }
+}
+
+impl DiracSystem for Driven {
+    fn nonholonomic_constraints(&self) -> usize {
+        LINEAR.nonholonomic_constraints()
+    }
+
+    fn nonholonomic_rows<T: Scalar>(&self, q: &V4<T>, rows: &mut Gradients<T>) {
+        LINEAR.nonholonomic_rows(q, rows);
+    }
+}
+
+/// ℓF'' + RF' + F/C = Et − V for the charge F that has gone through the inductor.
+fn driven_charge(time: f64) -> f64 {
+    let q = circuit_start(LINEAR).q;
+    let [a, b, c] = CAPACITIES;
+    let capacity = 1.0 / (1.0 / (a + c) + 1.0 / b);
+    let damping = RESISTANCE / (2.0 * INDUCTANCE);
+    let rate = (1.0 / (INDUCTANCE * capacity) - damping * damping).sqrt();
+    let slope = capacity * RAMP;
+    let offset = -capacity * (q[1] / a + q[2] / b + RESISTANCE * slope);
+    let swing = (0.4 - slope - damping * offset) / rate;
+    let (sin, cos) = (rate * time).sin_cos();
+    slope * time + offset + (-damping * time).exp() * (swing * sin - offset * cos)
+}
+
+/// Forces that depend on the velocity and the time.
+#[test]
+fn orders_on_a_driven_circuit_with_a_resistor() {
+    let error = |rule, composed, size| {
+        let start = circuit_start(LINEAR);
+        let run = if composed {
+            DiracIntegrator::composed(Suzuki4, rule, Driven, start, size)
+        } else {
+            DiracIntegrator::new(rule, Driven, start, size)
+        };
+        let mut run = run.expect("a run");
+        let q = run.integrate_to(1.0).expect("steps").q;
+        (q[0] - 0.1 - driven_charge(1.0)).abs()
+    };
+    assert_order(2.0, 10, |size| error(DiracRule::Trapezoid, false, size));
+    assert_order(2.0, 10, |size| error(DiracRule::Midpoint, false, size));
+    assert_order(1.0, 160, |size| error(DiracRule::AtEnd, false, size));
+    assert_order(4.0, 5, |size| error(DiracRule::Trapezoid, true, size));
+}
+
+/// The circuit with this unit of time.
+#[derive(Clone, Copy)]
+struct InUnits(f64);
+
+impl Lagrangian for InUnits {
+    type Vector<T: Scalar> = V4<T>;
+
+    fn lagrangian<T: Scalar>(&self, time: T, q: &V4<T>, v: &V4<T>) -> T {
+        let unit = T::from_f64(self.0);
+        LINEAR.lagrangian(time, q, &(v * unit)) / unit
+    }
+}
+
+impl DiracSystem for InUnits {
+    fn nonholonomic_constraints(&self) -> usize {
+        LINEAR.nonholonomic_constraints()
+    }
+
+    fn nonholonomic_rows<T: Scalar>(&self, q: &V4<T>, rows: &mut Gradients<T>) {
+        LINEAR.nonholonomic_rows(q, rows);
+    }
+}
+
+/// Nanoseconds and years, a charge of 10⁻⁹: the steps are the same.
+#[test]
+fn units_change_nothing() {
+    let mut run = DiracIntegrator::new(DiracRule::Trapezoid, LINEAR, circuit_start(LINEAR), 0.05);
+    let expected = run
+        .as_mut()
+        .expect("a run")
+        .integrate_to(2.0)
+        .expect("steps")
+        .q;
+    for (time, charge) in [(1e-9, 1.0), (1e8, 1.0), (1e-9, 1e-9)] {
+        let State { q, p, .. } = circuit_start(LINEAR);
+        let start = State::new(0.0, q * charge, p * charge);
+        let run = DiracIntegrator::new(DiracRule::Trapezoid, InUnits(time), start, 0.05 * time);
+        let q = run
+            .expect("a run")
+            .integrate_to(2.0 * time)
+            .expect("steps")
+            .q
+            / charge;
+        let apart = distance(q.as_slice(), expected.as_slice());
+        assert!(apart < 1e-13, "{time:e} {charge:e}: {apart:e}");
+    }
+}
+
 /// The state at t = 1 of the circuit with a capacitor that is not linear.
 fn nonlinear_end(rule: DiracRule, composed: bool, size: f64) -> State<Vector4<f64>> {
     let circuit = Circuit { beta: 2.0 };
