@@ -303,6 +303,37 @@ fn vortices_do_not_take_other_rules() {
     }
 }
 
+/// L = (x + βx²) y' − (x² + y²)/2
+#[derive(Clone, Copy)]
+struct Linear {
+    beta: f64,
+}
+
+impl Lagrangian for Linear {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn lagrangian<T: Scalar>(&self, _: T, q: &SVector<T, 2>, v: &SVector<T, 2>) -> T {
+        let momentum = q[0] + q[0] * q[0] * T::from_f64(self.beta);
+        momentum * v[1] - q.dot(q) * T::from_f64(0.5)
+    }
+}
+
+impl DiracSystem for Linear {}
+
+/// a(q0) + a(q1) is not 2a at the middle, unless a is linear.
+#[test]
+fn momenta_that_are_not_linear_contradict_the_midpoint_rule() {
+    let start = |beta: f64| State::from_arrays(0.0, [0.6, 0.2], [0.0, 0.6 + beta * 0.36]);
+    let new = |beta| DiracIntegrator::new(DiracRule::Midpoint, Linear { beta }, start(beta), 0.1);
+    new(0.0).expect("a run").integrate_to(10.0).expect("steps");
+    let mut run = new(0.5).expect("a run");
+    let error = run.step().map(|_| ()).expect_err("a contradiction");
+    assert!(
+        matches!(error, Error::ContradictoryStep { step: 1, .. }),
+        "{error}"
+    );
+}
+
 /// L = |v|²/2 with rows that are told: two equal ones, one that vanishes at x = 1, more than components, one out of place.
 #[derive(Clone, Copy, PartialEq)]
 enum Rows {

@@ -36,7 +36,8 @@ use crate::state::State;
 ///
 /// * A Lagrangian that is linear in the velocities, `L = a(q)·v − H(q)` with a linear a, as point vortices have it, takes the rule
 ///   [`Midpoint`](DiracRule::Midpoint): its steps are those of Gauss with one stage for H, and symplectic. Where a is not linear, `D2 Ld` is
-///   not `a(q1)`; its discrete Lagrangian is regular and [`VariationalIntegrator`](super::VariationalIntegrator) takes the steps.
+///   not `a(q1)`, and there is no such step. Its discrete Lagrangian is regular if `∂a/∂q − (∂a/∂q)ᵀ` is, and a
+///   [`VariationalIntegrator`](crate::variational::VariationalIntegrator) takes its steps, with momenta off the primary constraints.
 /// * Velocities without a mass, as in a loop of capacitors, take [`Trapezoid`](DiracRule::Trapezoid).
 /// * The trapezoidal rule needs a start that satisfies the conditions on positions (secondary constraints).
 ///
