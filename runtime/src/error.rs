@@ -397,10 +397,11 @@ pub enum Error {
         rate: f64,
     },
 
-    /// The gradient of a constraint vanishes or depends on those of the constraints before it: there are no unique multipliers.
+    /// The gradient of a constraint vanishes or depends on those of the constraints before it, or `∂²H/∂p∂p` vanishes along it: there are no
+    /// unique multipliers.
     #[error(
-        "at time {time} constraint {constraint}{} depends on those before it, or its gradient vanishes (pivot {pivot:e}); leave it out, \
-         or keep away from this configuration",
+        "at time {time} constraint {constraint}{} depends on those before it, its gradient vanishes, or the velocity along it depends on no \
+         momentum (pivot {pivot:e}); leave it out, or keep away from this configuration",
         Named(*name)
     )]
     DependentConstraints {
@@ -450,6 +451,18 @@ pub enum Error {
         pivot: f64,
     },
 
+    /// The momentum at the start is none of the Lagrangian: it violates a primary constraint.
+    #[error(
+        "no velocity has this momentum: component {component} is off a primary constraint by {value:e}; start from \
+         `momentum_of_velocity(&system, time, &q, &v)`, `primary_constraints` tells what momenta obey"
+    )]
+    PrimaryConstraint {
+        /// The component of the momentum, from 0, that is off if the others are right.
+        component: usize,
+        /// How far it is off.
+        value: f64,
+    },
+
     /// No velocity of a Lagrangian belongs to a momentum.
     #[error(
         "no velocity was found for this momentum at time {time}{}; take a Lagrangian whose ∂²L/∂v∂v is regular, and a momentum that it can have",
@@ -460,6 +473,43 @@ pub enum Error {
         time: f64,
         /// The component that ∂L/∂v does not determine, from 0; `None` where Newton's iteration does not converge.
         component: Option<usize>,
+    },
+
+    /// The position at the end of a step of a degenerate Lagrangian is not determined.
+    #[error(
+        "step {step} of size {step_size} at time {time}: component {component} of the position at the end of the step is not determined; \
+         take the rule `Trapezoid` or `AtEnd`, or a Lagrangian that depends on that component"
+    )]
+    UndeterminedPosition {
+        /// Time at the start of the step.
+        time: f64,
+        /// Step size.
+        step_size: f64,
+        /// Number of the step, from 1.
+        step: u64,
+        /// The component, from 0.
+        component: usize,
+    },
+
+    /// The equations of a step of a degenerate Lagrangian contradict each other.
+    #[error(
+        "step {step} of size {step_size} at time {time}: the conditions on the step contradict each other, by {value:e} in that of {what} \
+         {index}; start where the conditions on positions hold, take the rule `AtEnd` for the first step, and for a Lagrangian that is linear \
+         in the velocities the rule `Midpoint`"
+    )]
+    ContradictoryStep {
+        /// Time at the start of the step.
+        time: f64,
+        /// Step size.
+        step_size: f64,
+        /// Number of the step, from 1.
+        step: u64,
+        /// Whether it is the condition of a component of the momentum or of a constraint.
+        what: Quantity,
+        /// Which, from 0.
+        index: usize,
+        /// By how much.
+        value: f64,
     },
 
     /// A rigid body turns by π or more in a step, where the rotation of the step is no longer unique.
@@ -526,7 +576,7 @@ pub enum Quantity {
     Torque,
     /// A discrete Lagrangian, its derivatives or its forces.
     DiscreteLagrangian,
-    /// A Lagrangian, its first derivatives or its force.
+    /// A Lagrangian, its derivatives or its force.
     Lagrangian,
 }
 

@@ -23,7 +23,7 @@
 //! | Numbers and vectors | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors), [`simd`] |
 //! | Constraints, friction and other forces | [`Constrained`], [`consistent`], [`constraint_force`]; [`Nonholonomic`], [`consistent_momentum`]; [`Damped`], [`Hamiltonian::applied_force`] |
 //! | A rigid body that turns about a point | [`rotation`] |
-//! | Discrete Lagrangians, generating functions, stages and balances | [`variational`] |
+//! | Discrete and degenerate Lagrangians, generating functions, stages and balances | [`variational`] |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`RunTimeTableau`] |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
 //! | What is seen of a run | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
@@ -175,6 +175,8 @@ mod book {
     struct DiscreteLagrangians;
     #[doc = include_str!("../../docs/src/guide/nonholonomic.md")]
     struct Nonholonomic;
+    #[doc = include_str!("../../docs/src/guide/degenerate.md")]
+    struct Degenerate;
     #[doc = include_str!("../../docs/src/guide/newton.md")]
     struct Newton;
     #[doc = include_str!("../../docs/src/guide/speed.md")]

@@ -9,6 +9,8 @@ pub(crate) mod elimination;
 pub(crate) mod hyper_dual;
 pub(crate) mod lanes;
 pub(crate) mod linear_combination;
+#[cfg(feature = "alloc")]
+pub(crate) mod rank;
 pub(crate) mod rows;
 pub(crate) mod scalar;
 pub(crate) mod summation;

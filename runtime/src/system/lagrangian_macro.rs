@@ -52,7 +52,8 @@
 /// # Regular Lagrangians
 ///
 /// M has to be regular. If it consists of numbers, that is proved; otherwise its determinant is evaluated at random points, exactly. If it
-/// vanishes, positions and momenta obey a primary constraint, which is not an ordinary Hamiltonian system. The error names it.
+/// vanishes, positions and momenta obey a primary constraint, which is not an ordinary Hamiltonian system. The error names it. A
+/// `variational::DiracIntegrator` takes such Lagrangians.
 ///
 /// ```compile_fail
 /// symplectic::lagrangian! {

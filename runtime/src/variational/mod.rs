@@ -2,9 +2,11 @@
 //!
 //! A method has a [generating function](generating_function()) for each of its steps, and [stages](StagesOfStep) with the work and the impulse
 //! of applied forces. A [`DiscreteLagrangian`] that is given has steps that it generates, by a [`VariationalIntegrator`]; what holds for it
-//! is asked of a [`DiscretePath`]. A [`LagrangianIntegrator`] takes the steps of a method for a [`Lagrangian`](crate::Lagrangian).
+//! is asked of a [`DiscretePath`]. A [`LagrangianIntegrator`] takes the steps of a method for a [`Lagrangian`](crate::Lagrangian); degenerate
+//! ones, and constraints on velocities, are for a [`DiracIntegrator`].
 
 mod checks;
+mod dirac;
 mod discrete_lagrangian;
 mod failure;
 pub(crate) mod generating_function;
@@ -16,6 +18,7 @@ mod symmetry;
 mod two_ends;
 
 pub use checks::DiscretePath;
+pub use dirac::{DiracIntegrator, DiracRule, DiracSystem, PrimaryConstraint, primary_constraints};
 pub use discrete_lagrangian::DiscreteLagrangian;
 pub use generating_function::{GeneratingFunction, generating_function};
 pub use integrator::VariationalIntegrator;

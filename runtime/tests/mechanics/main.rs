@@ -1,5 +1,8 @@
 //! Systems with constraints, and with friction.
 
+mod circuits;
+mod dirac;
+mod dirac_forms;
 mod discrete_lagrangians;
 mod forces;
 mod formulas;

@@ -9,6 +9,15 @@
 //! two, and that at one end for the methods of Euler: each is its own adjoint, or the adjoint of the other, as the tableau is. So a
 //! symmetric tableau gives a symmetric step, which has order 2, and composes as such. Positions do not depend on μ: the next step finds
 //! λ for any momentum of `p1 + span wᵀ`.
+//!
+//! The stages need H only, so H may be degenerate as long as `w H_pp wᵀ` is invertible. With the generating functions of the same tableau
+//! without constraints, a step is also one of the implicit discrete Hamilton's equations (Leok & Ohsawa 4.35 and 4.52), with
+//! `P = p1 + w(q1)ᵀμ` and `p = p0 − w(q0)ᵀλ`:
+//!
+//! ```text
+//! (+)  p0 − D1 H_d⁺(q0, P) ∈ span w(q0)ᵀ     q1 = D2 H_d⁺(q0, P)                     P − p1 ∈ span w(q1)ᵀ
+//! (−)  q0 = −D1 H_d⁻(p, q1)                  p1 + D2 H_d⁻(p, q1) ∈ span w(q1)ᵀ       p − p0 ∈ span w(q0)ᵀ
+//! ```
 
 mod memory;
 mod rows;

@@ -14,6 +14,28 @@ use crate::variational::regular::Factors;
 /// # Errors
 ///
 /// [`Error::Dimension`] where `q` and `v` differ, [`Error::NonFiniteState`] where they or the momentum are not finite.
+///
+/// ```
+/// # use symplectic::nalgebra::SVector;
+/// # use symplectic::variational::momentum_of_velocity;
+/// # use symplectic::{Lagrangian, Scalar};
+/// /// A charge in a magnetic field, L = |v|²/2 + (x y' − y x').
+/// struct Charge;
+///
+/// impl Lagrangian for Charge {
+///     type Vector<T: Scalar> = SVector<T, 2>;
+///
+///     fn lagrangian<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, v: &SVector<T, 2>) -> T {
+///         v.dot(v) * T::from_f64(0.5) + q[0] * v[1] - q[1] * v[0]
+///     }
+/// }
+///
+/// # fn main() -> Result<(), symplectic::Error> {
+/// let (q, v) = (SVector::from([3.0, 1.0]), SVector::from([0.5, 2.0]));
+/// assert_eq!(momentum_of_velocity(&Charge, 0.0, &q, &v)?, SVector::from([-0.5, 5.0]));
+/// # Ok(())
+/// # }
+/// ```
 pub fn momentum_of_velocity<L: Lagrangian>(
     lagrangian: &L,
     time: f64,

@@ -1,0 +1,68 @@
+//! Why a step is not taken.
+
+use crate::error::{Error, Quantity};
+
+/// Iterations after which Newton's iteration does not converge any more: it takes 2 to 6.
+pub(super) const MAX_ITERATIONS: u32 = 40;
+
+/// Why a step was not taken.
+pub(super) enum Failure {
+    NonFinite,
+    MovingRows,
+    Dependent {
+        constraint: usize,
+    },
+    Undetermined {
+        component: usize,
+    },
+    Contradiction {
+        what: Quantity,
+        index: usize,
+        value: f64,
+    },
+    NotFound {
+        residual: f64,
+    },
+}
+
+impl Failure {
+    pub(super) fn error(self, time: f64, step_size: f64, step: u64) -> Error {
+        match self {
+            Self::NonFinite => Error::NonFinite {
+                time,
+                step_size,
+                step,
+                what: Quantity::Lagrangian,
+                stage: None,
+            },
+            Self::MovingRows => Error::MovingGradients { time },
+            Self::Dependent { constraint } => Error::DependentConstraints {
+                time,
+                constraint,
+                name: None,
+                pivot: 0.0,
+            },
+            Self::Undetermined { component } => Error::UndeterminedPosition {
+                time,
+                step_size,
+                step,
+                component,
+            },
+            Self::Contradiction { what, index, value } => Error::ContradictoryStep {
+                time,
+                step_size,
+                step,
+                what,
+                index,
+                value,
+            },
+            Self::NotFound { residual } => Error::NoEndOfStep {
+                time,
+                step_size,
+                step,
+                residual,
+                iterations: MAX_ITERATIONS,
+            },
+        }
+    }
+}

@@ -1,0 +1,254 @@
+//! Steps of degenerate Lagrangians and of constraints on velocities.
+
+use super::primary::velocity_of_momentum;
+use super::step::Equations;
+use super::{DiracRule, DiracSystem};
+use crate::error::Error;
+use crate::integrator::pace::{Pace, Stepper};
+use crate::integrator::validation::check_state;
+use crate::method::Method;
+use crate::method::symmetric_steps::SymmetricSteps;
+use crate::number::Vector;
+use crate::state::State;
+
+/// Takes the steps of the discrete principle of Lagrange, d'Alembert and Pontryagin (Leok & Ohsawa, arXiv:0810.0740v1, 4.28 and 8.3) for a
+/// [`DiracSystem`], whose Lagrangian may be degenerate:
+///
+/// ```text
+/// p0 + D1 Ld(q0, q1) = w(q0)ᵀλ      p1 = D2 Ld(q0, q1) + w(q1)ᵀμ      w_d(q0, q1)·(q1 − q0) = 0
+/// p1 = ∂L/∂v(q1, v1)                w(q1) v1 = 0
+/// ```
+///
+/// $$ p_0 + D_1 L_d(q_0, q_1) = w(q_0)^T \lambda \qquad p_1 = D_2 L_d(q_0, q_1) + w(q_1)^T \mu \qquad w_d(q_0, q_1) (q_1 - q_0) = 0 $$
+/// $$ p_1 = \frac{\partial L}{\partial v}(q_1, v_1) \qquad w(q_1) v_1 = 0 $$
+///
+/// A [`DiracRule`] gives `Ld` and `w_d`. A force of the Lagrangian is added to both of its derivatives, as an impulse (Marsden & West 3.2.5).
+///
+/// The second line says that every state is one of the continuous system: its momentum obeys the primary constraints, which
+/// [`primary_constraints`](super::primary_constraints) tells, and its velocity the constraints. For a regular Lagrangian that chooses μ, as
+/// a step of [`Nonholonomic`](crate::Nonholonomic) systems does, and the steps are the same. For a degenerate one it also gives the
+/// conditions on `q1` that are missing in the first line.
+///
+/// # Degenerate Lagrangians
+///
+/// Newton's iteration eliminates with complete pivoting and stops at the rank. Equations that depend on others have to be satisfied, and `q1`
+/// has to be determined; else there is an error that names the component. It is not always possible:
+///
+/// * A Lagrangian that is linear in the velocities, `L = a(q)·v − H(q)` with a linear a, as point vortices have it, takes the rule
+///   [`Midpoint`](DiracRule::Midpoint): its steps are those of Gauss with one stage for H, and symplectic. Where a is not linear, `D2 Ld` is
+///   not `a(q1)`, and there is no such step. Its discrete Lagrangian is regular if `∂a/∂q − (∂a/∂q)ᵀ` is, and a
+///   [`VariationalIntegrator`](crate::variational::VariationalIntegrator) takes its steps, with momenta off the primary constraints.
+/// * Velocities without a mass, as in a loop of capacitors, take [`Trapezoid`](DiracRule::Trapezoid).
+/// * The trapezoidal rule needs a start that satisfies the conditions on positions (secondary constraints).
+///
+/// # Cost
+///
+/// For n components and m constraints, an iteration eliminates a full matrix of 2(n + m) rows and takes n(2n + 1) evaluations of L at each
+/// point of the rule and at the end. A step allocates nothing. A step that fails leaves the state as it was.
+///
+/// ```
+/// use symplectic::nalgebra::SVector;
+/// use symplectic::system::Gradients;
+/// use symplectic::variational::{DiracIntegrator, DiracRule, DiracSystem, momentum_of_velocity};
+/// use symplectic::{Lagrangian, Scalar, State};
+///
+/// /// Two capacitors of 1 F in parallel, with an inductor of 2 H across them. The charges are those of the inductor and the capacitors.
+/// struct Circuit;
+///
+/// type V3<T> = SVector<T, 3>;
+///
+/// impl Lagrangian for Circuit {
+///     type Vector<T: Scalar> = V3<T>;
+///
+///     fn lagrangian<T: Scalar>(&self, _time: T, q: &V3<T>, v: &V3<T>) -> T {
+///         v[0] * v[0] - (q[1] * q[1] + q[2] * q[2]) * T::from_f64(0.5)
+///     }
+/// }
+///
+/// impl DiracSystem for Circuit {
+///     fn nonholonomic_constraints(&self) -> usize {
+///         1
+///     }
+///
+///     /// The currents at a node.
+///     fn nonholonomic_rows<T: Scalar>(&self, _q: &V3<T>, rows: &mut Gradients<T>) {
+///         for component in 0..3 {
+///             rows.set(0, component, T::one());
+///         }
+///     }
+/// }
+///
+/// # fn main() -> Result<(), symplectic::Error> {
+/// let q = V3::from([0.0, 1.0, 1.0]);
+/// let p = momentum_of_velocity(&Circuit, 0.0, &q, &V3::zeros())?;
+/// let mut run = DiracIntegrator::new(DiracRule::Trapezoid, Circuit, State::new(0.0, q, p), 0.01)?;
+/// run.integrate_to(1.0)?;
+/// let q = run.state().q;
+/// // Capacities add up: the frequency is 1/√(2 · 2).
+/// assert!((q[1] - 0.5_f64.cos()).abs() < 1e-5);
+/// assert!((q[1] - q[2]).abs() < 1e-14); // the voltages
+/// # Ok(())
+/// # }
+/// ```
+pub struct DiracIntegrator<L: DiracSystem> {
+    system: L,
+    equations: Equations<L>,
+    steps: SymmetricSteps,
+    pace: Pace,
+    state: State<L::Vector<f64>>,
+    velocity: L::Vector<f64>,
+    /// State and velocity inside a step.
+    next: (State<L::Vector<f64>>, L::Vector<f64>),
+}
+
+impl<L: DiracSystem> DiracIntegrator<L> {
+    /// An integrator at `state`, with steps of size `step_size`, negative to go backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`]; [`Error::PrimaryConstraint`] where no
+    /// velocity has this momentum, [`Error::InconsistentVelocity`] where that velocity violates the constraints, [`Error::NoVelocity`] where
+    /// none is found; [`Error::ConstraintCount`] and [`Error::GradientPlace`] where the rows are wrong.
+    pub fn new(
+        rule: DiracRule,
+        system: L,
+        state: State<L::Vector<f64>>,
+        step_size: f64,
+    ) -> Result<Self, Error> {
+        Self::by(SymmetricSteps::ONE, rule, system, state, step_size)
+    }
+
+    /// [`new`](Self::new) with the steps of a composition that [`composition!`](crate::composition) makes of Störmer–Verlet steps. It has the
+    /// order of that composition for general Hamiltonians, `M::ORDERS.general`, with the rule [`Trapezoid`](DiracRule::Trapezoid) and, for
+    /// regular Lagrangians and those linear in the velocities, with [`Midpoint`](DiracRule::Midpoint).
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Self::new). With another method it does not compile.
+    pub fn composed<M: Method>(
+        _method: M,
+        rule: DiracRule,
+        system: L,
+        state: State<L::Vector<f64>>,
+        step_size: f64,
+    ) -> Result<Self, Error> {
+        Self::by(SymmetricSteps::of::<M>(), rule, system, state, step_size)
+    }
+
+    fn by(
+        steps: SymmetricSteps,
+        rule: DiracRule,
+        system: L,
+        state: State<L::Vector<f64>>,
+        step_size: f64,
+    ) -> Result<Self, Error> {
+        let pace = Pace::new(state.time, step_size)?;
+        check_state(state.time, &state.q, &state.p, state.q.dimension())?;
+        let velocity = velocity_of_momentum(&system, &state)?;
+        Ok(Self {
+            equations: Equations::new(rule, &system, state.q.as_slice())?,
+            system,
+            steps,
+            pace,
+            next: (state.clone(), velocity.clone()),
+            state,
+            velocity,
+        })
+    }
+
+    /// Takes one step and returns the state after it. The time after `k` steps is `start + k h`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::ContradictoryStep`], [`Error::UndeterminedPosition`], [`Error::DependentConstraints`], [`Error::MovingGradients`],
+    /// [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is untouched.
+    pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
+        self.one_step()?;
+        Ok(&self.state)
+    }
+
+    /// Goes to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last good step.
+    pub fn integrate_to(&mut self, end: f64) -> Result<&State<L::Vector<f64>>, Error> {
+        self.steps_to(end)?;
+        Ok(&self.state)
+    }
+
+    /// The present state.
+    pub const fn state(&self) -> &State<L::Vector<f64>> {
+        &self.state
+    }
+
+    /// A velocity v with `∂L/∂v = p` and `w(q) v = 0`. What these leave open is that of the mean velocity of the last step, and 0 before the
+    /// first one.
+    pub const fn velocity(&self) -> &L::Vector<f64> {
+        &self.velocity
+    }
+
+    /// The energy `p·v − L(t, q, v)`; it does not depend on velocities that p leaves open.
+    pub fn energy(&self) -> f64 {
+        let State { time, q, p } = &self.state;
+        let pairs = p.as_slice().iter().zip(self.velocity.as_slice());
+        let product: f64 = pairs.map(|(p, v)| p * v).sum();
+        product - self.system.lagrangian(*time, q, &self.velocity)
+    }
+
+    /// The system.
+    pub const fn system(&self) -> &L {
+        &self.system
+    }
+
+    /// The step size.
+    pub const fn step_size(&self) -> f64 {
+        self.pace.step_size()
+    }
+
+    /// Steps taken.
+    pub const fn steps(&self) -> u64 {
+        self.pace.taken()
+    }
+
+    /// Changes the step size; negative to go backward.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`]; the one before then holds.
+    pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
+        self.pace.set_step_size(self.state.time, step_size)
+    }
+}
+
+impl<L: DiracSystem> Stepper for DiracIntegrator<L> {
+    fn pace(&mut self) -> &mut Pace {
+        &mut self.pace
+    }
+
+    fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
+        let start = self.state.time;
+        let (next, velocity) = &mut self.next;
+        for (to, from) in [
+            (&mut next.q, &self.state.q),
+            (&mut next.p, &self.state.p),
+            (velocity, &self.velocity),
+        ] {
+            to.as_mut_slice().copy_from_slice(from.as_slice());
+        }
+        let (next, velocity) = &mut self.next;
+        for part in self.steps.parts(start, size, end) {
+            self.equations
+                .take(&self.system, part, next, velocity)
+                .map_err(|failure| failure.error(start, size, number))?;
+        }
+        next.time = end;
+        core::mem::swap(&mut self.state, next);
+        core::mem::swap(&mut self.velocity, velocity);
+        Ok(())
+    }
+}
