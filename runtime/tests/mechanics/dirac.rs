@@ -428,7 +428,14 @@ fn rows_that_are_wrong() {
         .map(|_| ())
         .expect_err("across");
     let (constraint, rate) = (0, 0.25);
-    assert_eq!(error, Error::InconsistentVelocity { constraint, rate });
+    assert_eq!(
+        error,
+        Error::InconsistentVelocity {
+            constraint,
+            name: None,
+            rate
+        }
+    );
     let error = new(
         Rows::Vanishing,
         State::from_arrays(f64::NAN, [0.0; 2], [0.0; 2]),

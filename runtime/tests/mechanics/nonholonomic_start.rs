@@ -80,6 +80,7 @@ fn a_velocity_that_does_not_obey_is_refused() {
         error,
         Error::InconsistentVelocity {
             constraint: 0,
+            name: None,
             rate: 0.25
         }
     );
