@@ -252,6 +252,28 @@ impl DiscreteLagrangian for Simpson {
     }
 }
 
+/// Ld = h (v²/2a + b cos q1) is the step q1 = q0 + ahp0, p1 = p0 − bh sin q1 of explicit partitioned methods (Marsden & West, 2.6.4, which
+/// prints b for 1/a and 1/a for b).
+#[test]
+fn drift_and_kick() -> Result<(), Error> {
+    struct DriftAndKick(f64, f64);
+    impl DiscreteLagrangian for DriftAndKick {
+        type Vector<T: Scalar> = V1<T>;
+
+        fn value<T: Scalar>(&self, _: T, h: T, q0: &V1<T>, q1: &V1<T>) -> T {
+            let (v, Self(a, b)) = ((q1[0] - q0[0]) / h, self);
+            h * (v * v * T::from_f64(0.5 / a) + q1[0].cos() * T::from_f64(*b))
+        }
+    }
+    let start = State::from_arrays(0.0, [1.0], [0.4]);
+    let mut run = VariationalIntegrator::new(DriftAndKick(0.7, 0.4), start, 0.25)?;
+    let end = run.step()?;
+    let q = 1.0 + 0.7 * 0.25 * 0.4;
+    assert!((end.q[0] - q).abs() < 1e-15);
+    assert!((end.p[0] - (0.4 - 0.4 * 0.25 * q.sin())).abs() < 1e-15);
+    Ok(())
+}
+
 /// A Galerkin method whose inner point is found in the code of Ld: Lobatto IIIA–IIIB with three stages, of order 4.
 #[test]
 fn an_extremum_inside() {

@@ -5,6 +5,7 @@ mod forces;
 mod formulas;
 mod friction;
 mod holonomic;
+mod newmark;
 mod nonholonomic;
 mod nonholonomic_formulas;
 mod nonholonomic_start;
