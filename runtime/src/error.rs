@@ -439,6 +439,18 @@ pub enum Error {
         pivot: f64,
     },
 
+    /// The derivative of a map of positions is singular: momenta have no image.
+    #[error(
+        "the derivative of the map is singular: its component {component} depends on those before it (pivot {pivot:e}); keep away from \
+         this position, or take other coordinates there"
+    )]
+    SingularTransformation {
+        /// The component of the image, from 0.
+        component: usize,
+        /// What is left of its gradient, relative to the largest entry of that.
+        pivot: f64,
+    },
+
     /// β of Newmark's method is negative, infinite or not a number.
     #[error(
         "β of Newmark's method is {value}; it must be finite and not negative, and 1/4 or more for steps of any size"

@@ -5,6 +5,7 @@
 //! is asked of a [`DiscretePath`].
 
 mod checks;
+mod cotangent_lift;
 mod discrete_lagrangian;
 pub(crate) mod generating_function;
 mod integrator;
@@ -16,6 +17,7 @@ mod symmetry;
 mod two_ends;
 
 pub use checks::DiscretePath;
+pub use cotangent_lift::{PointTransformation, cotangent_lift};
 pub use discrete_lagrangian::DiscreteLagrangian;
 pub use generating_function::{GeneratingFunction, generating_function};
 pub use integrator::VariationalIntegrator;

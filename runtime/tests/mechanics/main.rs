@@ -1,5 +1,6 @@
 //! Systems with constraints, and with friction.
 
+mod cotangent_lift;
 mod discrete_lagrangians;
 mod forces;
 mod formulas;
