@@ -1,7 +1,5 @@
 //! Solutions of the discrete Hamilton–Jacobi equation along a run.
 
-use num_traits::Zero;
-
 use super::two_ends::dot;
 use crate::number::{Scalar, Vector};
 use crate::state::State;
