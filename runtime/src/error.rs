@@ -512,6 +512,53 @@ pub enum Error {
         value: f64,
     },
 
+    /// The derivative of a map of positions is singular: momenta have no image.
+    #[error(
+        "the derivative of the map is singular: its component {component} depends on those before it (pivot {pivot:e}); keep away from \
+         this position, or take other coordinates there"
+    )]
+    SingularTransformation {
+        /// The component of the image, from 0.
+        component: usize,
+        /// What is left of its gradient, relative to the largest entry of that.
+        pivot: f64,
+    },
+
+    /// β of Newmark's method is negative, infinite or not a number.
+    #[error(
+        "β of Newmark's method is {value}; it must be finite and not negative, and 1/4 or more for steps of any size"
+    )]
+    NewmarkBeta {
+        /// The β given.
+        value: f64,
+    },
+
+    /// The velocity is not `M⁻¹p` with a constant M, and Newmark's method needs the acceleration `M⁻¹ force`.
+    #[error(
+        "component {component} of the velocity is {velocity} in size, and {linear} if it were linear in the momentum and without time: \
+         Newmark's method is for H = pᵀM⁻¹p/2 + V(t, q) with a constant M; take Störmer–Verlet or Gauss for this system"
+    )]
+    NewmarkMasses {
+        /// The component of the velocity, from 0.
+        component: usize,
+        /// Its size.
+        velocity: f64,
+        /// The size that it would have if it were linear in the momentum.
+        linear: f64,
+    },
+
+    /// No position was found that belongs to a shifted one of Newmark's method.
+    #[error(
+        "at time {time} no position q with q − βh² a(q) = x was found (relative change {residual:e} in the last iteration); take a smaller \
+         step"
+    )]
+    NewmarkPosition {
+        /// The time.
+        time: f64,
+        /// Relative change in the last iteration that had a matrix; NaN if none had.
+        residual: f64,
+    },
+
     /// A rigid body turns by π or more in a step, where the rotation of the step is no longer unique.
     #[error(
         "step {step} of size {step_size} at time {time}: the body turns by {angle} rad, and a step is for less than half a turn; take a \

@@ -63,6 +63,9 @@ symplectic::composition! {
     /// Störmer–Verlet as a splitting: half a kick, a drift, half a kick.
     pub VelocityVerlet { base: velocity-verlet }
 
+    /// Five midpoint steps, order 4, also with non-holonomic constraints.
+    pub Midpoint4 { base: gauss-1, weights: suzuki(4), require: [order == 4] }
+
     /// Forest & Ruth, order 4.
     pub ForestRuth { base: forest-ruth-1990 }
 

@@ -1,7 +1,5 @@
 //! Steps of a discrete Lagrangian.
 
-use num_traits::Float;
-
 use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
 use super::failure::Failure;
 use super::regular::Factors;
@@ -75,9 +73,6 @@ pub struct VariationalIntegrator<L: DiscreteLagrangian> {
 
 /// Iterations after which Newton's iteration does not converge any more: it takes 3 to 6.
 const MAX_ITERATIONS: u32 = 40;
-
-/// The change, relative to the way of the step, after which the next iterate is exact up to rounding, for the iteration converges quadratically.
-const LAST_CHANGE: f64 = 1e-9;
 
 impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
     /// An integrator at `state`, with steps of size `step_size`, negative to go backward.
@@ -222,19 +217,13 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
                 .factor(&self.derivatives.mixed)
                 .map_err(Failure::Singular)?;
             let pairs = p.as_slice().iter().zip(&self.derivatives.start);
-            let change = self.factors.solve(pairs.map(|(p, start)| -(p + start)));
-            let (mut changed, mut way, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
-            let ends = self.q1.as_mut_slice().iter_mut().zip(q.as_slice());
-            for (&change, (q1, q0)) in change.iter().zip(ends) {
-                *q1 += change;
-                changed = changed.max(Float::abs(change));
-                way = way.max(Float::abs(*q1 - q0));
-                largest = largest.max(Float::abs(*q1));
-            }
-            if changed <= LAST_CHANGE * way + 16.0 * f64::EPSILON * largest {
+            let right = pairs.map(|(p, start)| -(p + start));
+            let (start, end) = (q.as_slice(), self.q1.as_mut_slice());
+            let correction = self.factors.correct(right, start, end);
+            if correction.is_last {
                 return Ok(());
             }
-            residual = changed / largest;
+            residual = correction.residual;
         }
         Err(Failure::NotFound {
             residual,

@@ -6,22 +6,30 @@
 //! ones, and constraints on velocities, are for a [`DiracIntegrator`].
 
 mod checks;
+mod cotangent_lift;
 mod dirac;
 mod discrete_lagrangian;
 mod failure;
 pub(crate) mod generating_function;
+mod hamilton_jacobi;
 mod integrator;
 mod lagrangian;
+mod newmark;
+mod observed_order;
 mod regular;
 pub(crate) mod stages;
 mod symmetry;
 mod two_ends;
 
 pub use checks::DiscretePath;
+pub use cotangent_lift::{PointTransformation, cotangent_lift};
 pub use dirac::{DiracIntegrator, DiracRule, DiracSystem, PrimaryConstraint, primary_constraints};
 pub use discrete_lagrangian::DiscreteLagrangian;
 pub use generating_function::{GeneratingFunction, generating_function};
+pub use hamilton_jacobi::DiscreteHamiltonJacobi;
 pub use integrator::VariationalIntegrator;
 pub use lagrangian::{LagrangianIntegrator, momentum_of_velocity, velocity_of_momentum};
+pub use newmark::Newmark;
+pub use observed_order::observed_order;
 pub use stages::{StageOfStep, StagesOfStep};
 pub use symmetry::momentum_map;

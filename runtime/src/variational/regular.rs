@@ -7,7 +7,12 @@ use num_traits::Float;
 
 use crate::number::elimination::Elimination;
 
-/// The matrix D1D2 Ld in factors.
+/// The change of an iterate, relative to the way from the start, after which the next iterate is exact up to rounding, for the iteration
+/// converges quadratically.
+const LAST_CHANGE: f64 = 1e-9;
+
+/// The matrix of a Newton iteration in factors.
+#[derive(Clone)]
 pub(super) struct Factors {
     elimination: Elimination<f64>,
     /// The largest entries of the columns.
@@ -21,6 +26,14 @@ pub(super) struct Singular {
     pub(super) component: usize,
     /// The pivot, relative to the largest entry of its column.
     pub(super) pivot: f64,
+}
+
+/// What a correction did to an iterate.
+pub(super) struct Correction {
+    /// Whether the iterate is exact up to rounding now.
+    pub(super) is_last: bool,
+    /// The change relative to the iterate.
+    pub(super) residual: f64,
 }
 
 impl Factors {
@@ -58,5 +71,27 @@ impl Factors {
         }
         self.elimination.solve();
         &self.elimination.right
+    }
+
+    /// Adds the solution for this right-hand side to the iterate `end` of an iteration that began at `start`.
+    pub(super) fn correct(
+        &mut self,
+        right: impl Iterator<Item = f64>,
+        start: &[f64],
+        end: &mut [f64],
+    ) -> Correction {
+        let changes = self.solve(right);
+        let (mut changed, mut way, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let ends = end.iter_mut().zip(start);
+        for (&change, (end, start)) in changes.iter().zip(ends) {
+            *end += change;
+            changed = changed.max(Float::abs(change));
+            way = way.max(Float::abs(*end - start));
+            largest = largest.max(Float::abs(*end));
+        }
+        Correction {
+            is_last: changed <= LAST_CHANGE * way + 16.0 * f64::EPSILON * largest,
+            residual: changed / largest,
+        }
     }
 }

@@ -11,7 +11,7 @@ symplectic::tableau! {
     StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) }
     Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
     Midpoint { basis: polynomial(1), nodes: gauss(1) }
-    Gauss6 { basis: polynomial(6), nodes: gauss(6) }
+    pub Gauss6 { basis: polynomial(6), nodes: gauss(6) }
 }
 
 symplectic::composition! {
@@ -52,7 +52,7 @@ type V2<T> = SVector<T, 2>;
 
 /// Ld^α = h L((1 − α)q0 + αq1, (q1 − q0)/h) of the double pendulum (Marsden & West, 1.3.1).
 #[derive(Clone, Copy)]
-struct AtOnePoint(f64);
+pub struct AtOnePoint(pub f64);
 
 impl DiscreteLagrangian for AtOnePoint {
     type Vector<T: Scalar> = V2<T>;
@@ -68,7 +68,7 @@ impl DiscreteLagrangian for AtOnePoint {
 
 /// (Ld^α + Ld^{1−α})/2.
 #[derive(Clone, Copy)]
-struct AtTwoPoints(f64);
+pub struct AtTwoPoints(pub f64);
 
 impl DiscreteLagrangian for AtTwoPoints {
     type Vector<T: Scalar> = V2<T>;
@@ -85,7 +85,7 @@ fn double_start() -> State<Vector2<f64>> {
 
 /// L = |v|²/2 + 1/|q| by the trapezoidal rule.
 #[derive(Clone, Copy)]
-struct Trapezoid;
+pub struct Trapezoid;
 
 impl DiscreteLagrangian for Trapezoid {
     type Vector<T: Scalar> = V2<T>;
@@ -103,7 +103,7 @@ fn perihelion() -> State<Vector2<f64>> {
 
 /// The shaken pendulum at the middle of the step, over vectors on the heap.
 #[derive(Clone, Copy)]
-struct ShakenLagrangian;
+pub struct ShakenLagrangian;
 
 impl DiscreteLagrangian for ShakenLagrangian {
     type Vector<T: Scalar> = DVector<T>;
@@ -214,7 +214,7 @@ fn lagrangians_that_depend_on_time() {
 }
 
 /// The pendulum by Ld^α.
-struct Pendulum(f64);
+pub struct Pendulum(pub f64);
 
 impl DiscreteLagrangian for Pendulum {
     type Vector<T: Scalar> = V1<T>;
@@ -228,7 +228,7 @@ impl DiscreteLagrangian for Pendulum {
 
 /// The pendulum by the parabola through q0, q, q1 and Simpson's rule, with the q in the middle for which that action is extremal.
 #[derive(Clone, Copy)]
-struct Simpson;
+pub struct Simpson;
 
 impl DiscreteLagrangian for Simpson {
     type Vector<T: Scalar> = V1<T>;
@@ -250,6 +250,28 @@ impl DiscreteLagrangian for Simpson {
         let sum = lagrangian(start, q0) + lagrangian(end, q1) + number(4.0) * lagrangian(middle, q);
         h * sum / number(6.0)
     }
+}
+
+/// Ld = h (v²/2a + b cos q1) is the step q1 = q0 + ahp0, p1 = p0 − bh sin q1 of explicit partitioned methods (Marsden & West, 2.6.4, which
+/// prints b for 1/a and 1/a for b).
+#[test]
+fn drift_and_kick() -> Result<(), Error> {
+    struct DriftAndKick(f64, f64);
+    impl DiscreteLagrangian for DriftAndKick {
+        type Vector<T: Scalar> = V1<T>;
+
+        fn value<T: Scalar>(&self, _: T, h: T, q0: &V1<T>, q1: &V1<T>) -> T {
+            let (v, Self(a, b)) = ((q1[0] - q0[0]) / h, self);
+            h * (v * v * T::from_f64(0.5 / a) + q1[0].cos() * T::from_f64(*b))
+        }
+    }
+    let start = State::from_arrays(0.0, [1.0], [0.4]);
+    let mut run = VariationalIntegrator::new(DriftAndKick(0.7, 0.4), start, 0.25)?;
+    let end = run.step()?;
+    let q = 1.0 + 0.7 * 0.25 * 0.4;
+    assert!((end.q[0] - q).abs() < 1e-15);
+    assert!((end.p[0] - (0.4 - 0.4 * 0.25 * q.sin())).abs() < 1e-15);
+    Ok(())
 }
 
 /// A Galerkin method whose inner point is found in the code of Ld: Lobatto IIIA–IIIB with three stages, of order 4.

@@ -11,8 +11,10 @@ use crate::common::systems::Pendulum;
 
 use crate::common::methods::{Midpoint, StoermerVerlet};
 use symplectic::system::{Bonds, Chain};
-use symplectic::variational::{DiscreteLagrangian, VariationalIntegrator};
-use symplectic::{Error, Event, Integrator, Method, Moment, Scalar, State, Vector};
+use symplectic::variational::{DiscreteLagrangian, Newmark, VariationalIntegrator};
+use symplectic::{
+    Error, Event, Integrator, Method, Moment, Scalar, SeparableHamiltonian, State, Vector,
+};
 
 thread_local! {
     static COUNT: Cell<u64> = const { Cell::new(0) };
@@ -231,6 +233,35 @@ fn steps_of_a_discrete_lagrangian_make_no_vectors() -> Result<(), Error> {
     let (made_by_new, run) = made(|| VariationalIntegrator::new(Particle, start(), 0.1));
     assert!(made_by_new > 4);
     let mut run = run?;
+    let (made_by_steps, outcome) = made(|| run.integrate_to(10.0).map(|_| ()));
+    outcome?;
+    assert_eq!(made_by_steps, 0);
+    Ok(())
+}
+
+#[test]
+fn steps_of_newmark_make_no_vectors() -> Result<(), Error> {
+    struct Pendulums;
+    impl SeparableHamiltonian for Pendulums {
+        type Vector<T: Scalar> = Counted<T>;
+
+        fn velocity<T: Scalar>(&self, _: T, p: &Counted<T>, velocity: &mut Counted<T>) {
+            velocity.0.copy_from_slice(&p.0);
+        }
+
+        fn force<T: Scalar>(&self, _: T, q: &Counted<T>, force: &mut Counted<T>) {
+            for (force, &q) in force.0.iter_mut().zip(&q.0) {
+                *force = -q.sin();
+            }
+        }
+    }
+    let newmark = Newmark::new(Pendulums, 0.25, 0.1)?;
+    let start = State::new(0.0, Counted::new(vec![1.0; 5]), Counted::new(vec![0.0; 5]));
+    let start = newmark.shift(&start)?;
+    let mut run = Integrator::new(StoermerVerlet, newmark, start, 0.1)?;
+    let (made_first, outcome) = made(|| run.step().map(|_| ()));
+    outcome?;
+    assert!(made_first > 0);
     let (made_by_steps, outcome) = made(|| run.integrate_to(10.0).map(|_| ()));
     outcome?;
     assert_eq!(made_by_steps, 0);

@@ -17,7 +17,9 @@ pub mod pendulum;
 pub mod point_vortices;
 pub mod post_newtonian_kepler;
 pub mod pythagorean_three_body;
+pub mod rolling_disk;
 pub mod sine_gordon;
+pub mod skate;
 pub mod spring_pendulum;
 
 /// What a scene asks of a method.

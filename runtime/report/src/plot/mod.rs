@@ -193,8 +193,8 @@ impl Measurements {
             });
             let values = traced().flat_map(|(_, trace)| trace.ranges.iter().flatten());
             let values = values.flat_map(|(low, high)| [*low, *high]);
-            let y = Axis::linear("relative error of the energy", values)?;
-            let subtitle = format!("error of the energy over time, in steps of {size}");
+            let y = Axis::linear("relative change of the energy", values)?;
+            let subtitle = format!("change of the energy over time, in steps of {size}");
             (y, subtitle, curves.collect())
         } else {
             let magnitude = |(low, high): (f64, f64)| low.abs().max(high.abs()).max(NOTHING);

@@ -7,15 +7,18 @@ use std::f64::consts::TAU;
 use symplectic::nalgebra::SVector;
 use symplectic::{Error, Integrator, Separable, State, System, Vector};
 use symplectic_report::{Ladder, Problem, Reference, Study};
-use symplectic_tests::methods::{Gauss8, Midpoint, VelocityVerlet};
+use symplectic_tests::methods::{Gauss6, Gauss8, Midpoint, StoermerVerlet, VelocityVerlet};
 use symplectic_tests::scenes::{
     argon_crystal, charged_particle, damped_particle, double_pendulum, fput_chain, fput_springs,
     harmonic_oscillator, henon_heiles, hyperbolic, kepler, nonseparable, outer_solar_system,
-    pendulum, point_vortices, post_newtonian_kepler, pythagorean_three_body, sine_gordon,
+    pendulum, point_vortices, post_newtonian_kepler, pythagorean_three_body, rolling_disk,
+    sine_gordon, skate,
 };
 
 use crate::peers::{with_forest_ruth, with_peers, with_rk4};
-use crate::sets::{Set, constrained, coupled, explicit, implicit, more_explicit, newton};
+use crate::sets::{
+    Set, constrained, coupled, explicit, implicit, more_explicit, newton, nonholonomic,
+};
 
 /// A scene: what it is called on the command line, and how it is added to a study.
 pub type Scene = (&'static str, fn(Study) -> Result<Study, Error>);
@@ -48,6 +51,9 @@ pub const SCENES: &[Scene] = &[
     ("double-pendulum", double_pendulum),
     ("double-pendulum-on-rods", double_pendulum_on_rods),
     ("damped-particle", damped_particle),
+    ("damped-energy", damped_energy),
+    ("rolling-disk", rolling_disk),
+    ("skate", skate),
     ("nonseparable", nonseparable),
     ("charged-particle", charged_particle),
     ("post-newtonian-kepler", post_newtonian_kepler),
@@ -266,6 +272,52 @@ fn damped_particle(study: Study) -> Result<Study, Error> {
         end,
         0.5,
     )))
+}
+
+fn damped_energy(study: Study) -> Result<Study, Error> {
+    let (start, end, size) = (damped_particle::start(), 1500.0, 0.1);
+    let system = damped_particle::WithFriction::new();
+    let reference = Reference::computed(Gauss8, system, &start, end, 0.05)?;
+    let ladder = Ladder::Halve {
+        first: size,
+        halvings: 2,
+    };
+    let problem = Problem::new("Energy with friction", system, start.clone(), reference, size)
+        .described("The damped particle in the long run: the energy that friction takes, by variational methods of order 2 with forces, by RK4 and by Gauss 6, which is the true one to the eye, as in Marsden & West, Figure 2")
+        .needing("a method for general Hamiltonians: the force depends on the momentum")
+        .on_ladder(ladder.clone())
+        .traced_at(size)
+        .run("Midpoint", |system, start, h| Integrator::plain(Midpoint, system, start, h))
+        .run("Störmer–Verlet, implicit", |system, start, h| Integrator::plain(StoermerVerlet, system, start, h))
+        .run("Gauss 6", |system, start, h| Integrator::plain(Gauss6, system, start, h));
+    Ok(study.problem(with_rk4(problem, &system, &start, end, ladder)))
+}
+
+fn rolling_disk(study: Study) -> Result<Study, Error> {
+    let origin = "in closed form: it goes round on a circle";
+    let reference = Reference::known(rolling_disk::exact(20.0), origin, 4.0 * f64::EPSILON);
+    let (system, start) = (rolling_disk::Disk::new(), rolling_disk::start());
+    let problem = Problem::new("Rolling disk", system, start, reference, 0.5)
+        .described("H = (px² + py²)/2 + pθ² + 2pφ², x' = θ' cos φ, y' = θ' sin φ: a disk that rolls upright, two non-holonomic constraints")
+        .needing("a method that is `nonholonomic`");
+    Ok(study.problem(nonholonomic(problem)))
+}
+
+fn skate(study: Study) -> Result<Study, Error> {
+    let origin = "in closed form: a cycloid";
+    let reference = Reference::known(skate::exact(20.0), origin, 4.0 * f64::EPSILON);
+    let problem = Problem::new(
+        "Skate on a slope",
+        skate::Skate::new(),
+        skate::start(),
+        reference,
+        0.25,
+    )
+    .described(
+        "H = |p|²/2 − 2x, x' sin a = y' cos a: a skate on a slope, one non-holonomic constraint",
+    )
+    .needing("a method that is `nonholonomic`");
+    Ok(study.problem(nonholonomic(problem)))
 }
 
 fn nonseparable(study: Study) -> Result<Study, Error> {

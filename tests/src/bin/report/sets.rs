@@ -3,12 +3,12 @@
 //! Every method is generic over the system once, here: a scene chooses a set and says its numbers.
 
 use symplectic::system::Unconstrained;
-use symplectic::{Constrained, Integrator, Separable, System, Vector};
+use symplectic::{Constrained, Integrator, Nonholonomic, Separable, System, Vector};
 use symplectic_report::Problem;
 use symplectic_tests::methods::{
     BlanesMoanS6, BlanesMoanS10, BlanesMoanSrkn11b, BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4,
-    Gauss6, Gauss8, KahanLi8, Lobatto3, Lobatto4, SofroniouSpaletta10, StoermerVerlet,
-    SymplecticEuler, VelocityVerlet, Yoshida8,
+    Gauss6, Gauss8, KahanLi8, Lobatto3, Lobatto4, Midpoint, Midpoint4, SofroniouSpaletta10,
+    StoermerVerlet, SymplecticEuler, VelocityVerlet, Yoshida8,
 };
 
 /// A problem with methods that are to be run on it.
@@ -94,6 +94,20 @@ where
         Lobatto3 "Lobatto 3" plain,
         Lobatto4 "Lobatto 4" plain,
         Lobatto4 "Lobatto 4, compensated" new,
+    )
+}
+
+/// Methods for non-holonomic constraints.
+pub fn nonholonomic<V, S>(problem: Problem<V, S>) -> Problem<V, S>
+where
+    V: Vector<Scalar = f64>,
+    S: System<V, Class = Nonholonomic<Separable>> + Clone + 'static,
+{
+    run!(problem, integrator => Ok(integrator);
+        Midpoint "Midpoint" plain,
+        StoermerVerlet "Störmer–Verlet, implicit" plain,
+        Midpoint4 "Midpoint, order 4" plain,
+        Midpoint4 "Midpoint, order 4, compensated" new,
     )
 }
 
