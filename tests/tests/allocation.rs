@@ -13,8 +13,11 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use symplectic::solver::{
     Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Newton, Solver,
 };
+use symplectic::system::Gradients;
+use symplectic::variational::{DiracIntegrator, DiracRule, DiracSystem, LagrangianIntegrator};
 use symplectic::{
-    Compensated, Error, Integrator, Method, ProvedFor, State, hamiltonian, separable,
+    Compensated, Error, Integrator, Lagrangian, Method, ProvedFor, Scalar, State, hamiltonian,
+    separable,
 };
 use symplectic_tests::at_run_time::tableau;
 use symplectic_tests::methods::{Gauss4, Lobatto3, StoermerVerlet};
@@ -72,13 +75,46 @@ fn at_run_time<S: symplectic::System<DVector<f64>>>(
 fn counted<M: Method, S: symplectic::System<DVector<f64>>, N: Solver<DVector<f64>, S>>(
     mut integrator: Integrator<M, S, DVector<f64>, Compensated, N>,
 ) -> Result<usize, Error> {
+    counted_in(|| {
+        for _ in 0..100 {
+            integrator.step()?;
+        }
+        integrator.integrate_to(2.0).map(|_| ())
+    })
+}
+
+fn counted_in(action: impl FnOnce() -> Result<(), Error>) -> Result<usize, Error> {
     let region = Region::new(ALLOCATOR);
-    for _ in 0..100 {
-        integrator.step()?;
-    }
-    integrator.integrate_to(2.0)?;
+    action()?;
     let change = region.change();
     Ok(change.allocations + change.reallocations)
+}
+
+symplectic::lagrangian! {
+    /// Particles whose kinetic energy is not quadratic.
+    Particles q: [..], v: [..];
+    L = sum(i: v[i]^2/2 + v[i]^4/4 - q[i]^2/2)
+}
+
+/// The last of them stays where it is.
+struct Stopped;
+
+impl Lagrangian for Stopped {
+    type Vector<T: Scalar> = DVector<T>;
+
+    fn lagrangian<T: Scalar>(&self, time: T, q: &DVector<T>, v: &DVector<T>) -> T {
+        Particles.lagrangian(time, q, v)
+    }
+}
+
+impl DiracSystem for Stopped {
+    fn nonholonomic_constraints(&self) -> usize {
+        1
+    }
+
+    fn nonholonomic_rows<T: Scalar>(&self, q: &DVector<T>, rows: &mut Gradients<T>) {
+        rows.set(0, q.len() - 1, T::from_f64(1.0));
+    }
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -135,6 +171,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         counted(Integrator::new(TripleRattle, links(), start(), 0.01)?)?,
         0
     );
+
+    let start = || {
+        State::new(
+            0.0,
+            DVector::from_vec(vec![0.5, 1.0, 0.2]),
+            DVector::zeros(3),
+        )
+    };
+    let mut run = LagrangianIntegrator::new(Gauss4, Particles, start(), 0.1)?;
+    assert_eq!(counted_in(|| run.integrate_to(2.0).map(|_| ()))?, 0);
+    let mut run = DiracIntegrator::new(DiracRule::Trapezoid, Stopped, start(), 0.1)?;
+    assert_eq!(counted_in(|| run.integrate_to(2.0).map(|_| ()))?, 0);
 
     // The count sees what a system allocates itself.
     let wasteful = separable::<DVector<f64>, _, _>(
