@@ -32,6 +32,19 @@ pub trait Lagrangian {
     /// `L(t, q, v)`; an energy.
     fn lagrangian<T: Scalar>(&self, time: T, q: &Self::Vector<T>, v: &Self::Vector<T>) -> T;
 
+    /// Writes `∂L/∂v` and `∂L/∂q`, and returns true; or returns false, and they are found by hyper-dual numbers.
+    /// [`lagrangian!`](macro@crate::lagrangian) writes it: one evaluation, where those take one for each component.
+    fn gradient<T: Scalar>(
+        &self,
+        _time: T,
+        _q: &Self::Vector<T>,
+        _v: &Self::Vector<T>,
+        _by_velocity: &mut Self::Vector<T>,
+        _by_position: &mut Self::Vector<T>,
+    ) -> bool {
+        false
+    }
+
     /// Writes the applied force `f(t, q, v)`, which is not in L, into `force`; it is zero before. It counts with `FORCED = true`.
     fn force<T: Scalar>(
         &self,
@@ -50,6 +63,17 @@ impl<L: Lagrangian> Lagrangian for &L {
 
     fn lagrangian<T: Scalar>(&self, time: T, q: &L::Vector<T>, v: &L::Vector<T>) -> T {
         (**self).lagrangian(time, q, v)
+    }
+
+    fn gradient<T: Scalar>(
+        &self,
+        time: T,
+        q: &L::Vector<T>,
+        v: &L::Vector<T>,
+        by_velocity: &mut L::Vector<T>,
+        by_position: &mut L::Vector<T>,
+    ) -> bool {
+        (**self).gradient(time, q, v, by_velocity, by_position)
     }
 
     fn force<T: Scalar>(

@@ -3,22 +3,32 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::Emitter;
+use super::{Derivative, Emitter};
+use crate::formula::graph::Half;
 
 impl Emitter<'_> {
     /// The trait of a Lagrangian and its forces; nothing where there are constraints or friction, which it does not know.
-    pub(super) fn lagrangian(&self) -> TokenStream {
-        let Some(lagrangian) = &self.system.lagrangian else {
+    pub(super) fn lagrangian(&mut self) -> TokenStream {
+        let Some(lagrangian) = self.system.lagrangian.clone() else {
             return TokenStream::new();
         };
         if self.system.is_constrained() || self.system.friction.is_some() {
             return TokenStream::new();
         }
         let [generics, _, arguments] = self.generics();
-        let (name, scalar) = (&self.header.name, &self.scalar);
+        let (name, scalar) = (&self.header.name, &self.scalar.clone());
         let over = self.vector(&quote!(#scalar));
         let outside = quote!(return #scalar::from_f64(f64::NAN););
         let value = self.values(&["q", "v"], &[lagrangian.formula], outside);
+        let gradient = self.gradients(&[("by_velocity", Half::V), ("by_position", Half::Q)].map(
+            |(into, half)| Derivative {
+                into,
+                half,
+                of: lagrangian.formula,
+                sign: 1,
+            },
+        ));
+        let gradient = self.derivatives(&["q", "v"], &gradient, &["by_velocity", "by_position"]);
         let force = (!lagrangian.applied.is_empty()).then(|| {
             let parts = [("force", lagrangian.applied.clone())];
             let statements = self.derivatives(&["q", "v"], &parts, &["force"]);
@@ -38,6 +48,14 @@ impl Emitter<'_> {
                 fn lagrangian<#scalar: Scalar>(&self, time: #scalar, q: &#over, v: &#over) -> #scalar {
                     #value
                     result_1
+                }
+
+                fn gradient<#scalar: Scalar>(&self, time: #scalar, q: &#over, v: &#over, by_velocity: &mut #over, by_position: &mut #over) -> bool {
+                    let write = |by_velocity: &mut #over, by_position: &mut #over| {
+                        #gradient
+                    };
+                    write(by_velocity, by_position);
+                    true
                 }
 
                 #force

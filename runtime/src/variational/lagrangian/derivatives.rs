@@ -15,6 +15,8 @@ pub(crate) struct Derivatives<L: Lagrangian> {
     q: L::Vector<HyperDual>,
     v: L::Vector<HyperDual>,
     force: L::Vector<HyperDual>,
+    /// Position, velocity, `∂L/∂v` and `∂L/∂q` in doubles.
+    doubles: [L::Vector<f64>; 4],
     /// L.
     pub(crate) value: f64,
     /// `∂L/∂v`
@@ -35,11 +37,13 @@ impl<L: Lagrangian> Derivatives<L> {
     /// Room for vectors of this many components.
     pub(crate) fn new(n: usize) -> Result<Self, Error> {
         let zeros = || L::Vector::from_slice(&vec![HyperDual::zero(); n]);
+        let double = || L::Vector::from_slice(&vec![0.0; n]);
         let matrix = || vec![0.0; n * n];
         Ok(Self {
             q: zeros()?,
             v: zeros()?,
             force: zeros()?,
+            doubles: [double()?, double()?, double()?, double()?],
             value: 0.0,
             momentum: vec![0.0; n],
             rate: vec![0.0; n],
@@ -50,8 +54,15 @@ impl<L: Lagrangian> Derivatives<L> {
         })
     }
 
-    /// Evaluates the value, the momentum and its rate, in one evaluation for each component.
+    /// Evaluates the value, the momentum and its rate.
     pub(crate) fn first(&mut self, lagrangian: &L, time: f64, q: &[f64], v: &[f64]) {
+        if self.gradient(lagrangian, time, q, v) {
+            if L::FORCED {
+                self.place(q, v);
+                self.add_force_itself(lagrangian, time);
+            }
+            return;
+        }
         self.place(q, v);
         for k in 0..q.len() {
             self.q.as_mut_slice()[k].first = 1.0;
@@ -63,10 +74,28 @@ impl<L: Lagrangian> Derivatives<L> {
             (self.rate[k], self.momentum[k]) = (dual.first, dual.second);
         }
         if L::FORCED {
-            self.evaluate_force(lagrangian, time);
-            for (rate, force) in self.rate.iter_mut().zip(self.force.as_slice()) {
-                *rate += force.value;
-            }
+            self.add_force_itself(lagrangian, time);
+        }
+    }
+
+    /// [`first`](Self::first) without the force, where the Lagrangian gives its gradient.
+    fn gradient(&mut self, lagrangian: &L, time: f64, q: &[f64], v: &[f64]) -> bool {
+        let [at, velocity, by_velocity, by_position] = &mut self.doubles;
+        at.as_mut_slice().copy_from_slice(q);
+        velocity.as_mut_slice().copy_from_slice(v);
+        if !lagrangian.gradient(time, at, velocity, by_velocity, by_position) {
+            return false;
+        }
+        self.value = lagrangian.lagrangian(time, at, velocity);
+        self.momentum.copy_from_slice(by_velocity.as_slice());
+        self.rate.copy_from_slice(by_position.as_slice());
+        true
+    }
+
+    fn add_force_itself(&mut self, lagrangian: &L, time: f64) {
+        self.evaluate_force(lagrangian, time);
+        for (rate, force) in self.rate.iter_mut().zip(self.force.as_slice()) {
+            *rate += force.value;
         }
     }
 

@@ -28,6 +28,8 @@ pub(super) struct Stages<L: Lagrangian> {
     change: Vec<f64>,
     matrix: Vec<f64>,
     factors: Factors,
+    /// The step size for which there are factors.
+    factored: Option<f64>,
     derivatives: Derivatives<L>,
 }
 
@@ -65,6 +67,7 @@ impl<L: Lagrangian> Stages<L> {
             change: vec![0.0; size],
             matrix: vec![0.0; size * size],
             factors: Factors::new(size),
+            factored: None,
             derivatives: Derivatives::new(n)?,
             coefficients,
         })
@@ -88,9 +91,10 @@ impl<L: Lagrangian> Stages<L> {
         }
     }
 
-    /// Finds the stages: Newton's iteration, from the unknowns of the step before.
+    /// Finds the stages: Newton's iteration, from the unknowns of the step before, and with its factors as long as they do.
     fn find(&mut self, lagrangian: &L, start: Start<'_>) -> Result<(), Failure> {
-        let (mut fresh, mut last) = (true, f64::INFINITY);
+        let (mut fresh, mut last) = (self.factored != Some(start.size), f64::INFINITY);
+        self.factored = None;
         self.evaluate(lagrangian, start, fresh)?;
         for _ in 0..MAX_ITERATIONS {
             if fresh {
@@ -106,6 +110,7 @@ impl<L: Lagrangian> Stages<L> {
             let done = changed <= ROUNDING * size || (slow && changed <= STATIONARY * size);
             let whole = self.evaluate_on_the_way(lagrangian, start, slow && !done)?;
             if done && whole {
+                self.factored = Some(start.size);
                 return Ok(());
             }
             fresh = slow || !whole;
