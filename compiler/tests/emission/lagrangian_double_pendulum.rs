@@ -178,6 +178,33 @@ const _: () = {
                 + v[0] * v[0] + T::from_f64(0.5) * (v[1] * v[1]) + v[0] * v[1] * x1;
             result_1
         }
+        fn gradient<T: Scalar>(
+            &self,
+            time: T,
+            q: &::symplectic::nalgebra::SVector<T, 2>,
+            v: &::symplectic::nalgebra::SVector<T, 2>,
+            by_velocity: &mut ::symplectic::nalgebra::SVector<T, 2>,
+            by_position: &mut ::symplectic::nalgebra::SVector<T, 2>,
+        ) -> bool {
+            let write = |
+                by_velocity: &mut ::symplectic::nalgebra::SVector<T, 2>,
+                by_position: &mut ::symplectic::nalgebra::SVector<T, 2>|
+            {
+                let q = &q.data.0[0];
+                let v = &v.data.0[0];
+                let by_velocity = &mut by_velocity.data.0[0];
+                let by_position = &mut by_position.data.0[0];
+                let x1 = q[0] - q[1];
+                let [(x2, x3), (x4, _), (x5, _)] = T::sin_cos_all([x1, q[0], q[1]]);
+                by_velocity[0] = T::from_f64(2.0) * v[0] + v[1] * x3;
+                by_velocity[1] = v[1] + v[0] * x3;
+                let x6 = x2 * (v[0] * v[1]);
+                by_position[0] = -(T::from_f64(2.0 * self.g) * x4 + x6);
+                by_position[1] = x6 - T::from_f64(self.g) * x5;
+            };
+            write(by_velocity, by_position);
+            true
+        }
     }
     #[allow(unused_variables, non_snake_case, clippy::all)]
     impl DoublePendulum {

@@ -58,6 +58,36 @@ const _: () = {
                 + T::from_f64(0.5) * (q[0] * q[0] + q[1] * q[1]));
             result_1
         }
+        fn gradient<T: Scalar>(
+            &self,
+            time: T,
+            q: &::symplectic::nalgebra::SVector<T, 2>,
+            v: &::symplectic::nalgebra::SVector<T, 2>,
+            by_velocity: &mut ::symplectic::nalgebra::SVector<T, 2>,
+            by_position: &mut ::symplectic::nalgebra::SVector<T, 2>,
+        ) -> bool {
+            let write = |
+                by_velocity: &mut ::symplectic::nalgebra::SVector<T, 2>,
+                by_position: &mut ::symplectic::nalgebra::SVector<T, 2>|
+            {
+                let q = &q.data.0[0];
+                let v = &v.data.0[0];
+                let by_velocity = &mut by_velocity.data.0[0];
+                let by_position = &mut by_position.data.0[0];
+                let x1 = 1.0 / self.c;
+                let x2 = x1 * x1;
+                let x3 = T::from_f64(x2)
+                    * (T::from_f64(self.m * (self.c * self.c))
+                        / (T::one() - T::from_f64(x2) * (v[0] * v[0] + v[1] * v[1]))
+                            .sqrt());
+                by_velocity[0] = v[0] * x3;
+                by_velocity[1] = v[1] * x3;
+                by_position[0] = -q[0];
+                by_position[1] = -q[1];
+            };
+            write(by_velocity, by_position);
+            true
+        }
         const FORCED: bool = true;
         fn force<T: Scalar>(
             &self,

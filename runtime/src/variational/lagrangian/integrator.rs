@@ -1,7 +1,7 @@
 //! Steps of a Lagrangian.
 
 use super::coefficients::StageCoefficients;
-use super::legendre::{momentum_of_velocity, velocity_of_momentum};
+use super::legendre::{momentum_of_velocity, velocity_near, velocity_of_momentum};
 use super::stages::{Stages, Start};
 use crate::error::{Error, Quantity};
 use crate::integrator::pace::{Pace, Stepper};
@@ -21,8 +21,9 @@ use crate::system::{General, Lagrangian};
 /// $$ Q_i = q_0 + h \sum_j a_{ij} V_j \qquad P_i = p_0 + h \sum_j \tilde a_{ij} \Big( \frac{\partial L}{\partial q} + f \Big)_j \qquad
 /// P_i = \frac{\partial L}{\partial v}(t_0 + c_i h, Q_i, V_i) $$
 ///
-/// They are the steps of the same method for the Hamiltonian of L, without it: the unknowns are the stage velocities. L need not be
-/// quadratic in v, and it may be degenerate if the method determines every velocity (Gauss methods do where L is linear in v).
+/// They are the steps of the same method for the Hamiltonian of L, without it: the unknowns are the stage velocities. Where L depends on time
+/// and `c̃ ≠ c`, as for Störmer–Verlet, they differ, and have the same order. L need not be quadratic in v, and it may be degenerate if the
+/// method determines every velocity (Gauss methods do where L is linear in v).
 ///
 /// Without a force the step has the discrete Lagrangian `Ld = h Σ_i b_i L(Q_i, V_i)`, whose value is [`action`](Self::action); it is
 /// symplectic, and conserves the momentum maps of linear symmetries of L.
@@ -88,7 +89,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
 
     /// An integrator by the Galerkin method of the basis and the quadrature formula of `M` (Leok & Zhang 2011, 38), at `state`. The
     /// positions inside a step are combinations of integrals of the s basis functions, and the action is that of the quadrature formula, with
-    /// r ≥ s nodes; of all such paths the step takes the one with stationary action.
+    /// r ≥ s nodes; of all such paths the step takes the one with stationary action. Combinations of the basis have to contain the constants.
     ///
     /// For r = s it is the Runge–Kutta method. For r > s, `tableau! { … basis: …, quadrature: … }`, it is that method only where
     /// `L = v·Mv/2 − U(q)`: on other systems both have the order of `M` and differ by their errors. There are s unknown velocities, not r.
@@ -145,7 +146,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         })
     }
 
-    /// [`new`](Self::new) with the momentum `∂L/∂v` of the velocity `v`.
+    /// [`new`](Self::new) with the momentum `∂L/∂v` of the velocity `v`, where Newton's iteration begins; [`new`](Self::new) begins at rest.
     ///
     /// # Errors
     ///
@@ -159,7 +160,9 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         step_size: f64,
     ) -> Result<Self, Error> {
         let p = momentum_of_velocity(&lagrangian, time, &q, &v)?;
-        Self::new(method, lagrangian, State::new(time, q, p), step_size)
+        let mut run = Self::new(method, lagrangian, State::new(time, q, p), step_size)?;
+        run.stages.begin_with(v.as_slice());
+        Ok(run)
     }
 
     /// Takes one step and returns the state after it. The time after `k` steps is `start + k h`.
@@ -187,14 +190,17 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         &self.state
     }
 
-    /// The velocity of the present state.
+    /// The velocity of the present state: that of [`velocity_of_momentum`], but Newton's iteration begins with the mean velocity of the last step.
     ///
     /// # Errors
     ///
     /// Those of [`velocity_of_momentum`].
     pub fn velocity(&self) -> Result<L::Vector<f64>, Error> {
         let State { time, q, p } = &self.state;
-        velocity_of_momentum(&self.lagrangian, *time, q, p)
+        let mut mean = q.zeros_like();
+        self.stages.add_mean_velocity(mean.as_mut_slice());
+        velocity_near(&self.lagrangian, *time, q, p, mean)
+            .or_else(|_| velocity_of_momentum(&self.lagrangian, *time, q, p))
     }
 
     /// The energy `p·v − L` of the present state.

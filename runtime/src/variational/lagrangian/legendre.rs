@@ -93,11 +93,21 @@ pub fn velocity_of_momentum<L: Lagrangian>(
     q: &L::Vector<f64>,
     p: &L::Vector<f64>,
 ) -> Result<L::Vector<f64>, Error> {
+    check_state(time, q, p, q.dimension())?;
+    velocity_near(lagrangian, time, q, p, q.zeros_like())
+}
+
+/// [`velocity_of_momentum`] by an iteration that begins at `velocity`; `q` and `p` are those of a state.
+pub(super) fn velocity_near<L: Lagrangian>(
+    lagrangian: &L,
+    time: f64,
+    q: &L::Vector<f64>,
+    p: &L::Vector<f64>,
+    mut velocity: L::Vector<f64>,
+) -> Result<L::Vector<f64>, Error> {
     let n = q.dimension();
-    check_state(time, q, p, n)?;
     let mut derivatives = Derivatives::new(n)?;
     let mut factors = Factors::new(n);
-    let mut velocity = q.zeros_like();
     let mut change = q.zeros_like();
     let not_found = |component| Error::NoVelocity { time, component };
     let (mut last, mut stalled) = (f64::INFINITY, 0);

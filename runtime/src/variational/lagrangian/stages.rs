@@ -17,6 +17,8 @@ pub(super) struct Stages<L: Lagrangian> {
     coefficients: StageCoefficients,
     /// The unknowns `V_k`.
     unknowns: Vec<f64>,
+    /// Those of the last step that was taken.
+    before: Vec<f64>,
     /// `P'_i`.
     rates: Vec<f64>,
     /// `L_i`.
@@ -25,6 +27,8 @@ pub(super) struct Stages<L: Lagrangian> {
     q: Vec<f64>,
     v: Vec<f64>,
     residual: Vec<f64>,
+    /// The sizes of the terms of the residual.
+    terms: Vec<f64>,
     change: Vec<f64>,
     matrix: Vec<f64>,
     factors: Factors,
@@ -48,9 +52,11 @@ const MAX_ITERATIONS: u32 = 60;
 const MAX_HALVINGS: u32 = 60;
 /// A matrix is kept while the changes become smaller by this factor.
 const CONTRACTION: f64 = 0.25;
-/// Relative to the velocities: changes below the first are roundings, and below the second they may be where they become no smaller.
+/// Changes below this, relative to the velocities, are roundings.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-const STATIONARY: f64 = 1e-9;
+/// Changes below these may be, where they become no smaller: with a matrix that was kept, and with a new one, whose iteration converges
+/// quadratically otherwise.
+const STATIONARY: [f64; 2] = [1e-13, 1e-9];
 
 impl<L: Lagrangian> Stages<L> {
     /// Room for vectors of `n` components.
@@ -59,11 +65,13 @@ impl<L: Lagrangian> Stages<L> {
         let size = unknowns * n;
         Ok(Self {
             unknowns: vec![0.0; size],
+            before: vec![0.0; size],
             rates: vec![0.0; stages * n],
             values: vec![0.0; stages],
             q: vec![0.0; n],
             v: vec![0.0; n],
             residual: vec![0.0; size],
+            terms: vec![0.0; size],
             change: vec![0.0; size],
             matrix: vec![0.0; size * size],
             factors: Factors::new(size),
@@ -73,8 +81,36 @@ impl<L: Lagrangian> Stages<L> {
         })
     }
 
-    /// Takes a step, and writes its end.
+    /// Begins with this velocity at every stage of a Runge–Kutta method.
+    pub(super) fn begin_with(&mut self, velocity: &[f64]) {
+        for unknowns in self.before.chunks_exact_mut(velocity.len().max(1)) {
+            unknowns.copy_from_slice(velocity);
+        }
+        self.unknowns.copy_from_slice(&self.before);
+    }
+
+    /// Adds `(q1 − q0)/h` of the last step to `out`.
+    pub(super) fn add_mean_velocity(&self, out: &mut [f64]) {
+        add_combination(out, &self.coefficients.end, &self.before);
+    }
+
+    /// Takes a step, and writes its end. A step that fails changes nothing.
     pub(super) fn take(
+        &mut self,
+        lagrangian: &L,
+        start: Start<'_>,
+        q1: &mut [f64],
+        p1: &mut [f64],
+    ) -> Result<(), Failure> {
+        let outcome = self.try_to_take(lagrangian, start, q1, p1);
+        match outcome {
+            Ok(()) => self.before.copy_from_slice(&self.unknowns),
+            Err(_) => self.unknowns.copy_from_slice(&self.before),
+        }
+        outcome
+    }
+
+    fn try_to_take(
         &mut self,
         lagrangian: &L,
         start: Start<'_>,
@@ -91,11 +127,12 @@ impl<L: Lagrangian> Stages<L> {
         }
     }
 
-    /// Finds the stages: Newton's iteration, from the unknowns of the step before, and with its factors as long as they do.
+    /// Finds the stages: Newton's iteration, from the unknowns of the step before, or from fractions of them if something is not finite there.
+    /// The factors are kept from step to step as long as they do.
     fn find(&mut self, lagrangian: &L, start: Start<'_>) -> Result<(), Failure> {
-        let (mut fresh, mut last) = (self.factored != Some(start.size), f64::INFINITY);
-        self.factored = None;
-        self.evaluate(lagrangian, start, fresh)?;
+        let (mut fresh, mut last) = (self.factored.take() != Some(start.size), f64::INFINITY);
+        self.change.copy_from_slice(&self.unknowns);
+        fresh |= !self.evaluate_on_the_way(lagrangian, start, fresh)?;
         for _ in 0..MAX_ITERATIONS {
             if fresh {
                 self.factor(start.q.len())?;
@@ -107,9 +144,10 @@ impl<L: Lagrangian> Stages<L> {
             }
             let (changed, size) = (largest(&self.change), largest(&self.unknowns));
             let slow = changed > CONTRACTION * last;
-            let done = changed <= ROUNDING * size || (slow && changed <= STATIONARY * size);
+            let stationary = STATIONARY[usize::from(fresh)];
+            let done = changed <= ROUNDING * size || (slow && changed <= stationary * size);
             let whole = self.evaluate_on_the_way(lagrangian, start, slow && !done)?;
-            if done && whole {
+            if whole && (done || (slow && self.is_solved())) {
                 self.factored = Some(start.size);
                 return Ok(());
             }
@@ -120,6 +158,12 @@ impl<L: Lagrangian> Stages<L> {
             residual: last / largest(&self.unknowns),
             iterations: MAX_ITERATIONS,
         })
+    }
+
+    /// Whether the residual is that of rounding errors. Near rest it tells, for there are no velocities to compare changes with.
+    fn is_solved(&self) -> bool {
+        let mut rows = self.residual.iter().zip(&self.terms);
+        rows.all(|(residual, terms)| Float::abs(*residual) <= ROUNDING * terms)
     }
 
     fn factor(&mut self, n: usize) -> Result<(), Failure> {
@@ -166,12 +210,15 @@ impl<L: Lagrangian> Stages<L> {
         let n = start.q.len();
         for (row, &factor) in self
             .residual
-            .chunks_exact_mut(n)
+            .chunks_exact_mut(n.max(1))
             .zip(&self.coefficients.start)
         {
             for (residual, p) in row.iter_mut().zip(start.p) {
                 *residual = -factor * p;
             }
+        }
+        for (terms, residual) in self.terms.iter_mut().zip(&self.residual) {
+            *terms = Float::abs(*residual);
         }
         if with_matrix {
             self.matrix.fill(0.0);
@@ -220,7 +267,9 @@ impl<L: Lagrangian> Stages<L> {
         for (k, (of_forces, of_momenta)) in rows.enumerate() {
             let (of_force, of_momentum) = (h * of_forces[stage], of_momenta[stage]);
             for i in 0..n {
-                self.residual[k * n + i] += of_force * at.rate[i] + of_momentum * at.momentum[i];
+                let (force, momentum) = (of_force * at.rate[i], of_momentum * at.momentum[i]);
+                self.residual[k * n + i] += force + momentum;
+                self.terms[k * n + i] += Float::abs(force) + Float::abs(momentum);
             }
             if !with_matrix || (of_force == 0.0 && of_momentum == 0.0) {
                 continue;
@@ -267,7 +316,7 @@ impl<L: Lagrangian> Stages<L> {
 
 /// Adds `Σ_k row_k vector_k` to `out`.
 fn add_combination(out: &mut [f64], row: &[f64], vectors: &[f64]) {
-    for (factor, vector) in row.iter().zip(vectors.chunks_exact(out.len())) {
+    for (factor, vector) in row.iter().zip(vectors.chunks_exact(out.len().max(1))) {
         for (out, component) in out.iter_mut().zip(vector) {
             *out += factor * component;
         }
