@@ -374,7 +374,8 @@ pub enum Error {
     /// The velocity at the start does not obey the non-holonomic constraints.
     #[error(
         "the velocity does not obey the constraints: w·q' of constraint {constraint}{} is {rate:e}, and must be 0; \
-         `consistent_momentum(&system, state)` gives a state with a velocity that does",
+         `consistent_momentum(&system, state)` gives a state of a Hamiltonian system with a velocity that does, \
+         `momentum_of_velocity` the momentum of such a velocity for a Lagrangian",
         Named(*name)
     )]
     InconsistentVelocity {

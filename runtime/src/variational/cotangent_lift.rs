@@ -2,7 +2,7 @@
 
 use alloc::vec;
 
-use num_traits::Zero;
+use num_traits::{Float, Zero};
 
 use super::regular::{Factors, Singular};
 use crate::error::Error;
@@ -74,6 +74,8 @@ pub fn cotangent_lift<F: PointTransformation>(
         *dual = HyperDual::from_f64(value);
     }
     let (mut new, mut transposed) = (state.clone(), vec![0.0; n * n]);
+    // The largest entries of the rows, by which they are divided: units of q do not matter.
+    let mut scales = vec![1.0; n];
     for (k, row) in transposed.chunks_exact_mut(n.max(1)).enumerate() {
         position.as_mut_slice()[k].first = 1.0;
         image.as_mut_slice().fill(HyperDual::zero());
@@ -87,6 +89,13 @@ pub fn cotangent_lift<F: PointTransformation>(
         for ((slope, value), dual) in places.zip(image.as_slice()) {
             (*slope, *value) = (dual.first, dual.value);
         }
+        let largest = row
+            .iter()
+            .fold(0.0, |largest: f64, slope| largest.max(Float::abs(*slope)));
+        if largest > 0.0 {
+            scales[k] = largest;
+            row.iter_mut().for_each(|slope| *slope /= largest);
+        }
     }
     let mut factors = Factors::new(n);
     let singular =
@@ -94,7 +103,7 @@ pub fn cotangent_lift<F: PointTransformation>(
     factors.factor(&transposed).map_err(singular)?;
     new.p.as_mut_slice().fill(0.0);
     let zeros = p.zeros_like();
-    let right = p.as_slice().iter().copied();
+    let right = p.as_slice().iter().zip(&scales).map(|(p, scale)| p / scale);
     factors.correct(right, zeros.as_slice(), new.p.as_mut_slice());
     check_state(*time, &new.q, &new.p, n)?;
     Ok(new)

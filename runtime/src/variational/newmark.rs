@@ -10,8 +10,9 @@ use num_traits::Zero;
 
 use super::regular::Factors;
 use super::two_ends::dot;
-use crate::error::Error;
+use crate::error::{Error, Quantity};
 use crate::integrator::validation::{check_state, check_step_size};
+use crate::method::storage::is_finite;
 use crate::number::hyper_dual::HyperDual;
 use crate::number::{Scalar, Vector};
 use crate::solver::FixedPoint;
@@ -123,7 +124,7 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`]; [`Error::NewmarkMasses`] where the velocity is not `M⁻¹p` with a constant M.
+    /// [`Error::Dimension`]; [`Error::NonFiniteState`] for the state or its force; [`Error::NewmarkMasses`] where the velocity is not `M⁻¹p` with a constant M.
     pub fn shift(&self, state: &State<S::Vector<f64>>) -> Result<State<S::Vector<f64>>, Error> {
         let State { time, q, p } = state;
         check_state(*time, q, p, q.dimension())?;
@@ -135,6 +136,10 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
             });
         }
         let (_, acceleration) = self.acceleration(*time, q);
+        if !is_finite(&acceleration) {
+            let what = Quantity::Force;
+            return Err(Error::NonFiniteState { what });
+        }
         let mut shifted = state.clone();
         for (x, a) in shifted
             .q

@@ -76,7 +76,11 @@ pub fn observed_order<L: DiscreteLagrangian>(
             pairs.fold(largest, |largest, (found, exact)| {
                 let error = Float::abs(found - exact);
                 // NaN stays.
-                if error <= largest { largest } else { error }
+                if error > largest || error.is_nan() {
+                    error
+                } else {
+                    largest
+                }
             })
         }))
     };

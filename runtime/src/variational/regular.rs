@@ -82,15 +82,17 @@ impl Factors {
     ) -> Correction {
         let changes = self.solve(right);
         let (mut changed, mut way, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let mut finite = true;
         let ends = end.iter_mut().zip(start);
         for (&change, (end, start)) in changes.iter().zip(ends) {
             *end += change;
+            finite &= end.is_finite();
             changed = changed.max(Float::abs(change));
             way = way.max(Float::abs(*end - start));
             largest = largest.max(Float::abs(*end));
         }
         Correction {
-            is_last: changed <= LAST_CHANGE * way + 16.0 * f64::EPSILON * largest,
+            is_last: finite && changed <= LAST_CHANGE * way + 16.0 * f64::EPSILON * largest,
             residual: changed / largest,
         }
     }

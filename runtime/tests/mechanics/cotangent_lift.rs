@@ -188,6 +188,30 @@ fn steps_commute_with_lifts_of_symmetries() -> Result<(), Error> {
     Ok(())
 }
 
+/// Cartesian coordinates of a place that is far away: the derivatives by r and by the angle differ in size as much.
+#[test]
+fn units_change_nothing() -> Result<(), Error> {
+    struct Cartesian;
+    impl PointTransformation for Cartesian {
+        type Vector<T: Scalar> = V2<T>;
+
+        fn map<T: Scalar>(&self, q: &V2<T>, image: &mut V2<T>) {
+            let (sine, cosine) = q[1].sin_cos();
+            *image = V2::from([q[0] * cosine, q[0] * sine]);
+        }
+    }
+    for unit in [1.0, 1e20, 1e-20] {
+        let near = State::from_arrays(0.0, [2.0 * unit, 0.7], [0.3, 0.5 * unit]);
+        let cartesian = cotangent_lift(&Cartesian, &near)?;
+        let (sine, cosine) = 0.7_f64.sin_cos();
+        let expected = Vector2::new(0.3 * cosine - 0.25 * sine, 0.3 * sine + 0.25 * cosine);
+        assert!((cartesian.p - expected).norm() < 1e-15, "{unit:e}");
+        let back = cotangent_lift(&Polar, &cartesian)?;
+        assert!((back.p[0] - 0.3).abs() + (back.p[1] / unit - 0.5).abs() < 1e-15);
+    }
+    Ok(())
+}
+
 #[test]
 fn singular_maps_are_refused() {
     let singular = |outcome: Result<State<Vector2<f64>>, Error>| match outcome {

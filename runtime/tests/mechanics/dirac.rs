@@ -427,6 +427,11 @@ fn rows_that_are_wrong() {
     let error = new(Rows::Vanishing, across)
         .map(|_| ())
         .expect_err("across");
+    // `consistent_momentum` is for systems with a Hamiltonian.
+    assert!(
+        error.to_string().contains("momentum_of_velocity"),
+        "{error}"
+    );
     let (constraint, rate) = (0, 0.25);
     assert_eq!(
         error,

@@ -325,3 +325,18 @@ fn refusals() -> Result<(), Error> {
     ));
     Ok(())
 }
+
+/// The force overflows, its derivative does not.
+#[test]
+fn forces_that_overflow() -> Result<(), Error> {
+    symplectic::hamiltonian! { Quartic q: [x], p: [px]; H = px^2/2 + x^4/4 }
+    let newmark = Newmark::new(Quartic, 0.25, 0.1)?;
+    let far = State::from_arrays(0.0, [1e110], [0.0]);
+    let what = Quantity::Force;
+    assert_eq!(newmark.shift(&far), Err(Error::NonFiniteState { what }));
+    assert!(matches!(
+        newmark.unshift(&far),
+        Err(Error::NewmarkPosition { .. })
+    ));
+    Ok(())
+}

@@ -120,6 +120,12 @@ fn what_has_no_order() {
     assert_eq!(ask(0.0), Err(Error::StepSize { value: 0.0 }));
     // Free motion is no orbit of the pendulum: the force is missing.
     assert!((ask(0.01).expect("momenta") - 1.0).abs() < 0.05);
+    // An orbit with a NaN has no order, wherever the NaN is.
+    for p in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
+        let broken = |time: f64| Ok(State::from_arrays(time, [1.0, time], p));
+        let order = observed_order(&AtOnePoint(0.5), broken, 0.0, 0.1).expect("momenta");
+        assert!(order.is_nan(), "{p:?}: {order}");
+    }
     let growing = |time: f64| {
         let n = if time > 0.0 { 2 } else { 1 };
         Ok(State::new(time, DVector::zeros(n), DVector::zeros(n)))

@@ -104,6 +104,9 @@ pub struct DiracIntegrator<L: DiracSystem> {
 impl<L: DiracSystem> DiracIntegrator<L> {
     /// An integrator at `state`, with steps of size `step_size`, negative to go backward.
     ///
+    /// The velocity of the momentum is sought from `v = 0`, where `∂²L/∂v∂v` must have the rank that it has elsewhere: a momentum of
+    /// `L = v⁴` is refused.
+    ///
     /// # Errors
     ///
     /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`]; [`Error::PrimaryConstraint`] where no
