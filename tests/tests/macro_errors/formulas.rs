@@ -29,6 +29,7 @@ symplectic::lagrangian! {
 symplectic::lagrangian! {
     Relativistic { m, c } q: [3], v: [3];
     L = -m c^2 sqrt(1 - |v|^2/c^2) - |q|^2
+    require: [separable]
 }
 
 fn main() {}
