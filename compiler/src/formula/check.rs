@@ -43,6 +43,7 @@ impl System {
             return Err(kind.into());
         }
         if self.without_hamiltonian().is_some() {
+            // Where something needs H, L was refused when it was read.
             return Ok(());
         }
         if self.friction.is_some() {

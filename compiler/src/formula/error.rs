@@ -59,7 +59,8 @@ pub enum FormulaError {
     },
     /// A mass matrix without an inverse.
     #[error(
-        "{reason}: {constraint} is a primary constraint; only Lagrangians with a regular mass matrix are taken so far"
+        "{reason}: {constraint} is a primary constraint; write a Lagrangian with a regular mass matrix, \
+         or implement `Lagrangian` by hand and take `symplectic::variational::DiracIntegrator`"
     )]
     Singular {
         /// What is singular.

@@ -75,6 +75,7 @@ pub(crate) trait Stepper {
         outcome
     }
 
+    /// A step that counts, if time passes in it.
     fn counted(&mut self, size: f64, end: f64) -> Result<(), Error> {
         if end == self.time() {
             return Err(Error::TimeResolution {

@@ -84,8 +84,8 @@ pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static 
     /// Whether it is refused for separable systems whose kinetic energy is not quadratic: where its order is lower there.
     const NEEDS_QUADRATIC_KINETIC: bool = Self::ORDERS.nystrom > Self::ORDERS.separable;
 
-    /// Number of functions of which the velocities inside a step are combinations: as many as there are stages, or fewer, where the method was
-    /// derived from a quadrature formula with more nodes than the basis has functions.
+    /// Number of basis functions of the velocity inside a step. It is the number of stages, or less if the quadrature formula has more nodes
+    /// than the basis has functions.
     const FUNCTIONS: usize = Self::STAGES;
 
     /// How it steps systems with holonomic constraints, where it can: by one step, or those of a composition.

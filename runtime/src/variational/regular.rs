@@ -36,6 +36,12 @@ pub(super) struct Correction {
     pub(super) residual: f64,
 }
 
+/// The largest size of some numbers.
+pub(super) fn largest(numbers: &[f64]) -> f64 {
+    let sizes = numbers.iter().map(|&number| Float::abs(number));
+    sizes.fold(0.0, f64::max)
+}
+
 impl Factors {
     pub(super) fn new(size: usize) -> Self {
         Self {

@@ -1,8 +1,8 @@
 //! From a system that was read from a formula to Rust code.
 //!
 //! The type has a field for each parameter, and implements the trait of the class that was found: `SeparableHamiltonian`, `Hamiltonian`, or
-//! the parts of a chain; and `Lagrangian`, if it was given by one. The order of evaluation is that of [`operations`]; sums over indices are loops, so the code is as long for a
-//! thousand bodies as for three.
+//! the parts of a chain; and `Lagrangian`, if it was given by one. The order of evaluation is that of [`operations`]. Sums over indices are
+//! loops, so the code is as long for a thousand bodies as for three.
 
 mod band;
 mod block;

@@ -1,6 +1,6 @@
 //! Steps of degenerate Lagrangians and of constraints on velocities.
 
-use super::primary::velocity_of_momentum;
+use super::primary::consistent_velocity;
 use super::step::Equations;
 use super::{DiracRule, DiracSystem};
 use crate::error::Error;
@@ -10,6 +10,7 @@ use crate::method::Method;
 use crate::method::symmetric_steps::SymmetricSteps;
 use crate::number::Vector;
 use crate::state::State;
+use crate::variational::two_ends::dot;
 
 /// Takes the steps of the discrete principle of Lagrange, d'Alembert and Pontryagin (Leok & Ohsawa, arXiv:0810.0740v1, 4.28 and 8.3) for a
 /// [`DiracSystem`], whose Lagrangian may be degenerate:
@@ -147,7 +148,7 @@ impl<L: DiracSystem> DiracIntegrator<L> {
     ) -> Result<Self, Error> {
         let pace = Pace::new(state.time, step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
-        let velocity = velocity_of_momentum(&system, &state)?;
+        let velocity = consistent_velocity(&system, &state)?;
         Ok(Self {
             equations: Equations::new(rule, &system, state.q.as_slice())?,
             system,
@@ -194,9 +195,7 @@ impl<L: DiracSystem> DiracIntegrator<L> {
     /// The energy `p·v − L(t, q, v)`; it does not depend on velocities that p leaves open.
     pub fn energy(&self) -> f64 {
         let State { time, q, p } = &self.state;
-        let pairs = p.as_slice().iter().zip(self.velocity.as_slice());
-        let product: f64 = pairs.map(|(p, v)| p * v).sum();
-        product - self.system.lagrangian(*time, q, &self.velocity)
+        dot(p, &self.velocity) - self.system.lagrangian(*time, q, &self.velocity)
     }
 
     /// The system.

@@ -105,7 +105,7 @@ fn room<L: Lagrangian>(q: &L::Vector<f64>, v: &L::Vector<f64>) -> Result<Derivat
 }
 
 /// A velocity v with `∂L/∂v = p` and `w(q) v = 0`, from zero: components that neither determines are zero.
-pub(super) fn velocity_of_momentum<L: DiracSystem>(
+pub(super) fn consistent_velocity<L: DiracSystem>(
     system: &L,
     State { time, q, p }: &State<L::Vector<f64>>,
 ) -> Result<L::Vector<f64>, Error> {

@@ -14,6 +14,7 @@ use crate::number::Vector;
 use crate::number::rank::{RankElimination, Rest};
 use crate::state::State;
 use crate::variational::lagrangian::derivatives::Derivatives;
+use crate::variational::regular::largest;
 
 /// What is left of an equation that depends on others is zero if it is smaller, relative to its terms.
 pub(super) const CONSISTENT: f64 = 1e-10;
@@ -89,9 +90,6 @@ impl<L: DiracSystem> Equations<L> {
         let (q0, p0) = (state.q.as_slice(), state.p.as_slice());
         self.unknowns.fill(0.0);
         self.unknowns[..n].copy_from_slice(velocity);
-        let largest = |numbers: &[f64]| {
-            (numbers.iter()).fold(0.0_f64, |largest, number| largest.max(Float::abs(*number)))
-        };
         let resolution = 16.0 * f64::EPSILON * largest(q0) / Float::abs(part.size);
         let (mut residual, mut contradicted) = (f64::INFINITY, false);
         for _ in 0..MAX_ITERATIONS {

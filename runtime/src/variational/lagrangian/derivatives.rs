@@ -59,7 +59,7 @@ impl<L: Lagrangian> Derivatives<L> {
         if self.gradient(lagrangian, time, q, v) {
             if L::FORCED {
                 self.place(q, v);
-                self.add_force_itself(lagrangian, time);
+                self.add_value_of_force(lagrangian, time);
             }
             return;
         }
@@ -74,7 +74,7 @@ impl<L: Lagrangian> Derivatives<L> {
             (self.rate[k], self.momentum[k]) = (dual.first, dual.second);
         }
         if L::FORCED {
-            self.add_force_itself(lagrangian, time);
+            self.add_value_of_force(lagrangian, time);
         }
     }
 
@@ -86,13 +86,14 @@ impl<L: Lagrangian> Derivatives<L> {
         if !lagrangian.gradient(time, at, velocity, by_velocity, by_position) {
             return false;
         }
+        // L may be no number where its gradient is one: ln x at x < 0.
         self.value = lagrangian.lagrangian(time, at, velocity);
         self.momentum.copy_from_slice(by_velocity.as_slice());
         self.rate.copy_from_slice(by_position.as_slice());
         true
     }
 
-    fn add_force_itself(&mut self, lagrangian: &L, time: f64) {
+    fn add_value_of_force(&mut self, lagrangian: &L, time: f64) {
         self.evaluate_force(lagrangian, time);
         for (rate, force) in self.rate.iter_mut().zip(self.force.as_slice()) {
             *rate += force.value;
@@ -133,7 +134,7 @@ impl<L: Lagrangian> Derivatives<L> {
             self.v.as_mut_slice()[row].first = 0.0;
         }
         if L::FORCED {
-            self.add_force(lagrangian, time);
+            self.add_force_and_slopes(lagrangian, time);
         }
     }
 
@@ -156,7 +157,7 @@ impl<L: Lagrangian> Derivatives<L> {
         lagrangian.force(time, &self.q, &self.v, &mut self.force);
     }
 
-    fn add_force(&mut self, lagrangian: &L, time: f64) {
+    fn add_force_and_slopes(&mut self, lagrangian: &L, time: f64) {
         let n = self.rate.len();
         for column in 0..n {
             self.q.as_mut_slice()[column].first = 1.0;

@@ -10,6 +10,7 @@ use crate::method::{Method, ProvedFor};
 use crate::number::Vector;
 use crate::state::State;
 use crate::system::{General, Lagrangian};
+use crate::variational::two_ends::dot;
 
 /// Takes the steps of a partitioned Runge–Kutta method in Lagrangian form (Marsden & West 2001, 2.6.1):
 ///
@@ -30,9 +31,10 @@ use crate::system::{General, Lagrangian};
 ///
 /// # Cost
 ///
-/// Newton's iteration begins with the velocities of the step before, and takes new derivatives when it contracts slowly. For s stages and
-/// n components these are s n(2n + 1) evaluations of L by hyper-dual numbers and the elimination of a full matrix of size sn; an iteration
-/// takes s n evaluations. A step allocates nothing. A step that fails leaves the state as it was.
+/// Newton's iteration begins with the velocities and the factors of the step before, and takes new factors when it contracts slowly. For s
+/// stages and n components, these take s n(2n + 1) evaluations of L by hyper-dual numbers and the elimination of a full matrix of size sn. An
+/// iteration takes s evaluations of L with its [gradient](Lagrangian::gradient), or s n by hyper-dual numbers. A step allocates nothing. A
+/// step that fails leaves the state as it was.
 ///
 /// ```
 /// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
@@ -211,9 +213,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     pub fn energy(&self) -> Result<f64, Error> {
         let State { time, q, p } = &self.state;
         let v = self.velocity()?;
-        let pairs = p.as_slice().iter().zip(v.as_slice());
-        let kinetic: f64 = pairs.map(|(p, v)| p * v).sum();
-        Ok(kinetic - self.lagrangian.lagrangian(*time, q, &v))
+        Ok(dot(p, &v) - self.lagrangian.lagrangian(*time, q, &v))
     }
 
     /// The discrete Lagrangian `h Σ_i b_i L_i` of the last step; `None` before the first one.

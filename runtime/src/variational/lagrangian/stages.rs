@@ -10,7 +10,7 @@ use super::derivatives::Derivatives;
 use crate::error::Error;
 use crate::system::Lagrangian;
 use crate::variational::failure::Failure;
-use crate::variational::regular::{Factors, Singular};
+use crate::variational::regular::{Factors, Singular, largest};
 
 /// The unknown velocities of a step, and what follows from them. Each list is of vectors one after the other.
 pub(super) struct Stages<L: Lagrangian> {
@@ -321,9 +321,4 @@ fn add_combination(out: &mut [f64], row: &[f64], vectors: &[f64]) {
             *out += factor * component;
         }
     }
-}
-
-fn largest(numbers: &[f64]) -> f64 {
-    let sizes = numbers.iter().map(|&number| Float::abs(number));
-    sizes.fold(0.0, f64::max)
 }
