@@ -21,8 +21,10 @@ pub(super) fn code(
     (methods, substeps): (&[Tableau], &[Substep]),
 ) -> Option<TokenStream> {
     let qualifies = |tableau: &Tableau| tableau.properties().constrained.holds;
-    let tableau_of =
-        |numbers: &Coefficients<Number<'_>>| constants(numbers, &multiplier_matrix(numbers)?);
+    let tableau_of = |numbers: &Coefficients<Number<'_>>| match numbers.b.len() {
+        1 => Some(with_its_end()),
+        _ => constants(numbers, &multiplier_matrix(numbers)?),
+    };
     if qualifies(tableau) {
         return Some(steps("CONSTRAINED", &[tableau_of(numbers)?], None));
     }
@@ -32,6 +34,24 @@ pub(super) fn code(
     let tableaux = methods.iter().map(|method| tableau_of(&method.numbers()));
     let tableaux = tableaux.collect::<Option<Vec<_>>>()?;
     Some(steps("CONSTRAINED", &tableaux, Some(&list(substeps))))
+}
+
+/// Symplectic Euler with its end as a second stage of weight 0: the property `constrained` of one stage leaves no other coefficients.
+fn with_its_end() -> TokenStream {
+    let [zero, one] = [0.0, 1.0].map(|value| {
+        let value = literal::double(value);
+        quote!(::symplectic::emitted::Coefficient::exact(#value))
+    });
+    quote! {
+        ::symplectic::emitted::ConstrainedTableau {
+            positions: &[&[#zero, #zero], &[#one, #one]],
+            momenta: &[&[#one, #zero], &[#one, #zero]],
+            weights: &[#one, #zero],
+            nodes: &[#zero, #one],
+            momentum_nodes: &[#one, #one],
+            multipliers: &[&[1.0]],
+        }
+    }
 }
 
 /// A constant of a `Method` with steps of these tableaux: those of a list, or a whole one.

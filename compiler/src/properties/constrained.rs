@@ -6,10 +6,13 @@
 //!
 //! For small steps `φ(Q_i)` depends on `Λ_1 … Λ_{s−1}` through `−h² X ⊗ G M⁻¹ Gᵀ` with the matrix
 //! `X = (A Ã)_ik`, `i = 2..s`, `k = 1..s−1`: the multipliers exist and are unique iff X is invertible.
+//!
+//! Symplectic Euler has one stage, `Q_1 = q0`, and `φ(q1) = 0` takes the place of the conditions on stages (GNI VII.1): its end
+//! is a second stage of weight 0, with `X = 1`.
 
 use std::cmp::Ordering;
 
-use super::{Examined, Property, Zero, end_stages, symplectic};
+use super::{Evidence, Examined, Property, Zero, consistent, end_stages, symplectic};
 use crate::algebra::{Number, StageAlgebra};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
@@ -21,6 +24,9 @@ const BITS: [u32; 4] = [192, 384, 1024, 4096];
 
 /// Decides the conditions one after another.
 pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
+    if examined.numbers.b.len() == 1 {
+        return with_its_end(examined);
+    }
     let ends = [
         end_stages::first_row_zero(examined),
         end_stages::stiffly_accurate(examined),
@@ -61,6 +67,23 @@ pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
     });
     let determinant = Number::Rational(determinant.middle()).decimal(6);
     Property::holding(evidence, Some(format!("det (A Ã) ≈ {determinant}")))
+}
+
+/// Decides it for one stage: `a_11 = 0`, `b_1 = b̃_1 = 1`, and so `ã_11 = 1`.
+fn with_its_end<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
+    let needed = [
+        end_stages::first_row_zero(examined),
+        consistent::decide(examined),
+        symplectic::decide(examined),
+    ];
+    if let Some(refuted) = needed.iter().find(|property| !property.holds) {
+        return refuted.clone();
+    }
+    let evidence = needed.iter().fold(Evidence::Proved, |evidence, property| {
+        evidence.and(property.evidence)
+    });
+    let witness = "q1 is a second stage, of weight 0".to_owned();
+    Property::holding(evidence, Some(witness))
 }
 
 /// Two stages, counted from 1, that coincide.
@@ -135,7 +158,7 @@ fn invert(mut rows: Vec<Vec<Interval>>) -> Option<Inverse> {
     Some(Inverse { rows, determinant })
 }
 
-/// `X⁻¹`, correctly rounded, of a method that is `constrained`.
+/// `X⁻¹`, correctly rounded, of a method that is `constrained` and has more than one stage.
 ///
 /// An entry that no enclosure tells from zero is zero.
 pub(crate) fn multiplier_matrix(numbers: &Coefficients<Number<'_>>) -> Option<Vec<Vec<f64>>> {
@@ -215,6 +238,7 @@ mod tests {
     #[test]
     fn what_refutes_it_is_named() {
         for (definition, witness) in [
+            ("basis: polynomial(1), nodes: [1]", "a_11 = 1"),
             ("basis: polynomial(2), nodes: gauss(2)", "a_11 = "),
             (
                 "basis: polynomial(2), nodes: radau-left(2)",
@@ -231,6 +255,12 @@ mod tests {
             let text = found.to_string();
             assert!(text.contains(witness), "{definition}: {text}");
         }
+    }
+
+    #[test]
+    fn symplectic_euler_ends_on_the_constraints() {
+        let found = property("basis: polynomial(1), nodes: [0]");
+        assert!(found.holds && found.evidence == Evidence::Proved, "{found}");
     }
 
     #[test]

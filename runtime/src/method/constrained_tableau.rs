@@ -29,7 +29,7 @@ impl ConstrainedStep {
 }
 
 /// A symplectic tableau without zero weights; for holonomic constraints with `a_1j = 0`, `a_sj = b_j` and a regular matrix
-/// `X = (A Ã)_ik`, `i = 2..s`, `k = 1..s−1`.
+/// `X = (A Ã)_ik`, `i = 2..s`, `k = 1..s−1`. The end of symplectic Euler is a last stage of weight zero.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstrainedTableau {
     /// `μ_ij = a_ij/b_j` by rows.

@@ -5,6 +5,8 @@ use symplectic::system::Gradients;
 use symplectic::{Constrained, General, Hamiltonian, Scalar, Separable, State, consistent};
 
 symplectic::tableau! {
+    /// Symplectic Euler.
+    pub Euler { basis: polynomial(1), nodes: [0], require: [constrained, order == 1] }
     pub Rattle { basis: polynomial(2), nodes: lobatto(2), require: [constrained, order == 2] }
     pub Lobatto3 { basis: polynomial(3), nodes: lobatto(3), require: [constrained, order == 4] }
     pub Lobatto4 { basis: polynomial(4), nodes: lobatto(4), require: [constrained, order == 6] }

@@ -350,9 +350,15 @@ impl<V: Vector> Workspace<V> {
             Err(Failure::NonFinite { .. }) => return Err(self.not_finite()),
             found => found?,
         }
-        // The impulse −Gᵀy of the last stage, in place of its multiplier.
+        // The impulse −Gᵀy of the last stage, in place of its multiplier; of the stage before where the weight is zero.
+        let constraints = self.multipliers.len();
+        let (impulses, weight) = if weight == V::Scalar::from_f64(0.0) {
+            let weight = V::Scalar::weight(step.size, tableau.weights[last - 1]);
+            (&self.impulses[(last - 1) * constraints..], weight)
+        } else {
+            (&self.last_impulse.multipliers[..], weight)
+        };
         let inverse = weight.recip();
-        let impulses = &self.last_impulse.multipliers;
         for (multiplier, &impulse) in self.multipliers.iter_mut().zip(impulses) {
             *multiplier = impulse * inverse;
         }

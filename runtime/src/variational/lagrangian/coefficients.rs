@@ -26,6 +26,8 @@ pub(super) struct StageCoefficients {
     pub(super) end: Vec<f64>,
     pub(super) weights: Vec<f64>,
     pub(super) nodes: Vec<f64>,
+    /// The unknowns of the next step by those of this one, where the next one starts from.
+    pub(super) next: Vec<Vec<f64>>,
 }
 
 impl StageCoefficients {
@@ -33,20 +35,18 @@ impl StageCoefficients {
     pub(super) fn of<M: Method>() -> Self {
         let tableau = &M::COEFFICIENTS;
         let stages = tableau.b.len();
-        let identity = || {
-            let row = |i| (0..stages).map(|j| f64::from(u8::from(i == j))).collect();
-            (0..stages).map(row).collect()
-        };
+        let nodes = doubles(tableau.c);
         let negative = |row: &&[Coefficient]| row.iter().map(|a| -a.double()).collect();
         Self {
             positions: tableau.a.iter().map(|row| doubles(row)).collect(),
-            velocities: identity(),
+            velocities: identity(stages),
             forces: tableau.a_tilde.iter().map(negative).collect(),
-            momenta: identity(),
+            momenta: identity(stages),
             start: vec![1.0; stages],
             end: doubles(tableau.b),
             weights: doubles(tableau.b_tilde),
-            nodes: doubles(tableau.c),
+            next: extrapolation(&nodes).unwrap_or_else(|| identity(stages)),
+            nodes,
         }
     }
 
@@ -88,6 +88,7 @@ impl StageCoefficients {
                 .map(|i| basis.iter().map(|function| function[i]).collect())
                 .collect(),
             start: end.clone(),
+            next: identity(end.len()),
             positions,
             end,
             weights,
@@ -140,6 +141,23 @@ fn orthonormal(rows: &[Vec<f64>], weights: &[f64], count: usize) -> Vec<Vec<f64>
         }
     }
     basis.into_iter().map(|(function, _)| function).collect()
+}
+
+fn identity(size: usize) -> Vec<Vec<f64>> {
+    let row = |i| (0..size).map(|j| f64::from(u8::from(i == j))).collect();
+    (0..size).map(row).collect()
+}
+
+/// The values at `1 + c_i` of the polynomials that are 1 at one node and 0 at the others; none where two nodes are equal.
+fn extrapolation(nodes: &[f64]) -> Option<Vec<Vec<f64>>> {
+    let polynomial = |j: usize, at: f64| -> f64 {
+        let others = nodes.iter().enumerate().filter(|&(k, _)| k != j);
+        others.map(|(_, c)| (at - c) / (nodes[j] - c)).product()
+    };
+    let row = |at: f64| (0..nodes.len()).map(|j| polynomial(j, at)).collect();
+    let rows: Vec<Vec<f64>> = nodes.iter().map(|c| row(1.0 + c)).collect();
+    let finite = rows.iter().flatten().all(|entry| entry.is_finite());
+    finite.then_some(rows)
 }
 
 fn doubles(row: &[Coefficient]) -> Vec<f64> {

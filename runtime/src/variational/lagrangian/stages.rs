@@ -51,7 +51,7 @@ const MAX_ITERATIONS: u32 = 60;
 /// Halvings of a change that leads to where L is not finite.
 const MAX_HALVINGS: u32 = 60;
 /// A matrix is kept while the changes become smaller by this factor.
-const CONTRACTION: f64 = 0.25;
+const CONTRACTION: f64 = 0.1;
 /// Changes below this, relative to the velocities, are roundings.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Changes below these may be, where they become no smaller: with a matrix that was kept, and with a new one, whose iteration converges
@@ -127,10 +127,17 @@ impl<L: Lagrangian> Stages<L> {
         }
     }
 
-    /// Finds the stages: Newton's iteration, from the unknowns of the step before, or from fractions of them if something is not finite there.
-    /// The factors are kept from step to step as long as they do.
+    /// Finds the stages: Newton's iteration, from the unknowns of the step before, extrapolated if that was as long; or from fractions of
+    /// these if something is not finite there. The factors are kept from step to step as long as they do.
     fn find(&mut self, lagrangian: &L, start: Start<'_>) -> Result<(), Failure> {
         let (mut fresh, mut last) = (self.factored.take() != Some(start.size), f64::INFINITY);
+        if !fresh {
+            let unknowns = self.unknowns.chunks_exact_mut(start.q.len().max(1));
+            for (unknowns, row) in unknowns.zip(&self.coefficients.next) {
+                unknowns.fill(0.0);
+                add_combination(unknowns, row, &self.before);
+            }
+        }
         self.change.copy_from_slice(&self.unknowns);
         fresh |= !self.evaluate_on_the_way(lagrangian, start, fresh)?;
         for _ in 0..MAX_ITERATIONS {
