@@ -7,60 +7,25 @@
 use std::error::Error;
 use std::time::Instant;
 
-use nalgebra::{DVector, SVector};
+use nalgebra::DVector;
 use symplectic::solver::{FixedPoint, Solver};
 use symplectic::{
-    Hamiltonian, Integrator, Method, ProvedFor, RunTimeTableau, Scalar, SeparableHamiltonian,
-    State, Summation, System, Vector, separable,
+    Integrator, Method, ProvedFor, RunTimeTableau, State, Summation, System, Vector, separable,
 };
 use symplectic_compiler::{Definition, Limits};
 use symplectic_tests::at_run_time::tableau;
 use symplectic_tests::methods::{ForestRuth, Gauss2, Gauss4, Gauss8, Lobatto3, StoermerVerlet};
 
-/// H = |p|²/2 − 1/|q|
-#[derive(Clone, Copy)]
-struct Kepler;
-
-impl SeparableHamiltonian for Kepler {
-    type Vector<T: Scalar> = SVector<T, 2>;
-
-    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
-        *velocity = *p;
-    }
-
-    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
-        let square = q.dot(q);
-        *force = -q * (square * square.sqrt()).recip();
-    }
+symplectic::hamiltonian! {
+    Kepler
+    q: [2], p: [2];
+    H = |p|^2/2 - 1/|q|
 }
 
-/// H = (q² + 1)(p² + 1)/2
-#[derive(Clone, Copy)]
-struct Product;
-
-impl Hamiltonian for Product {
-    type Class = symplectic::General;
-    type Vector<T: Scalar> = SVector<T, 1>;
-
-    fn velocity<T: Scalar>(
-        &self,
-        _time: T,
-        q: &SVector<T, 1>,
-        p: &SVector<T, 1>,
-        velocity: &mut SVector<T, 1>,
-    ) {
-        *velocity = p * (q.dot(q) + T::one());
-    }
-
-    fn force<T: Scalar>(
-        &self,
-        _time: T,
-        q: &SVector<T, 1>,
-        p: &SVector<T, 1>,
-        force: &mut SVector<T, 1>,
-    ) {
-        *force = -q * (p.dot(p) + T::one());
-    }
+symplectic::hamiltonian! {
+    Product
+    q: [q], p: [p];
+    H = (q^2 + 1) (p^2 + 1)/2
 }
 
 /// Springs between 1024 masses, by closures.

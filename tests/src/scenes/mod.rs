@@ -11,6 +11,7 @@ pub mod harmonic_oscillator;
 pub mod henon_heiles;
 pub mod hyperbolic;
 pub mod kepler;
+pub mod nonholonomic_oscillator;
 pub mod nonseparable;
 pub mod outer_solar_system;
 pub mod pendulum;
@@ -20,6 +21,7 @@ pub mod pythagorean_three_body;
 pub mod rolling_disk;
 pub mod sine_gordon;
 pub mod skate;
+pub mod sleigh;
 pub mod spring_pendulum;
 
 /// What a scene asks of a method.

@@ -10,9 +10,9 @@ use symplectic_report::{Ladder, Problem, Reference, Study};
 use symplectic_tests::methods::{Gauss6, Gauss8, Midpoint, StoermerVerlet, VelocityVerlet};
 use symplectic_tests::scenes::{
     argon_crystal, charged_particle, damped_particle, double_pendulum, fput_chain, fput_springs,
-    harmonic_oscillator, henon_heiles, hyperbolic, kepler, nonseparable, outer_solar_system,
-    pendulum, point_vortices, post_newtonian_kepler, pythagorean_three_body, rolling_disk,
-    sine_gordon, skate,
+    harmonic_oscillator, henon_heiles, hyperbolic, kepler, nonholonomic_oscillator, nonseparable,
+    outer_solar_system, pendulum, point_vortices, post_newtonian_kepler, pythagorean_three_body,
+    rolling_disk, sine_gordon, skate, sleigh,
 };
 
 use crate::peers::{with_forest_ruth, with_peers, with_rk4};
@@ -54,6 +54,8 @@ pub const SCENES: &[Scene] = &[
     ("damped-energy", damped_energy),
     ("rolling-disk", rolling_disk),
     ("skate", skate),
+    ("nonholonomic-oscillator", nonholonomic_oscillator),
+    ("sleigh", sleigh),
     ("nonseparable", nonseparable),
     ("charged-particle", charged_particle),
     ("post-newtonian-kepler", post_newtonian_kepler),
@@ -317,6 +319,32 @@ fn skate(study: Study) -> Result<Study, Error> {
         "H = |p|²/2 − 2x, x' sin a = y' cos a: a skate on a slope, one non-holonomic constraint",
     )
     .needing("a method that is `nonholonomic`");
+    Ok(study.problem(nonholonomic(problem)))
+}
+
+fn nonholonomic_oscillator(study: Study) -> Result<Study, Error> {
+    let origin = "integrals of closed forms";
+    let reference = Reference::known(nonholonomic_oscillator::exact(20.0), origin, 1e-13);
+    let system = nonholonomic_oscillator::Oscillator::new();
+    let start = nonholonomic_oscillator::start();
+    let problem = Problem::new("Non-holonomic oscillator", system, start, reference, 0.5)
+        .described("H = (|p|² + x² + y²)/2, z' = y x': one non-holonomic constraint")
+        .needing("a method that is `nonholonomic`");
+    Ok(study.problem(nonholonomic(problem)))
+}
+
+fn sleigh(study: Study) -> Result<Study, Error> {
+    let origin = "integrals of closed forms";
+    let reference = Reference::known(sleigh::exact(20.0), origin, 1e-13);
+    let problem = Problem::new(
+        "Chaplygin's sleigh",
+        sleigh::Sleigh::new(),
+        sleigh::start(),
+        reference,
+        0.25,
+    )
+    .described("A body on a plane that glides on a blade, x' sin a = y' cos a; the kinetic energy depends on a")
+    .needing("a method that is `nonholonomic`; not separable");
     Ok(study.problem(nonholonomic(problem)))
 }
 

@@ -98,10 +98,11 @@ where
 }
 
 /// Methods for non-holonomic constraints.
-pub fn nonholonomic<V, S>(problem: Problem<V, S>) -> Problem<V, S>
+pub fn nonholonomic<V, S, C>(problem: Problem<V, S>) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: System<V, Class = Nonholonomic<Separable>> + Clone + 'static,
+    S: System<V, Class = Nonholonomic<C>> + Clone + 'static,
+    C: Unconstrained,
 {
     run!(problem, integrator => Ok(integrator);
         Midpoint "Midpoint" plain,
