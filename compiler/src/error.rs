@@ -40,6 +40,14 @@ pub enum ErrorKind {
     /// A formula that no system can have.
     #[error(transparent)]
     Formula(#[from] FormulaError),
+    /// A method that a library cannot run.
+    #[error("{library} cannot run this method: {reason}")]
+    NotExpressible {
+        /// The library.
+        library: &'static str,
+        /// Why.
+        reason: &'static str,
+    },
     /// A parenthesis or bracket without its partner.
     #[error("`{bracket}` has no matching `{partner}`")]
     Unbalanced {

@@ -10,6 +10,7 @@ pub mod factor;
 pub mod fixed;
 pub(crate) mod gcd;
 pub mod interval;
+pub(crate) mod inverse;
 pub mod linear_solver;
 pub mod matrix;
 pub mod polynomial;

@@ -1,10 +1,11 @@
-//! Tableaux as text: a table for people, JSON for programs, TOML for lossless exchange.
+//! Tableaux as text: a table for people, JSON for programs, TOML for lossless exchange, and the notation of other languages.
 //!
 //! | format | written by | read by | holds |
 //! |---|---|---|---|
 //! | text | [`text::write`] | | exact entries where short, decimals otherwise, the properties |
 //! | JSON | [`json::write`] | [`json::read`] | short exact forms, decimals, doubles, the properties |
 //! | TOML | [`toml::write`] | [`toml::read`] | all exact data, decimals, the properties |
+//! | LaTeX, C, Fortran, Julia, Python, SUNDIALS, PETSc, nodepy | [`Language::write`] | that language | the coefficients |
 
 use crate::coefficients::Coefficients;
 use crate::exact::Exact;
@@ -15,12 +16,14 @@ mod encoding;
 mod entries;
 mod facts;
 pub mod json;
+mod language;
 mod provenance;
 pub mod text;
 pub mod toml;
 
 pub use encoding::{read_text, without_mark};
 pub(crate) use entries::{compare, first_line};
+pub use language::Language;
 
 /// The significant digits of decimals in JSON and TOML, unless another number is asked for.
 pub const DEFAULT_DIGITS: usize = 40;

@@ -10,17 +10,12 @@
 //! Symplectic Euler has one stage, `Q_1 = q0`, and `φ(q1) = 0` takes the place of the conditions on stages (GNI VII.1): its end
 //! is a second stage of weight 0, with `X = 1`.
 
-use std::cmp::Ordering;
-
 use super::{Evidence, Examined, Property, Zero, consistent, end_stages, symplectic};
 use crate::algebra::{Number, StageAlgebra};
 use crate::arithmetic::interval::Interval;
+use crate::arithmetic::inverse::{self, BITS, Inverse};
 use crate::arithmetic::rational::ratio;
-use crate::arithmetic::rounding::to_f64;
 use crate::coefficients::Coefficients;
-
-/// Binary places of the enclosures that tell a determinant from zero.
-const BITS: [u32; 4] = [192, 384, 1024, 4096];
 
 /// Decides the conditions one after another.
 pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
@@ -57,7 +52,7 @@ pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
     }
     let found = BITS
         .iter()
-        .find_map(|&bits| invert(feedback(examined.numbers, bits)));
+        .find_map(|&bits| Inverse::of(feedback(examined.numbers, bits)));
     let Some(Inverse { determinant, .. }) = found else {
         let witness = "det (A Ã) cannot be told from zero".to_owned();
         return Property::undecided(BITS[BITS.len() - 1], witness);
@@ -114,79 +109,9 @@ fn feedback(numbers: &Coefficients<Number<'_>>, bits: u32) -> Vec<Vec<Interval>>
     (1..stages).map(row).collect()
 }
 
-/// An inverse matrix in enclosures, and the determinant of the matrix.
-struct Inverse {
-    rows: Vec<Vec<Interval>>,
-    determinant: Interval,
-}
-
-/// The inverse; `None` where the enclosures do not tell the determinant from zero.
-fn invert(mut rows: Vec<Vec<Interval>>) -> Option<Inverse> {
-    let size = rows.len();
-    let bits = rows.first()?.first()?.bits();
-    let integer = |value| Interval::enclosing(&ratio(value, 1), bits);
-    for (i, row) in rows.iter_mut().enumerate() {
-        row.extend((0..size).map(|j| integer(i64::from(i == j))));
-    }
-    let mut determinant = integer(1);
-    for column in 0..size {
-        let pivot = (column..size)
-            .filter(|&i| rows[i][column].sign().is_some_and(Ordering::is_ne))
-            .max_by_key(|&i| rows[i][column].magnitude_bits())?;
-        if pivot != column {
-            rows.swap(column, pivot);
-            determinant = determinant.negate();
-        }
-        determinant = determinant.multiply(&rows[column][column]);
-        let divisor = rows[column][column].clone();
-        let quotients = rows[column].iter().map(|x| x.divide(&divisor));
-        let reference: Vec<Interval> = quotients.collect::<Option<_>>()?;
-        for (i, row) in rows.iter_mut().enumerate() {
-            if i == column {
-                row.clone_from(&reference);
-                continue;
-            }
-            let factor = row[column].clone();
-            for (x, r) in row.iter_mut().zip(&reference) {
-                *x = x.subtract(&factor.multiply(r));
-            }
-        }
-    }
-    // The product of small pivots may be too small for its binary places.
-    determinant.sign().filter(|sign| sign.is_ne())?;
-    let rows = rows.into_iter().map(|row| row[size..].to_vec()).collect();
-    Some(Inverse { rows, determinant })
-}
-
 /// `X⁻¹`, correctly rounded, of a method that is `constrained` and has more than one stage.
-///
-/// An entry that no enclosure tells from zero is zero.
 pub(crate) fn multiplier_matrix(numbers: &Coefficients<Number<'_>>) -> Option<Vec<Vec<f64>>> {
-    let mut finest = None;
-    for bits in BITS {
-        let Some(Inverse { rows, .. }) = invert(feedback(numbers, bits)) else {
-            continue;
-        };
-        let ends = |x: &Interval| (to_f64(&x.low()), to_f64(&x.high()));
-        let decided = rows
-            .iter()
-            .flatten()
-            .map(ends)
-            .all(|(low, high)| low == high);
-        let middle = |x: &Interval| match x.sign() {
-            Some(_) => to_f64(&x.middle()),
-            None => 0.0,
-        };
-        finest = Some(
-            rows.iter()
-                .map(|row| row.iter().map(middle).collect())
-                .collect(),
-        );
-        if decided {
-            break;
-        }
-    }
-    finest
+    inverse::rounded(|bits| feedback(numbers, bits))
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use symplectic::nalgebra::SVector;
 
 symplectic::hamiltonian! {
     /// The particle in space.
-    pub Oscillator {}
+    pub Oscillator
     q: [x, y, z], p: [px, py, pz], v: [vx, vy, vz];
     H = (px^2 + py^2 + pz^2 + x^2 + y^2)/2
     nonholonomic: { carried = vz - y vx }
@@ -64,14 +64,14 @@ mod tests {
 
     #[test]
     fn the_derivatives_are_those_of_the_energy() {
-        check::derivatives(&Oscillator::new(), &exact(1.0), 1e-5, 1e-8);
+        check::derivatives(&Oscillator, &exact(1.0), 1e-5, 1e-8);
     }
 
     /// The rates are the momenta, these obey the constraint, and the energy is conserved.
     #[test]
     fn the_closed_form_is_a_motion() {
         let energy = |state: &State<SVector<f64, 3>>| {
-            System::energy(&Oscillator::new(), 0.0, &state.q, &state.p).expect("known")
+            System::energy(&Oscillator, 0.0, &state.q, &state.p).expect("known")
         };
         for time in [0.3, 1.1, 7.0] {
             let (before, here, after) = (exact(time - 1e-4), exact(time), exact(time + 1e-4));
@@ -79,8 +79,7 @@ mod tests {
             assert!((here.p[2] - here.q[1] * here.p[0]).abs() < 1e-15);
             assert!((energy(&here) - energy(&start())).abs() < 1e-13);
         }
-        let mut run =
-            Integrator::new(Midpoint4, Oscillator::new(), start(), 1.0 / 64.0).expect("a start");
+        let mut run = Integrator::new(Midpoint4, Oscillator, start(), 1.0 / 64.0).expect("a start");
         let end = run.integrate_to(10.0).expect("steps");
         assert!((end.q - exact(10.0).q).norm() < 1e-5);
     }

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use symplectic_compiler::catalogue::Entry;
-use symplectic_compiler::export::{self, DEFAULT_DIGITS, MAX_DIGITS, TEXT_DIGITS};
+use symplectic_compiler::export::{self, DEFAULT_DIGITS, Language, MAX_DIGITS, TEXT_DIGITS};
 use symplectic_compiler::{Error, ErrorKind, Limits, Tableau};
 
 use crate::report;
@@ -19,7 +19,26 @@ pub(crate) enum Format {
     Toml,
     /// For other programs.
     Json,
+    /// A table for a paper, with booktabs.
+    Latex,
+    /// C99: static constants.
+    C,
+    /// Fortran 2008: a module of parameters.
+    Fortran,
+    /// Julia: a named tuple, for RungeKutta.jl, DiffEqBase.jl and RootedTrees.jl.
+    Julia,
+    /// Python: exact or long numbers for fractions, mpmath and numpy.
+    Python,
+    /// C: a table of ARKODE.
+    Sundials,
+    /// C: a method of TS.
+    Petsc,
+    /// Python: a RungeKuttaMethod with entries of SymPy.
+    Nodepy,
 }
+
+/// Significant digits that tell doubles apart.
+const DOUBLE_DIGITS: usize = 17;
 
 /// The options of `derive` and `show`.
 #[derive(Args)]
@@ -27,7 +46,7 @@ pub(crate) struct OutputOptions {
     /// The form of the output.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Significant digits of decimals [default: 40, in text 16].
+    /// Significant digits of decimals [default: 40, in text and LaTeX 16, in C and Fortran 17].
     #[arg(long, value_name = "D", value_parser = digits)]
     digits: Option<usize>,
     /// The most stages that are derived [default: 36].
@@ -62,6 +81,7 @@ impl OutputOptions {
             );
             return Err(ErrorKind::Definition { message }.into());
         }
+        let in_language = |language: Language, default| language.write(tableau, digits(default));
         Ok(match self.format {
             Format::Text => {
                 let table = export::text::write(tableau, digits(TEXT_DIGITS));
@@ -69,6 +89,14 @@ impl OutputOptions {
             }
             Format::Toml => export::toml::write(tableau, digits(DEFAULT_DIGITS)),
             Format::Json => export::json::write(tableau, digits(DEFAULT_DIGITS)),
+            Format::Latex => in_language(Language::Latex, TEXT_DIGITS)?,
+            Format::C => in_language(Language::C, DOUBLE_DIGITS)?,
+            Format::Fortran => in_language(Language::Fortran, DOUBLE_DIGITS)?,
+            Format::Julia => in_language(Language::Julia, DEFAULT_DIGITS)?,
+            Format::Python => in_language(Language::Python, DEFAULT_DIGITS)?,
+            Format::Sundials => in_language(Language::Sundials, DOUBLE_DIGITS)?,
+            Format::Petsc => in_language(Language::Petsc, DOUBLE_DIGITS)?,
+            Format::Nodepy => in_language(Language::Nodepy, DEFAULT_DIGITS)?,
         })
     }
 }

@@ -325,7 +325,7 @@ fn skate(study: Study) -> Result<Study, Error> {
 fn nonholonomic_oscillator(study: Study) -> Result<Study, Error> {
     let origin = "integrals of closed forms";
     let reference = Reference::known(nonholonomic_oscillator::exact(20.0), origin, 1e-13);
-    let system = nonholonomic_oscillator::Oscillator::new();
+    let system = nonholonomic_oscillator::Oscillator;
     let start = nonholonomic_oscillator::start();
     let problem = Problem::new("Non-holonomic oscillator", system, start, reference, 0.5)
         .described("H = (|p|² + x² + y²)/2, z' = y x': one non-holonomic constraint")

@@ -1,0 +1,44 @@
+//! Fortran 2008.
+
+use super::table::{Entry, Table, comments};
+
+pub(super) fn write(table: &Table<'_>) -> String {
+    let stages = table.tableau.stages();
+    let module = format!("{}_tableau", table.name);
+    let mut text = comments("!", &table.description());
+    text.push_str(&format!(
+        "module {module}\n  use, intrinsic :: iso_fortran_env, only: real64\n  implicit none\n"
+    ));
+    for (vector, entries) in table.vectors() {
+        text.push_str(&array("real(real64), parameter", vector, entries));
+    }
+    for (matrix, rows) in table.matrices() {
+        let names: Vec<String> = (1..=stages).map(|i| format!("{matrix}_{i}")).collect();
+        for (name, row) in names.iter().zip(rows) {
+            text.push_str(&array("real(real64), parameter, private", name, row));
+        }
+        let names = names.join(", &\n    ");
+        text.push_str(&format!(
+            "\n  real(real64), parameter :: {matrix}({stages}, {stages}) = reshape([ &\n    {names} &\n  ], [{stages}, {stages}], order=[2, 1])\n"
+        ));
+    }
+    text.push_str(&format!("end module {module}\n"));
+    text
+}
+
+fn array(attributes: &str, name: &str, entries: &[Entry]) -> String {
+    let last = entries.len().saturating_sub(1);
+    let lines = entries.iter().enumerate().map(|(i, entry)| {
+        let comma = if i < last { "," } else { "" };
+        // The bits of the double; a decimal need not be rounded correctly.
+        let number = format!("real(z'{:016X}', real64){comma} &", entry.double.to_bits());
+        let line = format!("    {number} ! {}", entry.remark());
+        // A line has 132 characters at most.
+        line.chars().take(132).collect::<String>() + "\n"
+    });
+    let lines: String = lines.collect();
+    format!(
+        "\n  {attributes} :: {name}({}) = [ &\n{lines}  ]\n",
+        entries.len()
+    )
+}

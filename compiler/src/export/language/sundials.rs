@@ -1,0 +1,71 @@
+//! C for ARKODE of SUNDIALS.
+
+use super::c::{comment, hexadecimal, numbers};
+use super::not_expressible;
+use super::table::{Entry, Table};
+use crate::error::Error;
+use crate::order::HamiltonianClass;
+
+pub(super) fn write(table: &Table<'_>) -> Result<String, Error> {
+    if let Some([drifts, kicks]) = table.drifts_and_kicks(false) {
+        return Ok(splitting(table, &drifts, &kicks));
+    }
+    if !table.is_runge_kutta() {
+        let reason = "ARKODE has partitioned methods that are explicit only (SPRKStep), and this one is implicit";
+        return Err(not_expressible("SUNDIALS", reason));
+    }
+    let rows = table.entries.a.iter().enumerate();
+    let mut above = rows.flat_map(|(i, row)| row.iter().skip(i + 1));
+    if above.any(|entry| entry.double != 0.0) {
+        let reason = "its stages need one another, and the implicit methods of ARKODE (ARKStep) have lower triangular matrices";
+        return Err(not_expressible("SUNDIALS", reason));
+    }
+    let (stages, name) = (table.tableau.stages(), &table.name);
+    let a: String = table
+        .entries
+        .a
+        .iter()
+        .map(|row| numbers("    ", row))
+        .collect();
+    Ok(format!(
+        "{}#include <arkode/arkode_butcher.h>\n\n/* For ARKStepSetTables. */\nstatic ARKodeButcherTable {name}(void) {{\n{}{}  static sunrealtype A[{}] = {{\n{a}  }};\n  return ARKodeButcherTable_Create({stages}, {}, 0, c, A, b, NULL);\n}}\n",
+        comment(&table.description()),
+        array("c", &table.entries.c),
+        array("b", &table.entries.b),
+        stages * stages,
+        table.main_order(),
+    ))
+}
+
+/// A table of SPRKStep: stage i kicks by `ahat_i` with the first function, and then drifts by `a_i` with the second.
+fn splitting(table: &Table<'_>, drifts: &[Entry], kicks: &[Entry]) -> String {
+    let (stages, name) = (drifts.len(), &table.name);
+    let mut lines = table.description();
+    let [separable, nystrom] =
+        [HamiltonianClass::Separable, HamiltonianClass::Nystrom].map(|class| table.order(class));
+    if separable < nystrom {
+        lines.push(format!(
+            "The order {nystrom} needs a quadratic T, so the second function has to be linear; else it is {separable}."
+        ));
+    }
+    format!(
+        "{}#include <arkode/arkode_sprk.h>\n\n/* For SPRKStepSetMethod: f1 is the force at q, f2 the velocity at p. */\nstatic ARKodeSPRKTable {name}(void) {{\n{}{}  return ARKodeSPRKTable_Create({stages}, {}, a, ahat);\n}}\n",
+        comment(&lines),
+        array("a", drifts),
+        array("ahat", kicks),
+        separable.max(nystrom),
+    )
+}
+
+/// A constant array. The functions take pointers to numbers that are not constant in some versions.
+fn array(name: &str, entries: &[Entry]) -> String {
+    let lines = entries.iter().map(|entry| {
+        let (number, remark) = (hexadecimal(entry.double), entry.remark());
+        format!("    {number}, /* {remark} */\n")
+    });
+    let lines: String = lines.collect();
+    format!(
+        "  static sunrealtype {name}[{}] = {{\n{lines}  }};\n",
+        entries.len()
+    )
+}

@@ -1,0 +1,310 @@
+//! What all languages write.
+
+use crate::coefficients::Coefficients;
+use crate::export::facts::separable_only;
+use crate::export::written;
+use crate::order::HamiltonianClass;
+use crate::pair::Staircase;
+use crate::schedule::{Class, Node, StepGraph};
+use crate::stability::evidence_text;
+use crate::tableau::{Tableau, left_out};
+
+/// Exact forms that are longer than this are left out where decimals stand beside them.
+const LONGEST_EXACT: usize = 60;
+
+/// A tableau with its coefficients in all forms.
+pub(super) struct Table<'a> {
+    pub tableau: &'a Tableau,
+    /// Without the matrices of long splittings.
+    pub entries: Coefficients<Entry>,
+    /// Drifts and kicks one after another, if the method consists of these for separable Hamiltonians.
+    pub flows: Option<Vec<Flow>>,
+    /// A name that every language accepts: `gauss_2`.
+    pub name: String,
+}
+
+/// A coefficient.
+#[derive(Clone)]
+pub(super) struct Entry {
+    /// An exact form in the grammar of expressions.
+    pub exact: Option<String>,
+    pub decimal: String,
+    pub double: f64,
+}
+
+/// A drift `q += h weight ∂H/∂p` or a kick `p −= h weight ∂H/∂q`.
+pub(super) struct Flow {
+    is_drift: bool,
+    weight: Entry,
+}
+
+impl Entry {
+    fn zero() -> Self {
+        Entry {
+            exact: Some("0".to_owned()),
+            decimal: "0".to_owned(),
+            double: 0.0,
+        }
+    }
+
+    /// `p/q` or `p`.
+    pub fn rational(&self) -> Option<(&str, Option<&str>)> {
+        let exact = self.exact.as_deref()?;
+        let whole = |text: &str| {
+            let digits = text.strip_prefix('-').unwrap_or(text);
+            !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
+        };
+        match exact.split_once('/') {
+            None => whole(exact).then_some((exact, None)),
+            Some((p, q)) => (whole(p) && whole(q)).then_some((p, Some(q))),
+        }
+    }
+
+    /// What a comment beside the double says: `1/4`, `1/2 - sqrt(3)/6 = 0.2113…`.
+    pub fn remark(&self) -> String {
+        match &self.exact {
+            Some(exact) if self.rational().is_some() => exact.clone(),
+            Some(exact) if exact.len() <= LONGEST_EXACT => format!("{exact} = {}", self.decimal),
+            _ => self.decimal.clone(),
+        }
+    }
+}
+
+impl<'a> Table<'a> {
+    pub fn new(tableau: &'a Tableau, digits: usize) -> Self {
+        let numbers = written(tableau, tableau.numbers());
+        let entries = written(tableau, tableau.exact_forms()).zip(numbers);
+        let entries = entries.map(|(exact, number)| Entry {
+            exact: exact.clone(),
+            decimal: number.decimal(digits).to_string(),
+            double: number.to_f64(),
+        });
+        Table {
+            tableau,
+            entries,
+            flows: flows(tableau, digits),
+            name: identifier(tableau.name().unwrap_or("method")),
+        }
+    }
+
+    /// Whether it is a Runge–Kutta method, the same for positions and momenta.
+    pub fn is_runge_kutta(&self) -> bool {
+        self.tableau.equal_halves() == (true, true)
+    }
+
+    /// The order for a class of Hamiltonians.
+    pub fn order(&self, class: HamiltonianClass) -> usize {
+        self.tableau.orders().class(class).order
+    }
+
+    /// The order for every H; of drifts and kicks the order for separable ones.
+    pub fn main_order(&self) -> usize {
+        match self.flows {
+            Some(_) => self.order(HamiltonianClass::Separable),
+            None => self.order(HamiltonianClass::General),
+        }
+    }
+
+    /// Name, definition, sources, and what is proved; one line each.
+    pub fn description(&self) -> Vec<String> {
+        let provenance = self.tableau.provenance();
+        let mut title: Vec<String> = self.tableau.name().map(str::to_owned).into_iter().collect();
+        title.push(match self.tableau.stages() {
+            1 => "1 stage".to_owned(),
+            stages => format!("{stages} stages"),
+        });
+        let parts = provenance.definition.parts();
+        title.extend(parts.map(|(key, text)| format!("{} {}", key.name(), one_line(text))));
+        let mut lines = vec![title.join(", ")];
+        if let Some(source) = &provenance.source {
+            lines.extend(
+                source
+                    .split("; ")
+                    .map(|paper| format!("source: {}", one_line(paper))),
+            );
+        }
+        let orders = self.tableau.orders();
+        let order = HamiltonianClass::ALL.map(|class| {
+            let found = orders.class(class);
+            let what = match class {
+                HamiltonianClass::General => "every H",
+                HamiltonianClass::Separable => "T(p) + U(q)",
+                HamiltonianClass::Nystrom => "T quadratic",
+            };
+            format!(
+                "{} for {what} ({})",
+                found.order,
+                evidence_text(found.evidence)
+            )
+        });
+        lines.push(format!("order {}", order.join(", ")));
+        let properties = self.tableau.properties();
+        let both = [
+            ("symplectic", &properties.symplectic),
+            ("symmetric", &properties.symmetric),
+        ];
+        let held = both.iter().filter(|(_, property)| property.holds);
+        let held = held.map(|(name, property)| (*name, property.evidence));
+        let separable = separable_only(self.tableau);
+        let separable = separable.iter();
+        let separable = separable.map(|(_, name, property)| (*name, property.evidence));
+        let held: Vec<String> = held
+            .chain(separable)
+            .map(|(name, evidence)| format!("{name} ({})", evidence_text(evidence)))
+            .collect();
+        if !held.is_empty() {
+            lines.push(held.join(", "));
+        }
+        if let Some(rule) = self.left_out() {
+            lines.push(rule.to_owned());
+        }
+        lines.push(format!(
+            "written by symplectic {}",
+            env!("CARGO_PKG_VERSION")
+        ));
+        lines
+    }
+
+    /// How the weights make the matrices that are left out.
+    fn left_out(&self) -> Option<&'static str> {
+        Some(match left_out(self.tableau)? {
+            Staircase::KicksFirst => {
+                "a_ij = b_j for j < i, a_tilde_ij = b_tilde_j for j <= i, else 0"
+            }
+            Staircase::DriftsFirst => {
+                "a_ij = b_j for j <= i, a_tilde_ij = b_tilde_j for j < i, else 0"
+            }
+        })
+    }
+
+    /// Vectors by name, those for momenta only where they differ.
+    pub fn vectors(&self) -> Vec<(&'static str, &[Entry])> {
+        let Coefficients {
+            c,
+            c_tilde,
+            b,
+            b_tilde,
+            ..
+        } = &self.entries;
+        let mut vectors: Vec<(_, &[Entry])> = vec![("c", c), ("b", b)];
+        if !self.is_runge_kutta() {
+            vectors.extend([("c_tilde", &c_tilde[..]), ("b_tilde", &b_tilde[..])]);
+        }
+        vectors
+    }
+
+    /// Matrices by name, as [`vectors`](Self::vectors), without those that are left out.
+    pub fn matrices(&self) -> Vec<(&'static str, &[Vec<Entry>])> {
+        let Coefficients { a, a_tilde, .. } = &self.entries;
+        if a.is_empty() {
+            return Vec::new();
+        }
+        let mut matrices: Vec<(_, &[Vec<Entry>])> = vec![("a", a)];
+        if !self.is_runge_kutta() {
+            matrices.push(("a_tilde", a_tilde));
+        }
+        matrices
+    }
+
+    /// Whether the first of the drifts and kicks is a drift.
+    pub fn begins_with_a_drift(&self) -> Option<bool> {
+        self.flows.as_ref()?.first().map(|flow| flow.is_drift)
+    }
+
+    /// The weights of drifts and kicks in turn, as many of both: the first ones are drifts if `drifts_first`. Where the method has none in
+    /// its turn there is one of size zero.
+    pub fn drifts_and_kicks(&self, drifts_first: bool) -> Option<[Vec<Entry>; 2]> {
+        let (mut first, mut second): (Vec<Entry>, Vec<Entry>) = (Vec::new(), Vec::new());
+        for Flow { is_drift, weight } in self.flows.as_ref()? {
+            if *is_drift == drifts_first {
+                if first.len() > second.len() {
+                    second.push(Entry::zero());
+                }
+                first.push(weight.clone());
+            } else {
+                if first.len() == second.len() {
+                    first.push(Entry::zero());
+                }
+                second.push(weight.clone());
+            }
+        }
+        second.resize_with(first.len(), Entry::zero);
+        Some(if drifts_first {
+            [first, second]
+        } else {
+            [second, first]
+        })
+    }
+}
+
+/// The drifts and kicks of a method that consists of them.
+fn flows(tableau: &Tableau, digits: usize) -> Option<Vec<Flow>> {
+    if !tableau.properties().explicit.holds {
+        return None;
+    }
+    let (numbers, forms) = (tableau.numbers(), tableau.exact_forms());
+    let graph = StepGraph::new(Class::Separable, tableau, &numbers);
+    let flow = |node: Node| {
+        let is_drift = matches!(node, Node::Velocity(_));
+        let evaluation = graph.evaluation(node);
+        let forms = if is_drift { &forms.b } else { &forms.b_tilde };
+        let exact = match graph.stages_of(evaluation)[..] {
+            [stage] => forms[stage].clone(),
+            // The sum of several weights.
+            _ => evaluation
+                .weight
+                .short_rational()
+                .map(|sum| sum.to_string()),
+        };
+        Flow {
+            is_drift,
+            weight: Entry {
+                exact,
+                decimal: evaluation.weight.decimal(digits).to_string(),
+                double: evaluation.weight.to_f64(),
+            },
+        }
+    };
+    Some(graph.splitting()?.into_iter().map(flow).collect())
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Letters, digits and single underscores, with a letter first.
+fn identifier(name: &str) -> String {
+    let mut found = String::new();
+    for c in name.chars() {
+        if c.is_ascii_alphanumeric() {
+            found.push(c.to_ascii_lowercase());
+        } else if !found.is_empty() && !found.ends_with('_') {
+            found.push('_');
+        }
+    }
+    let found = found.trim_end_matches('_');
+    if found.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        found.to_owned()
+    } else {
+        format!("method_{found}").trim_end_matches('_').to_owned()
+    }
+}
+
+/// Lines as comments.
+pub(super) fn comments(mark: &str, lines: &[String]) -> String {
+    let lines = lines.iter().map(|line| format!("{mark} {line}\n"));
+    lines.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn identifiers() {
+        assert_eq!(identifier("blanes-moan-s6"), "blanes_moan_s6");
+        assert_eq!(identifier("Größe 2"), "gr_e_2");
+        assert_eq!(identifier("2nd"), "method_2nd");
+        assert_eq!(identifier("—"), "method");
+    }
+}
