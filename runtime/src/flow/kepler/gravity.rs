@@ -47,7 +47,10 @@ impl Bodies {
     }
 
     /// A copy of a state of these bodies, to be transformed.
-    pub(super) fn copy<V: Vector<Scalar = f64>>(&self, state: &State<V>) -> Result<State<V>, Error> {
+    pub(super) fn copy<V: Vector<Scalar = f64>>(
+        &self,
+        state: &State<V>,
+    ) -> Result<State<V>, Error> {
         let (position, momentum) = (state.q.dimension(), state.p.dimension());
         if position == 3 * self.masses.len() && momentum == position {
             Ok(state.clone())

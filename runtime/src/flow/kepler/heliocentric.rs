@@ -72,7 +72,10 @@ impl Heliocentric {
     /// # Errors
     ///
     /// [`Error::Dimension`] where the state does not have three components for each body.
-    pub fn to_inertial<V: Vector<Scalar = f64>>(&self, state: &State<V>) -> Result<State<V>, Error> {
+    pub fn to_inertial<V: Vector<Scalar = f64>>(
+        &self,
+        state: &State<V>,
+    ) -> Result<State<V>, Error> {
         let mut state = self.bodies.copy(state)?;
         let (q, p) = (state.q.as_mut_slice(), state.p.as_mut_slice());
         let (masses, total) = (&self.bodies.masses, self.bodies.total());

@@ -10,6 +10,9 @@ const MOST: u32 = 6;
 /// The relative change after which the next iterate is exact up to rounding, for the iteration is of order 4.
 const LAST_CHANGE: f64 = 1e-8;
 
+/// The residual of Kepler's equation, relative to its terms, up to which an iterate is the solution: rounding makes a tenth of it.
+const RESIDUAL: f64 = 32.0 * f64::EPSILON;
+
 /// `|βs²|` up to which lanes are used: a third of a period.
 const LARGEST_PSI: f64 = 4.0;
 
@@ -33,11 +36,7 @@ pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (
     let functions = |s: L| {
         let psi = beta * s * s;
         let quarter = psi * L::from_f64(0.25);
-        g_functions(
-            s,
-            psi,
-            stumpff::quadruple(quarter, stumpff::small(quarter)),
-        )
+        g_functions(s, psi, stumpff::quadruple(quarter, stumpff::small(quarter)))
     };
     // The series of s in h to the third power.
     let u = step / distance;
@@ -73,12 +72,15 @@ pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (
     let [g1, g2, g3] = functions(s);
     let end = distance + (radial * g1 + zeta * g2);
     let mut change = orbit.change([g1, g2], end, step - mu * g3);
+    let terms = [distance * s, radial * g2, zeta * g3, -step];
+    let value = (terms[0] + (terms[1] + terms[2]) + terms[3]).abs();
+    let bound = terms.map(L::abs).into_iter().fold(L::zero(), L::add) * L::from_f64(RESIDUAL);
     let size = (beta * s * s).abs();
     let arc = mu * s * s / distance;
     let fine = |lane: usize| {
-        let [open, size, arc, end] =
-            [open, size, arc, end].map(|lanes| lanes.to_array().as_ref()[lane]);
-        open == 0.0 && size <= LARGEST_PSI && arc <= LARGEST_ARC && end > 0.0 && end.is_finite()
+        let all = [value, bound, size, arc, end];
+        let [value, bound, size, arc, end] = all.map(|lanes| lanes.to_array().as_ref()[lane]);
+        value <= bound && size <= LARGEST_PSI && arc <= LARGEST_ARC && end > 0.0
     };
     for lane in 0..L::WIDTH {
         if !fine(lane) {

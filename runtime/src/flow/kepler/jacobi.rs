@@ -71,7 +71,10 @@ impl Jacobi {
     /// # Errors
     ///
     /// [`Error::Dimension`] where the state does not have three components for each body.
-    pub fn to_inertial<V: Vector<Scalar = f64>>(&self, state: &State<V>) -> Result<State<V>, Error> {
+    pub fn to_inertial<V: Vector<Scalar = f64>>(
+        &self,
+        state: &State<V>,
+    ) -> Result<State<V>, Error> {
         let mut state = self.bodies.copy(state)?;
         to_positions(&self.bodies, state.q.as_mut_slice());
         let Bodies { masses, sums, .. } = &self.bodies;

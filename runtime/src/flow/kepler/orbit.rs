@@ -128,27 +128,26 @@ impl Orbit<f64> {
             } else {
                 high = s;
             }
-            let newton = value / slope;
-            let inside = s - newton > low && s - newton < high;
-            let next = if inside && (2.0 * newton).abs() <= before.abs() {
-                s - newton
+            let newton = s - value / slope;
+            let inside = newton > low && newton < high;
+            let next = if value == 0.0 {
+                s
+            } else if inside && (2.0 * (newton - s)).abs() <= before {
+                newton
             } else {
                 low + (high - low) / 2.0
             };
-            before = next - s;
+            before = (next - s).abs();
             s = next;
-            if before.abs() <= f64::EPSILON * s || value == 0.0 {
+            if before <= f64::EPSILON * s {
                 let (_, end, [g1, g2]) = at(s);
                 if end <= 0.0 {
                     return Err(NoEnd::AtCentre);
                 }
                 let g = distance * g1 + radial * g2;
                 let change = self.change([sign * g1, g2], end, sign * g);
-                return if change.iter().all(|x| x.is_finite()) {
-                    Ok(change)
-                } else {
-                    Err(NoEnd::NotFound)
-                };
+                let finite = change.iter().all(|x| x.is_finite());
+                return finite.then_some(change).ok_or(NoEnd::NotFound);
             }
         }
         Err(NoEnd::NotFound)
