@@ -48,9 +48,7 @@ fn start(masses: [f64; N]) -> State<Bodies> {
 fn newton(masses: [f64; N]) -> impl System<Bodies, Class = Separable> {
     separable::<Bodies, _, _>(
         move |_, p, velocity: &mut Bodies| {
-            for i in 0..N {
-                velocity.set_column(i, &(p.column(i) / masses[i]));
-            }
+            *velocity = Bodies::from_fn(|axis, i| p[(axis, i)] / masses[i]);
         },
         move |_, q: &Bodies, force: &mut Bodies| {
             *force = Bodies::from_fn(|axis, i| {

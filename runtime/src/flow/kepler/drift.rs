@@ -8,6 +8,7 @@ use super::in_lanes::changes;
 use super::orbit::{NoEnd, Orbit};
 use crate::error::Error;
 use crate::flow::{Flow, FlowError, Span, check_dimension, check_parameter};
+use crate::number::array::array;
 use crate::number::{F64x4, Lanes, Vector};
 
 /// The flow of `H = Σ |p|²/(2m) − mμ/|q|`: bodies in space, each on a Kepler orbit about the origin, any number of them in lanes of `L`.
@@ -115,8 +116,11 @@ impl<L: Lanes> KeplerDrift<L> {
         let last = self.masses.len() - 1;
         let body = |lane: usize| (first + lane).min(last);
         let of = |list: &[f64]| L::from_fn(|lane| list[body(lane)]);
-        let space =
-            |list: &[f64]| [0, 1, 2].map(|axis| L::from_fn(|lane| list[3 * body(lane) + axis]));
+        let space = |list: &[f64]| -> [L; 3] {
+            array(L::zero(), |axis| {
+                L::from_fn(|lane| list[3 * body(lane) + axis])
+            })
+        };
         let (q, p) = (space(q), space(p));
         let orbit = Orbit::new(of(&self.mus), of(&self.masses), q, p);
         let [a, b, c, d] = changes(&orbit, h).map_err(|(lane, why)| {

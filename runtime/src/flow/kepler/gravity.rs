@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use crate::error::Error;
 use crate::flow::{FlowError, check_parameter};
-use crate::number::{Scalar, Vector};
+use crate::number::{F64x4, Lanes, Scalar, Vector};
 use crate::state::State;
 
 /// Masses, the first of which is the star's, and the constant of gravity.
@@ -14,6 +14,8 @@ pub(super) struct Bodies {
     pub(super) masses: Vec<f64>,
     /// `M_i`, the mass of the bodies up to each one.
     pub(super) sums: Vec<f64>,
+    /// `m_i/M_i` and `M_{i−1}/M_i`.
+    pub(super) shares: Vec<[f64; 2]>,
 }
 
 impl Bodies {
@@ -34,9 +36,19 @@ impl Bodies {
             *sum += mass;
             Some(*sum)
         });
+        let sums: Vec<f64> = sums.collect();
+        let shares = masses
+            .iter()
+            .zip(&sums)
+            .enumerate()
+            .map(|(i, (mass, sum))| {
+                let before = if i == 0 { 0.0 } else { sums[i - 1] };
+                [mass / sum, before / sum]
+            });
         Ok(Self {
             gravity,
-            sums: sums.collect(),
+            shares: shares.collect(),
+            sums,
             masses: masses.into(),
         })
     }
@@ -66,23 +78,42 @@ impl Bodies {
         q: &[f64],
         forces: &mut [f64],
     ) -> Result<(), FlowError> {
-        let count = self.masses.len();
-        for i in first..count {
-            for j in (i + 1).max(2)..count {
-                let apart = [0, 1, 2].map(|axis| q[3 * j + axis] - q[3 * i + axis]);
-                let square = apart.iter().map(|x| x * x).sum::<f64>();
-                if square == 0.0 {
+        let (q, _) = q.as_chunks::<3>();
+        let (forces, _) = forces.as_chunks_mut::<3>();
+        for (i, (&[x, y, z], &mass)) in q.iter().zip(&self.masses).enumerate().skip(first) {
+            let from = (i + 1).max(2);
+            let mut own = [0.0; 3];
+            // Roots and quotients of four pairs at once.
+            for first in (from..q.len()).step_by(4) {
+                let others = q[first..].iter().zip(&self.masses[first..]);
+                let mut apart = [[0.0; 4]; 3];
+                let mut weights = [0.0; 4];
+                let mut squares = [1.0; 4];
+                for (k, (place, other)) in others.take(4).enumerate() {
+                    let [dx, dy, dz] = [place[0] - x, place[1] - y, place[2] - z];
+                    (apart[0][k], apart[1][k], apart[2][k]) = (dx, dy, dz);
+                    squares[k] = dx * dx + dy * dy + dz * dz;
+                    weights[k] = other * mass;
+                }
+                if let Some(k) = squares.iter().position(|&square| square == 0.0) {
                     return Err(FlowError::Collision {
                         first: i,
-                        second: j,
+                        second: first + k,
                     });
                 }
-                let pull = self.gravity * self.masses[i] * self.masses[j]
-                    / (square * Scalar::sqrt(square));
-                for (axis, apart) in apart.into_iter().enumerate() {
-                    forces[3 * i + axis] += pull * apart;
-                    forces[3 * j + axis] -= pull * apart;
+                let squares = F64x4::from_array(squares);
+                let strength = F64x4::from_f64(self.gravity) * F64x4::from_array(weights);
+                let pulls = (strength / (squares * squares.sqrt())).to_array();
+                for (k, (force, pull)) in forces[first..].iter_mut().zip(pulls).enumerate() {
+                    for axis in 0..3 {
+                        let pull = pull * apart[axis][k];
+                        own[axis] += pull;
+                        force[axis] -= pull;
+                    }
                 }
+            }
+            for (force, own) in forces[i].iter_mut().zip(own) {
+                *force += own;
             }
         }
         Ok(())

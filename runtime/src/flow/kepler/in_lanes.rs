@@ -7,8 +7,8 @@ use crate::number::Lanes;
 /// Iterations in lanes; what has not converged then is done one by one.
 const MOST: u32 = 6;
 
-/// The relative change after which the next iterate is exact up to rounding, for the iteration is of order 4.
-const LAST_CHANGE: f64 = 1e-8;
+/// The relative change after which the next iterate is exact up to rounding, for the iteration is of order 3.
+const LAST_CHANGE: f64 = 1e-7;
 
 /// The residual of Kepler's equation, relative to its terms, up to which an iterate is the solution: rounding makes a tenth of it.
 const RESIDUAL: f64 = 32.0 * f64::EPSILON;
@@ -21,7 +21,7 @@ const LARGEST_ARC: f64 = 32.0;
 
 /// How positions and momenta change in the time `h`, lane by lane; every lane as it would be alone, to the last bit.
 ///
-/// The iteration is that of Danby (*Fundamentals of celestial mechanics*, 1988, 6.6) for the universal anomaly.
+/// The iteration for the universal anomaly is Halley's, of order 3.
 pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (usize, NoEnd)> {
     let step = L::from_f64(h);
     let Orbit {
@@ -32,16 +32,17 @@ pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (
         ..
     } = *orbit;
     let zeta = orbit.zeta();
-    let [half, third] = [0.5, 1.0 / 3.0].map(L::from_f64);
+    let (half, third) = (L::from_f64(0.5), L::from_f64(1.0 / 3.0));
     let functions = |s: L| {
         let psi = beta * s * s;
         let quarter = psi * L::from_f64(0.25);
         g_functions(s, psi, stumpff::quadruple(quarter, stumpff::small(quarter)))
     };
     // The series of s in h to the third power.
-    let u = step / distance;
-    let slope = half * radial / distance;
-    let bend = half * third * zeta / distance;
+    let inverse = distance.recip();
+    let u = step * inverse;
+    let slope = half * radial * inverse;
+    let bend = half * third * zeta * inverse;
     let mut s = u - slope * u * u + (slope * slope + slope * slope - bend) * u * u * u;
     // 1 where a lane has not converged.
     let mut open = L::one();
@@ -50,11 +51,7 @@ pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (
         let value = distance * s + (radial * g2 + zeta * g3) - step;
         let first = distance + (radial * g1 + zeta * g2);
         let second = radial * (L::one() - beta * g2) + zeta * g1;
-        let third_derivative = zeta * (L::one() - beta * g2) - beta * radial * g1;
-        let change = -value / first;
-        let change = -value / (first + half * change * second);
-        let change =
-            -value / (first + half * change * (second + third * change * third_derivative));
+        let change = -value * first / (first * first - half * value * second);
         s += change * open;
         let (changes, anomalies, opened) = (change.to_array(), s.to_array(), open.to_array());
         open = L::from_fn(|lane| {
@@ -72,18 +69,17 @@ pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (
     let [g1, g2, g3] = functions(s);
     let end = distance + (radial * g1 + zeta * g2);
     let mut change = orbit.change([g1, g2], end, step - mu * g3);
-    let terms = [distance * s, radial * g2, zeta * g3, -step];
-    let value = (terms[0] + (terms[1] + terms[2]) + terms[3]).abs();
-    let bound = terms.map(L::abs).into_iter().fold(L::zero(), L::add) * L::from_f64(RESIDUAL);
-    let size = (beta * s * s).abs();
-    let arc = mu * s * s / distance;
-    let fine = |lane: usize| {
-        let all = [value, bound, size, arc, end];
-        let [value, bound, size, arc, end] = all.map(|lanes| lanes.to_array().as_ref()[lane]);
-        value <= bound && size <= LARGEST_PSI && arc <= LARGEST_ARC && end > 0.0
-    };
+    let (first, second) = (distance * s, radial * g2 + zeta * g3);
+    let value = (first + second - step).abs();
+    let terms = first.abs() + (radial * g2).abs() + (zeta * g3).abs() + step.abs();
+    let bound = terms * L::from_f64(RESIDUAL);
+    let (value, bound, end) = (value.to_array(), bound.to_array(), end.to_array());
+    let psi = (beta * s * s).abs().to_array();
+    let arc = (mu * s * s * inverse).to_array();
     for lane in 0..L::WIDTH {
-        if !fine(lane) {
+        let in_range = psi.as_ref()[lane] <= LARGEST_PSI && arc.as_ref()[lane] <= LARGEST_ARC;
+        let found = value.as_ref()[lane] <= bound.as_ref()[lane] && end.as_ref()[lane] > 0.0;
+        if !(in_range && found) {
             let alone = orbit.lane(lane).end(h).map_err(|why| (lane, why))?;
             for (lanes, alone) in change.iter_mut().zip(alone) {
                 let old = lanes.to_array();

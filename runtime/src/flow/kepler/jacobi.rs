@@ -77,13 +77,12 @@ impl Jacobi {
     ) -> Result<State<V>, Error> {
         let mut state = self.bodies.copy(state)?;
         to_positions(&self.bodies, state.q.as_mut_slice());
-        let Bodies { masses, sums, .. } = &self.bodies;
         let p = state.p.as_mut_slice();
         for axis in 0..3 {
             let mut total = p[axis];
-            for i in (1..masses.len()).rev() {
+            for (i, [own, _]) in self.bodies.shares.iter().enumerate().skip(1).rev() {
                 let place = &mut p[3 * i + axis];
-                *place += masses[i] / sums[i] * total;
+                *place += own * total;
                 total -= *place;
             }
             p[axis] = total;
@@ -97,6 +96,7 @@ impl Jacobi {
             gravity,
             masses,
             sums,
+            ..
         } = &self.bodies;
         let planets = 1..masses.len();
         let reduced: Vec<f64> = planets
@@ -120,30 +120,30 @@ impl Jacobi {
 
 /// Momenta, or forces, of Jacobi coordinates from those in space.
 fn to_relative(bodies: &Bodies, p: &mut [f64]) {
-    let Bodies { masses, sums, .. } = bodies;
-    for axis in 0..3 {
-        let mut total = p[axis];
-        for i in 1..masses.len() {
-            let place = &mut p[3 * i + axis];
-            let own = *place;
-            *place = (sums[i - 1] * own - masses[i] * total) / sums[i];
-            total += own;
+    let (p, _) = p.as_chunks_mut::<3>();
+    let Some((first, planets)) = p.split_first_mut() else {
+        return;
+    };
+    for (planet, &[own, before]) in planets.iter_mut().zip(&bodies.shares[1..]) {
+        for (total, p) in first.iter_mut().zip(planet) {
+            let relative = before * *p - own * *total;
+            *total += *p;
+            *p = relative;
         }
-        p[axis] = total;
     }
 }
 
 /// Positions in space from Jacobi coordinates.
 fn to_positions(bodies: &Bodies, q: &mut [f64]) {
-    let Bodies { masses, sums, .. } = bodies;
-    for axis in 0..3 {
-        let mut centre = q[axis];
-        for i in (1..masses.len()).rev() {
-            let place = &mut q[3 * i + axis];
-            centre -= masses[i] / sums[i] * *place;
-            *place += centre;
+    let (q, _) = q.as_chunks_mut::<3>();
+    let Some((first, planets)) = q.split_first_mut() else {
+        return;
+    };
+    for (planet, [own, _]) in planets.iter_mut().zip(&bodies.shares[1..]).rev() {
+        for (centre, q) in first.iter_mut().zip(planet) {
+            *centre -= own * *q;
+            *q += *centre;
         }
-        q[axis] = centre;
     }
 }
 
