@@ -63,17 +63,14 @@ where
                 found: p.len(),
             });
         }
-        let finite = q.chunks_exact(3).all(|q| {
-            let field = (self.field)(span.time, &Vector3::from_column_slice(q));
-            field.iter().all(|component| component.is_finite())
-        });
-        if !finite {
-            let what = Quantity::Force;
-            return Err(FlowError::NonFinite { what });
-        }
         for (q, p) in q.chunks_exact(3).zip(p.chunks_exact_mut(3)) {
             let (q, v) = (Vector3::from_column_slice(q), Vector3::from_column_slice(p));
-            p.copy_from_slice(self.turned(span, &q, &v).as_slice());
+            let turned = self.turned(span, &q, &v);
+            if !turned.iter().all(|component| component.is_finite()) {
+                let what = Quantity::Momentum;
+                return Err(FlowError::NonFinite { what });
+            }
+            p.copy_from_slice(turned.as_slice());
         }
         Ok(())
     }

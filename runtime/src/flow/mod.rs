@@ -103,8 +103,8 @@ pub trait Flow<V: Vector> {
     ///
     /// # Errors
     ///
-    /// [`FlowError`]. The flows of this module then leave the state as it was, except those that consist of several flows; a
-    /// [`FlowIntegrator`] puts it back.
+    /// [`FlowError`]. Flows that consist of several ones, and those of several particles in a magnetic field, may then have moved the
+    /// state in part; a [`FlowIntegrator`] puts it back.
     fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError>;
 
     /// Several flows one after another, each from the end of the one before. Where flows of one part meet they may be made one.

@@ -182,6 +182,15 @@ fn methods_for_perturbed_systems_are_precise() {
     }
 }
 
+/// The jump of the star and the gravity between planets commute: there is no error of order 2, also with heavy planets.
+#[test]
+fn the_second_part_of_heliocentric_coordinates_is_exact() {
+    let masses = masses(0.1);
+    let exact = exact(masses);
+    let of = |steps| error(Aba1064, Coordinates::Heliocentric, masses, &exact, steps);
+    near((of(120) / of(240)).log2(), 4.0);
+}
+
 #[test]
 fn coordinates_go_back_and_forth() {
     let masses = masses(0.3);

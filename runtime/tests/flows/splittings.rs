@@ -8,7 +8,7 @@ use symplectic::flow::{
 use symplectic::nalgebra::Vector1;
 use symplectic::{Error, Method, Quantity, State, acceleration};
 
-use crate::common::methods::{ForestRuth, Gauss8, McLachlanAtela, StoermerVerlet};
+use crate::common::methods::{ForestRuth, Gauss8, McLachlanAtela, PositionJump, StoermerVerlet};
 use crate::common::systems::{Driven, Pendulum, point};
 use crate::common::{distance, run};
 
@@ -191,13 +191,24 @@ fn kicks_and_drifts_are_those_of_the_integrator() {
 #[test]
 fn kicks_may_depend_on_time() {
     let drift = acceleration::<V, _>(|_, _, force| force[0] = 0.0);
-    let [coarse, fine] = [200, 400].map(|steps| {
-        let step = Splitting::new(ForestRuth, Drift::new(drift), Kick::new(Driven));
-        let size = 3.0 / f64::from(steps);
-        let mut run = FlowIntegrator::new(step, point(1.0, 0.0), size).expect("a run");
-        distance(run.integrate_to(3.0).expect("steps"), &Driven::exact(3.0))
-    });
-    near((coarse / fine).log2(), 4.0);
+    fn slope(flow: impl Flow<V> + Clone, steps: u32) -> f64 {
+        let [coarse, fine] = [steps, 2 * steps].map(|steps| {
+            let size = 3.0 / f64::from(steps);
+            let mut run = FlowIntegrator::new(flow.clone(), point(1.0, 0.0), size).expect("a run");
+            distance(run.integrate_to(3.0).expect("steps"), &Driven::exact(3.0))
+        });
+        (coarse / fine).log2()
+    }
+    let (drift, kick) = (Drift::new(drift), Kick::new(Driven));
+    near(slope(Splitting::new(ForestRuth, drift, kick), 200), 4.0);
+    // Drift first, in a run of several steps that are joined.
+    let jump = Splitting::new(PositionJump, drift, kick);
+    near(slope(Substeps::new(jump, 10).expect("10 steps"), 20), 4.0);
+    near(slope(Palindrome::new(kick, drift), 200), 2.0);
+    near(
+        slope(Composed::new(Suzuki4, Palindrome::new(kick, drift)), 50),
+        4.0,
+    );
 }
 
 /// Counts how often a flow is taken.

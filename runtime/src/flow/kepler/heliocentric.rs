@@ -1,13 +1,12 @@
 //! Democratic heliocentric coordinates.
 
 use alloc::vec;
-use alloc::vec::Vec;
 
+use super::attraction::Attraction;
+use super::bodies::Bodies;
 use super::drift::KeplerDrift;
-use super::gravity::Bodies;
-use super::jacobi::add;
 use crate::error::Error;
-use crate::flow::{Flow, FlowError, Span, check_dimension};
+use crate::flow::{Flow, FlowError, Span};
 use crate::number::Vector;
 use crate::state::State;
 
@@ -19,8 +18,8 @@ use crate::state::State;
 /// B = |Σ_i P_i|²/(2m_0) − Σ_{1≤i<j} G m_i m_j/|Q_i − Q_j|
 /// ```
 ///
-/// (Duncan, Levison & Lee, *Astron. J.* 116, 1998.) No order of the bodies is distinguished, so orbits may cross. The two terms of `B`, the
-/// jump of the star and a kick, do not commute: [`kick`](Self::kick) is their palindrome, with the error O(ε³h²).
+/// (Duncan, Levison & Lee, *Astron. J.* 116, 1998.) No order of the bodies is distinguished, so orbits may cross. The two terms of `B` commute: the
+/// jump of the star moves all planets by the same vector, and a kick leaves `Σ P_i`. So the flow of `B` is exact too.
 #[derive(Clone, Debug)]
 pub struct Heliocentric {
     bodies: Bodies,
@@ -103,53 +102,38 @@ impl Heliocentric {
         KeplerDrift::of_checked(self.bodies.total(), masses[1..].into(), mus)
     }
 
-    /// A step for `B`, half a jump, a kick and half a jump: the second part.
+    /// The flow of `B`: the second part.
     pub fn kick(&self) -> HeliocentricKick {
         HeliocentricKick {
-            bodies: self.bodies.clone(),
-            positions: vec![0.0; 3 * self.bodies.masses.len()],
-            forces: vec![0.0; 3 * self.bodies.masses.len()],
+            attraction: Attraction::new(self.bodies.clone()),
         }
     }
 }
 
-/// The jump of the star and the gravity between planets in [`Heliocentric`] coordinates: a step of order 2.
+/// The flow of the jump of the star and of the gravity between planets in [`Heliocentric`] coordinates.
 ///
 /// # Errors
 ///
 /// [`FlowError::Collision`] for planets in one place, [`FlowError::NonFinite`] for other forces that are not finite, [`FlowError::Dimension`].
 #[derive(Clone, Debug)]
 pub struct HeliocentricKick {
-    bodies: Bodies,
-    positions: Vec<f64>,
-    forces: Vec<f64>,
-}
-
-impl HeliocentricKick {
-    /// Moves all planets by `size Σ P_i/m_0`.
-    fn jump(&mut self, size: f64, p: &[f64]) {
-        for axis in 0..3 {
-            let total: f64 = p.iter().skip(3 + axis).step_by(3).sum();
-            let shift = size * total / self.bodies.masses[0];
-            for q in self.positions.iter_mut().skip(3 + axis).step_by(3) {
-                *q += shift;
-            }
-        }
-    }
+    attraction: Attraction,
 }
 
 impl<V: Vector<Scalar = f64>> Flow<V> for HeliocentricKick {
     fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
-        check_dimension(self.positions.len(), q)?;
-        check_dimension(self.positions.len(), p)?;
-        let (q, p, half) = (q.as_mut_slice(), p.as_mut_slice(), span.size / 2.0);
-        self.positions.copy_from_slice(q);
-        self.jump(half, p);
-        self.forces.fill(0.0);
-        self.bodies.forces(1, &self.positions, &mut self.forces)?;
-        add(span.size, &self.forces, p)?;
-        self.jump(half, p);
-        q.copy_from_slice(&self.positions);
+        self.attraction.check(q, p)?;
+        let (q, p) = (q.as_mut_slice(), p.as_mut_slice());
+        self.attraction.positions.copy_from_slice(q);
+        self.attraction.attract(1)?;
+        self.attraction.kick(span.size, p)?;
+        for axis in 0..3 {
+            let total: f64 = p.iter().skip(3 + axis).step_by(3).sum();
+            let shift = span.size * total / self.attraction.bodies.masses[0];
+            for q in q.iter_mut().skip(3 + axis).step_by(3) {
+                *q += shift;
+            }
+        }
         Ok(())
     }
 }

@@ -1,12 +1,12 @@
 //! Jacobi coordinates.
 
-use alloc::vec;
 use alloc::vec::Vec;
 
+use super::attraction::Attraction;
+use super::bodies::Bodies;
 use super::drift::KeplerDrift;
-use super::gravity::Bodies;
-use crate::error::{Error, Quantity};
-use crate::flow::{Flow, FlowError, Span, check_dimension};
+use crate::error::Error;
+use crate::flow::{Flow, FlowError, Span};
 use crate::number::{Scalar, Vector};
 use crate::state::State;
 
@@ -109,11 +109,8 @@ impl Jacobi {
 
     /// The flow of `B`: the second part.
     pub fn kick(&self) -> JacobiKick {
-        let room = vec![0.0; 3 * self.bodies.masses.len()];
         JacobiKick {
-            bodies: self.bodies.clone(),
-            positions: room.clone(),
-            forces: room,
+            attraction: Attraction::new(self.bodies.clone()),
         }
     }
 }
@@ -154,25 +151,18 @@ fn to_positions(bodies: &Bodies, q: &mut [f64]) {
 /// [`FlowError::Collision`] for bodies in one place, [`FlowError::NonFinite`] for other forces that are not finite, [`FlowError::Dimension`].
 #[derive(Clone, Debug)]
 pub struct JacobiKick {
-    bodies: Bodies,
-    positions: Vec<f64>,
-    forces: Vec<f64>,
+    attraction: Attraction,
 }
 
 impl<V: Vector<Scalar = f64>> Flow<V> for JacobiKick {
     fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
-        let Self {
-            bodies,
-            positions,
-            forces,
-        } = self;
-        check_dimension(forces.len(), q)?;
-        check_dimension(forces.len(), p)?;
+        let attraction = &mut self.attraction;
+        attraction.check(q, p)?;
         let q = q.as_slice();
-        positions.copy_from_slice(q);
-        to_positions(bodies, positions);
-        forces.fill(0.0);
-        bodies.forces(0, positions, forces)?;
+        attraction.positions.copy_from_slice(q);
+        to_positions(&attraction.bodies, &mut attraction.positions);
+        attraction.attract(0)?;
+        let Attraction { bodies, forces, .. } = attraction;
         to_relative(bodies, forces);
         for i in 2..bodies.masses.len() {
             let planet = &q[3 * i..3 * i + 3];
@@ -183,18 +173,6 @@ impl<V: Vector<Scalar = f64>> Flow<V> for JacobiKick {
                 *force += pull * x;
             }
         }
-        add(span.size, forces, p.as_mut_slice())
+        self.attraction.kick(span.size, p.as_mut_slice())
     }
-}
-
-/// Adds `size · forces` to momenta of planets, if they are finite; that of the centre of mass stays.
-pub(super) fn add(size: f64, forces: &[f64], p: &mut [f64]) -> Result<(), FlowError> {
-    if !forces.iter().all(|force| force.is_finite()) {
-        let what = Quantity::Force;
-        return Err(FlowError::NonFinite { what });
-    }
-    for (p, force) in p.iter_mut().zip(forces).skip(3) {
-        *p += size * force;
-    }
-    Ok(())
 }

@@ -6,10 +6,10 @@
 //!
 //! | coordinates | `A` | `B` |
 //! |---|---|---|
-//! | [`Jacobi`] | each planet about the centre of mass of the bodies before it | a kick: its flow is exact |
-//! | [`Heliocentric`] | each planet about the star | a kick and a jump of the star, one after another: `O(ε³h²)` more |
+//! | [`Jacobi`] | each planet about the centre of mass of the bodies before it | a kick |
+//! | [`Heliocentric`] | each planet about the star | a kick and a jump of the star, which commute |
 //!
-//! Both are canonical, and `H` is the same function. The masses of bodies follow the star's, from the inner planet to the outer ones for Jacobi.
+//! Both are canonical, `H` is the same function, and the flows are exact. The masses of bodies follow the star's, from the inner planet to the outer ones for Jacobi.
 //!
 //! # Rounding
 //!
@@ -38,8 +38,9 @@
 //! # }
 //! ```
 
+mod attraction;
+mod bodies;
 mod drift;
-mod gravity;
 mod heliocentric;
 mod in_lanes;
 mod jacobi;
