@@ -13,7 +13,9 @@
 //!
 //! # Rounding
 //!
-//! The universal anomaly is found to the last bits in any case. Over k periods the phase has the error `kε`, and from
+//! The universal anomaly is found to the last bits in any case. Steps of less than a third of a period, and of less than a few radii, go in lanes; all
+//! others one by one. Energy and angular momentum, relative to their largest terms, have errors of a few ε, and up to 2000ε where a hyperbola passes its
+//! pericentre in one flow (largest of two million random orbits of all kinds). Over k periods the phase has the error `kε`, and from
 //! 2²⁶ periods in one flow on the error is [`FlowError::Periods`](super::FlowError::Periods). Every body has the same bits for every width of the lanes.
 //!
 //! ```
