@@ -15,7 +15,7 @@ use crate::number::Vector;
 /// `e^{hA} − 1` is computed once for every duration h, of which a method has a few: `2^{−s} hA` is brought below 1/2 in the norm of the largest
 /// column sum, the exponential series is summed to the power 15 (the rest is below 10⁻¹⁸), and `(1 + E)² − 1 = 2E + E²` is applied s times (Moler &
 /// Van Loan, *SIAM Rev.* 45, 2003, method 3). The relative error is about `nε(1 + ‖hA‖)` where `e^{hA}` is bounded, and so is the deviation from symplecticity.
-/// The first flow of a new duration allocates; the latest 64 are kept.
+/// The first flow of a new duration allocates; up to 64 are kept.
 ///
 /// ```
 /// use symplectic::flow::{Flow, Linear, Span};

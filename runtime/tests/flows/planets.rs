@@ -75,11 +75,12 @@ fn by_velocity(state: &State<Bodies>, masses: [f64; N]) -> State<Bodies> {
     State::new(state.time, state.q, p)
 }
 
-/// Whether bodies are in Jacobi coordinates, or in heliocentric ones.
+/// Whether bodies are in Jacobi coordinates, or in heliocentric ones with either splitting.
 #[derive(Clone, Copy, Debug)]
 enum Coordinates {
     Jacobi,
     Heliocentric,
+    Pairs,
 }
 
 fn error<M: Method>(
@@ -114,8 +115,12 @@ fn error<M: Method>(
             };
             system.to_inertial(&end(&mut all, start))
         }
-        Coordinates::Heliocentric => {
-            let system = Heliocentric::new(G, &masses).expect("bodies");
+        Coordinates::Heliocentric | Coordinates::Pairs => {
+            let system = match coordinates {
+                Coordinates::Pairs => Heliocentric::of_pairs(G, &masses),
+                _ => Heliocentric::new(G, &masses),
+            };
+            let system = system.expect("bodies");
             let step = Splitting::new(method, system.drift(), system.kick());
             let start = system.from_inertial(&start(masses)).expect("a state");
             let mut run = FlowIntegrator::new(step, start, size).expect("a run");
@@ -127,7 +132,11 @@ fn error<M: Method>(
     distance(&by_velocity(&end, masses), &by_velocity(exact, masses))
 }
 
-const BOTH: [Coordinates; 2] = [Coordinates::Jacobi, Coordinates::Heliocentric];
+const ALL: [Coordinates; 3] = [
+    Coordinates::Jacobi,
+    Coordinates::Heliocentric,
+    Coordinates::Pairs,
+];
 
 fn near(slope: f64, order: f64) {
     assert!((slope - order).abs() < 0.05, "{slope} instead of {order}");
@@ -137,7 +146,7 @@ fn near(slope: f64, order: f64) {
 fn leapfrog_has_order_2() {
     let masses = masses(1e-3);
     let exact = exact(masses);
-    for coordinates in BOTH {
+    for coordinates in ALL {
         let [coarse, fine] =
             [300, 600].map(|steps| error(Leapfrog, coordinates, masses, &exact, steps));
         near((coarse / fine).log2(), 2.0);
@@ -150,7 +159,7 @@ fn leapfrog_has_order_2() {
 /// The error is proportional to the masses of the planets, where a splitting into kinetic energy and potential has one that is not.
 #[test]
 fn the_error_is_small_with_the_masses() {
-    for coordinates in BOTH {
+    for coordinates in ALL {
         let errors = [1e-3, 1e-5].map(|scale| {
             let masses = masses(scale);
             error(Leapfrog, coordinates, masses, &exact(masses), 300)
@@ -165,12 +174,15 @@ fn the_error_is_small_with_the_masses() {
 fn methods_for_perturbed_systems_are_precise() {
     let of = |scale: f64| (masses(scale), exact(masses(scale)));
     let [(heavy, exact_heavy), (light, exact_light)] = [1e-2, 1e-3].map(of);
-    for coordinates in BOTH {
+    for coordinates in ALL {
         let heavy_error = |steps| error(Saba3, coordinates, heavy, &exact_heavy, steps);
         let [coarse, fine] = [120, 240].map(heavy_error);
         near((coarse / fine).log2(), 2.0);
         let ratio = fine / error(Saba3, coordinates, light, &exact_light, 240);
         assert!((60.0..130.0).contains(&ratio), "{coordinates:?}: {ratio}");
+        if let Coordinates::Pairs = coordinates {
+            continue;
+        }
         let [leapfrog, aba] = [
             error(Leapfrog, coordinates, light, &exact_light, 300),
             error(Aba1064, coordinates, light, &exact_light, 40),
@@ -182,13 +194,15 @@ fn methods_for_perturbed_systems_are_precise() {
     }
 }
 
-/// The jump of the star and the gravity between planets commute: there is no error of order 2, also with heavy planets.
+/// The jump of the star and the gravity between planets commute: there is no error of order 2, also with heavy planets. Those of pairs do not.
 #[test]
 fn the_second_part_of_heliocentric_coordinates_is_exact() {
     let masses = masses(0.1);
     let exact = exact(masses);
-    let of = |steps| error(Aba1064, Coordinates::Heliocentric, masses, &exact, steps);
-    near((of(120) / of(240)).log2(), 4.0);
+    for (coordinates, order) in [(Coordinates::Heliocentric, 4.0), (Coordinates::Pairs, 2.0)] {
+        let of = |steps| error(Aba1064, coordinates, masses, &exact, steps);
+        near((of(120) / of(240)).log2(), order);
+    }
 }
 
 #[test]
@@ -230,21 +244,26 @@ fn coordinates_go_back_and_forth() {
     }
 }
 
-/// With two bodies a step of any size is exact in Jacobi coordinates: there is nothing but the drift.
+/// With two bodies a step of any size is exact in Jacobi coordinates and by pairs: there is nothing but the drift.
 #[test]
 fn two_bodies_need_one_step() {
-    let system = Jacobi::new(2.0, &[1.0, 0.7]).expect("bodies");
-    let (q, p) = (
-        [0.0, 0.0, 0.0, 1.0, 0.2, 0.0],
-        [0.1, -0.3, 0.0, -0.1, 0.9, 0.2],
-    );
+    let masses = [1.0, 0.7];
+    let jacobi = Jacobi::new(2.0, &masses).expect("bodies");
+    let pairs = Heliocentric::of_pairs(2.0, &masses).expect("bodies");
+    let q = [0.0, 0.0, 0.0, 1.0, 0.2, 0.0];
+    let p = [0.1, -0.3, 0.0, -0.1, 0.9, 0.2];
     let start = State::<DVector<f64>>::from_slices(0.0, &q, &p).expect("a state");
-    let run = |size: f64| {
-        let step = Splitting::new(Leapfrog, system.drift(), system.kick());
-        let start = system.from_inertial(&start).expect("a state");
+    let by_jacobi = |size: f64| {
+        let step = Splitting::new(Leapfrog, jacobi.drift(), jacobi.kick());
+        let start = jacobi.from_inertial(&start).expect("a state");
         let mut run = FlowIntegrator::new(step, start, size).expect("a run");
-        run.integrate_to(5.0).expect("steps");
-        system.to_inertial(run.state()).expect("a state")
+        jacobi.to_inertial(run.integrate_to(5.0).expect("steps"))
+    };
+    let by_pairs = |size: f64| {
+        let step = Splitting::new(Leapfrog, pairs.drift(), pairs.kick());
+        let start = pairs.from_inertial(&start).expect("a state");
+        let mut run = FlowIntegrator::new(step, start, size).expect("a run");
+        pairs.to_inertial(run.integrate_to(5.0).expect("steps"))
     };
     let kepler = separable::<DVector<f64>, _, _>(
         |_, p, velocity| (0..6).for_each(|i| velocity[i] = p[i] / [1.0, 0.7][i / 3]),
@@ -256,8 +275,11 @@ fn two_bodies_need_one_step() {
     );
     let mut exact = Integrator::new(Gauss8, kepler, start.clone(), 0.01).expect("a run");
     let exact = exact.integrate_to(5.0).expect("steps");
-    assert!(distance(&run(5.0), exact) < 1e-12);
-    assert!(distance(&run(0.05), exact) < 1e-12);
+    for size in [5.0, 0.05] {
+        for end in [by_jacobi(size), by_pairs(size)] {
+            assert!(distance(&end.expect("a state"), exact) < 1e-12);
+        }
+    }
 }
 
 #[test]

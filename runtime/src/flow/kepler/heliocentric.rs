@@ -1,7 +1,5 @@
 //! Democratic heliocentric coordinates.
 
-use alloc::vec;
-
 use super::attraction::Attraction;
 use super::bodies::Bodies;
 use super::drift::KeplerDrift;
@@ -23,6 +21,8 @@ use crate::state::State;
 #[derive(Clone, Debug)]
 pub struct Heliocentric {
     bodies: Bodies,
+    /// Whether every planet makes a pair with the star.
+    pairs: bool,
 }
 
 impl Heliocentric {
@@ -32,9 +32,28 @@ impl Heliocentric {
     ///
     /// [`Error::FlowParameter`] where a mass or `G` is not finite and positive, or there is no body.
     pub fn new(gravity: f64, masses: &[f64]) -> Result<Self, Error> {
-        Ok(Self {
-            bodies: Bodies::new(gravity, masses)?,
-        })
+        let bodies = Bodies::new(gravity, masses)?;
+        let pairs = false;
+        Ok(Self { bodies, pairs })
+    }
+
+    /// The same coordinates, with another splitting: each planet and the star are a pair that is solved exactly (WHDS, Hernandez & Dehnen,
+    /// *MNRAS* 468, 2017).
+    ///
+    /// ```text
+    /// A = |P_0|²/(2M) + Σ_i |P_i|²/(2μ_i) − G m_0 m_i/|Q_i|      μ_i = m_0 m_i/(m_0 + m_i)
+    /// B = Σ_{i<j} P_i·P_j/m_0 − Σ_{1≤i<j} G m_i m_j/|Q_i − Q_j|
+    /// ```
+    ///
+    /// With two bodies `B = 0`. The two terms of `B` do not commute, and are taken by a palindrome: the error has `O(ε³h²)` in addition.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Self::new).
+    pub fn of_pairs(gravity: f64, masses: &[f64]) -> Result<Self, Error> {
+        let bodies = Bodies::new(gravity, masses)?;
+        let pairs = true;
+        Ok(Self { bodies, pairs })
     }
 
     /// The state in heliocentric coordinates of one in inertial coordinates.
@@ -98,14 +117,20 @@ impl Heliocentric {
         let Bodies {
             gravity, masses, ..
         } = &self.bodies;
-        let mus = vec![gravity * masses[0]; masses.len() - 1];
-        KeplerDrift::of_checked(self.bodies.total(), masses[1..].into(), mus)
+        let (star, planets) = (masses[0], &masses[1..]);
+        let orbits = planets.iter().map(|mass| match self.pairs {
+            true => (star * mass / (star + mass), gravity * (star + mass)),
+            false => (*mass, gravity * star),
+        });
+        let (masses, mus) = orbits.unzip();
+        KeplerDrift::of_checked(self.bodies.total(), masses, mus)
     }
 
-    /// The flow of `B`: the second part.
+    /// The flow of `B`, or of [pairs](Self::of_pairs) a step of order 2: the second part.
     pub fn kick(&self) -> HeliocentricKick {
         HeliocentricKick {
             attraction: Attraction::new(self.bodies.clone()),
+            pairs: self.pairs,
         }
     }
 }
@@ -118,6 +143,22 @@ impl Heliocentric {
 #[derive(Clone, Debug)]
 pub struct HeliocentricKick {
     attraction: Attraction,
+    pairs: bool,
+}
+
+impl HeliocentricKick {
+    /// Moves each planet by the velocity that the star has from all planets, or from the others.
+    fn jump(&mut self, size: f64, p: &[f64]) {
+        let positions = &mut self.attraction.positions;
+        let factor = size / self.attraction.bodies.masses[0];
+        for axis in 3..6 {
+            let total: f64 = p.iter().skip(axis).step_by(3).sum();
+            let planets = positions.iter_mut().zip(p).skip(axis).step_by(3);
+            for (q, own) in planets {
+                *q += factor * if self.pairs { total - own } else { total };
+            }
+        }
+    }
 }
 
 impl<V: Vector<Scalar = f64>> Flow<V> for HeliocentricKick {
@@ -125,15 +166,15 @@ impl<V: Vector<Scalar = f64>> Flow<V> for HeliocentricKick {
         self.attraction.check(q, p)?;
         let (q, p) = (q.as_mut_slice(), p.as_mut_slice());
         self.attraction.positions.copy_from_slice(q);
+        // The jump of all planets by one vector commutes with the kick.
+        let before = if self.pairs { span.size / 2.0 } else { 0.0 };
+        if self.pairs {
+            self.jump(before, p);
+        }
         self.attraction.attract(1)?;
         self.attraction.kick(span.size, p)?;
-        for axis in 0..3 {
-            let total: f64 = p.iter().skip(3 + axis).step_by(3).sum();
-            let shift = span.size * total / self.attraction.bodies.masses[0];
-            for q in q.iter_mut().skip(3 + axis).step_by(3) {
-                *q += shift;
-            }
-        }
+        self.jump(span.size - before, p);
+        q.copy_from_slice(&self.attraction.positions);
         Ok(())
     }
 }

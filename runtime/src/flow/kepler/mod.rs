@@ -8,8 +8,9 @@
 //! |---|---|---|
 //! | [`Jacobi`] | each planet about the centre of mass of the bodies before it | a kick |
 //! | [`Heliocentric`] | each planet about the star | a kick and a jump of the star, which commute |
+//! | [`Heliocentric::of_pairs`] | each planet and the star as a pair | a kick and jumps: of order 2 |
 //!
-//! Both are canonical, `H` is the same function, and the flows are exact. The masses of bodies follow the star's, from the inner planet to the outer ones for Jacobi.
+//! All are canonical, `H` is the same function, and the flows are exact if nothing else is said. The masses of bodies follow the star's, from the inner planet to the outer ones for Jacobi.
 //!
 //! # Rounding
 //!
