@@ -1,5 +1,9 @@
 //! What can go wrong.
 
+mod flow;
+
+pub use flow::FlowError;
+
 use core::fmt;
 
 /// Why a step was not taken, or an integration not begun. The state of the integrator is the last good one.
@@ -583,6 +587,32 @@ pub enum Error {
         axis: usize,
         /// The moment given.
         value: f64,
+    },
+
+    /// A flow of a splitting could not be taken.
+    #[error("step {step} of size {step_size} at time {time}: {failure}")]
+    Flow {
+        /// Time at the start of the step.
+        time: f64,
+        /// Step size.
+        step_size: f64,
+        /// Number of the step, from 1.
+        step: u64,
+        /// Why.
+        failure: FlowError,
+    },
+
+    /// A parameter of a flow is not finite, or out of its range.
+    #[error("the {what} with number {index} is {value}; it must be {range}")]
+    FlowParameter {
+        /// What it is.
+        what: &'static str,
+        /// Which one, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        range: &'static str,
     },
 
     /// The step is so small that it does not change the time.

@@ -23,6 +23,7 @@
 //! | Numbers and vectors | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors), [`simd`] |
 //! | Constraints, friction and other forces | [`Constrained`], [`consistent`], [`constraint_force`]; [`Nonholonomic`], [`consistent_momentum`]; [`Damped`], [`Hamiltonian::applied_force`] |
 //! | A rigid body that turns about a point | [`rotation`] |
+//! | Splittings over flows of your own: harmonic, magnetic, damped, stochastic, Kepler | [`flow`] |
 //! | Discrete and degenerate Lagrangians, generating functions, stages and balances | [`variational`] |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`RunTimeTableau`] |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
@@ -77,6 +78,7 @@ extern crate alloc;
 mod error;
 mod state;
 
+pub mod flow;
 mod integrator;
 mod method;
 mod number;
@@ -167,6 +169,8 @@ mod book {
     struct Constraints;
     #[doc = include_str!("../../docs/src/guide/forces.md")]
     struct Forces;
+    #[doc = include_str!("../../docs/src/guide/flows.md")]
+    struct Flows;
     #[doc = include_str!("../../docs/src/guide/rigid-bodies.md")]
     struct RigidBodies;
     #[doc = include_str!("../../docs/src/guide/lagrangians.md")]

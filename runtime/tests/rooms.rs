@@ -12,7 +12,7 @@ const ROOMS: &[&[&str]] = &[
     &["method"],
     &["solver"],
     &["integrator"],
-    &["output", "rotation", "variational"],
+    &["flow", "output", "rotation", "variational"],
 ];
 
 /// The imports that run up. A system chooses how it is stepped: its class the plan of a method, and its type the solver.

@@ -100,6 +100,7 @@ pub fn perihelion() -> State<Vector2<f64>> {
 }
 
 /// H = p²/2 + q²/2 − q cos 3t.
+#[derive(Clone, Copy)]
 pub struct Driven;
 
 impl System<Vector1<f64>> for Driven {

@@ -10,6 +10,7 @@ use std::ops::ControlFlow;
 use crate::common::systems::Pendulum;
 
 use crate::common::methods::{Midpoint, StoermerVerlet};
+use symplectic::flow::{Drift, FlowIntegrator, Kick, Splitting, Substeps};
 use symplectic::system::{Bonds, Chain};
 use symplectic::variational::{DiscreteLagrangian, Newmark, VariationalIntegrator};
 use symplectic::{
@@ -265,5 +266,21 @@ fn steps_of_newmark_make_no_vectors() -> Result<(), Error> {
     let (made_by_steps, outcome) = made(|| run.integrate_to(10.0).map(|_| ()));
     outcome?;
     assert_eq!(made_by_steps, 0);
+    Ok(())
+}
+
+#[test]
+fn steps_of_flows_make_no_vectors() -> Result<(), Error> {
+    let start = State::new(0.0, Counted::new(vec![1.0; 5]), Counted::new(vec![0.0; 5]));
+    let (drift, kick) = (
+        Drift::new(Pendulum::default()),
+        Kick::new(Pendulum::default()),
+    );
+    let step = Substeps::new(Splitting::new(StoermerVerlet, drift, kick), 3)?;
+    let mut integrator = FlowIntegrator::new(step, start, 0.1)?;
+    integrator.step()?;
+    let (count, outcome) = made(|| integrator.integrate_to(10.0).map(|_| ()));
+    outcome?;
+    assert_eq!(count, 0);
     Ok(())
 }

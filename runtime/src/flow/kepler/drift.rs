@@ -1,0 +1,172 @@
+//! Bodies on Kepler orbits.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+
+use super::in_lanes::changes;
+use super::orbit::{NoEnd, Orbit};
+use crate::error::Error;
+use crate::flow::{Flow, FlowError, Span, check_dimension, check_parameter};
+use crate::number::array::array;
+use crate::number::{F64x4, Lanes, Vector};
+
+/// The flow of `H = Σ |p|²/(2m) − mμ/|q|`: bodies in space, each on a Kepler orbit about the origin, any number of them in lanes of `L`.
+///
+/// Ellipses, parabolas, hyperbolas and lines are one case: with the universal anomaly s, `t' = |q|`, and Stumpff's functions `G_k = s^k c_k(βs²)`,
+/// `β = 2μ/|q| − |v|²`, the end is (Battin, *An introduction to the mathematics and methods of astrodynamics*, 4.5; Rein & Tamayo, *MNRAS*
+/// 452, 2015)
+///
+/// ```text
+/// h = |q| G1 + (q·v) G2 + μ G3      q1 = f q + g v     v1 = f' q + g' v
+/// f = 1 − μG2/|q|      g = h − μG3      f' = −μG1/(|q||q1|)      g' = 1 − μG2/|q1|
+/// ```
+///
+/// $$ h = |q| G_1 + (q \cdot v) G_2 + \mu G_3 \qquad f = 1 - \frac{\mu G_2}{|q|} \qquad g = h - \mu G_3 $$
+///
+/// A body that falls into the centre turns back there, as the limit of thin ellipses does.
+///
+/// # Errors
+///
+/// [`FlowError::AtCentre`] where a body starts or ends at the centre, [`FlowError::Periods`], [`FlowError::NoOrbit`] where its end
+/// overflows, [`FlowError::Dimension`].
+///
+/// ```
+/// use symplectic::flow::kepler::KeplerDrift;
+/// use symplectic::flow::{Flow, Span};
+/// use symplectic::nalgebra::Vector3;
+///
+/// // A circle, half a period.
+/// let mut drift = KeplerDrift::new(&[1.0], &[1.0])?;
+/// let (mut q, mut p) = (Vector3::x(), Vector3::y());
+/// drift.flow(Span { time: 0.0, size: std::f64::consts::PI }, &mut q, &mut p).expect("a flow");
+/// assert!((q + Vector3::x()).norm() < 1e-14);
+/// # Ok::<(), symplectic::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct KeplerDrift<L = F64x4> {
+    /// The mass of a body before the others that moves freely.
+    free: Option<f64>,
+    masses: Vec<f64>,
+    mus: Vec<f64>,
+    /// The states at the end.
+    ends: Vec<f64>,
+    lanes: PhantomData<L>,
+}
+
+impl KeplerDrift {
+    /// Bodies with these masses, and the gravitational parameter μ of the centre for each of them.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::FlowParameter`] where a mass or a μ is not finite and positive; [`Error::Dimension`] where there are not as many of them.
+    pub fn new(masses: &[f64], mus: &[f64]) -> Result<Self, Error> {
+        if masses.len() != mus.len() {
+            return Err(Error::Dimension {
+                position: masses.len(),
+                momentum: mus.len(),
+            });
+        }
+        for (what, values) in [("mass", masses), ("gravitational parameter", mus)] {
+            for (index, &value) in values.iter().enumerate() {
+                check_parameter(what, index, value, false)?;
+            }
+        }
+        Ok(Self::with(None, masses.into(), mus.into()))
+    }
+
+    /// Bodies after one of mass `free` that moves freely.
+    pub(super) fn of_checked(free: f64, masses: Vec<f64>, mus: Vec<f64>) -> Self {
+        Self::with(Some(free), masses, mus)
+    }
+
+    fn with(free: Option<f64>, masses: Vec<f64>, mus: Vec<f64>) -> Self {
+        Self {
+            free,
+            ends: vec![0.0; 6 * masses.len()],
+            masses,
+            mus,
+            lanes: PhantomData,
+        }
+    }
+}
+
+impl<L: Lanes> KeplerDrift<L> {
+    /// The same flow, with other lanes: the results are the same to the last bit.
+    ///
+    /// ```
+    /// use symplectic::flow::kepler::KeplerDrift;
+    /// use symplectic::simd::F64x8;
+    ///
+    /// let drift = KeplerDrift::new(&[1.0; 8], &[1.0; 8])?.in_lanes::<F64x8>();
+    /// # Ok::<(), symplectic::Error>(())
+    /// ```
+    pub fn in_lanes<W: Lanes>(self) -> KeplerDrift<W> {
+        KeplerDrift {
+            free: self.free,
+            masses: self.masses,
+            mus: self.mus,
+            ends: self.ends,
+            lanes: PhantomData,
+        }
+    }
+
+    /// The ends of the orbits of a group of bodies; lanes without a body have the orbit of the last one.
+    fn group(&mut self, first: usize, h: f64, q: &[f64], p: &[f64]) -> Result<(), FlowError> {
+        let last = self.masses.len() - 1;
+        let body = |lane: usize| (first + lane).min(last);
+        let of = |list: &[f64]| L::from_fn(|lane| list[body(lane)]);
+        let space = |list: &[f64]| -> [L; 3] {
+            array(L::zero(), |axis| {
+                L::from_fn(|lane| list[3 * body(lane) + axis])
+            })
+        };
+        let (q, p) = (space(q), space(p));
+        let orbit = Orbit::new(of(&self.mus), of(&self.masses), q, p);
+        let [a, b, c, d] = changes(&orbit, h).map_err(|(lane, why)| {
+            let free = usize::from(self.free.is_some());
+            let body = body(lane) + free;
+            match why {
+                NoEnd::AtCentre => FlowError::AtCentre { body },
+                NoEnd::Periods(periods) => FlowError::Periods { body, periods },
+                NoEnd::NotFound => FlowError::NoOrbit { body },
+            }
+        })?;
+        let count = L::WIDTH.min(last + 1 - first);
+        for axis in 0..3 {
+            let (q, p) = (q[axis], p[axis]);
+            let q1 = (q + (a * q + b * p)).to_array();
+            let p1 = (p + (c * q + d * p)).to_array();
+            for lane in 0..count {
+                let place = 6 * (first + lane) + axis;
+                self.ends[place] = q1.as_ref()[lane];
+                self.ends[place + 3] = p1.as_ref()[lane];
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<V: Vector<Scalar = f64>, L: Lanes> Flow<V> for KeplerDrift<L> {
+    fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
+        let (count, h) = (self.masses.len(), span.size);
+        let free = 3 * usize::from(self.free.is_some());
+        check_dimension(3 * count + free, q)?;
+        check_dimension(3 * count + free, p)?;
+        let (free_q, q) = q.as_mut_slice().split_at_mut(free);
+        let (free_p, p) = p.as_mut_slice().split_at_mut(free);
+        for first in (0..count).step_by(L::WIDTH) {
+            self.group(first, h, q, p)?;
+        }
+        let bodies = q.chunks_exact_mut(3).zip(p.chunks_exact_mut(3));
+        for ((q, p), end) in bodies.zip(self.ends.chunks_exact(6)) {
+            q.copy_from_slice(&end[..3]);
+            p.copy_from_slice(&end[3..]);
+        }
+        let mass = self.free.unwrap_or(1.0);
+        for (q, p) in free_q.iter_mut().zip(free_p) {
+            *q += h * *p / mass;
+        }
+        Ok(())
+    }
+}

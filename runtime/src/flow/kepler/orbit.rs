@@ -1,0 +1,172 @@
+//! The end of any Kepler orbit, one by one.
+
+use core::f64::consts::TAU;
+
+use num_traits::Float;
+
+use super::stumpff;
+use crate::number::Scalar;
+
+/// Why the end of an orbit is not known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum NoEnd {
+    /// The body is at the centre.
+    AtCentre,
+    /// It goes through too many periods.
+    Periods(f64),
+    /// It was not found, or is not finite.
+    NotFound,
+}
+
+/// How position and momentum change, from `(q, p)` to `(q + a q + b p, p + c q + d p)` with `[a, b, c, d]`.
+pub(super) type Change<T> = [T; 4];
+
+/// Periods after which half of the digits of the phase are lost.
+const MOST_PERIODS: f64 = (1_u64 << 26) as f64;
+
+/// Iterations, each of which halves the change of the one before: more than there are bits and exponents.
+const MOST: u32 = 1200;
+
+/// An orbit: distance, `q·v`, `2μ/r − v²`, μ, and the mass.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Orbit<T> {
+    pub(super) distance: T,
+    pub(super) radial: T,
+    pub(super) beta: T,
+    pub(super) mu: T,
+    pub(super) mass: T,
+}
+
+impl<T: Scalar> Orbit<T> {
+    #[inline(always)]
+    pub(super) fn new(mu: T, mass: T, q: [T; 3], p: [T; 3]) -> Self {
+        let dot = |a: [T; 3], b: [T; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let lighter = mass.recip();
+        let distance = dot(q, q).sqrt();
+        let v = [p[0] * lighter, p[1] * lighter, p[2] * lighter];
+        Self {
+            distance,
+            radial: dot(q, v),
+            beta: (mu + mu) / distance - dot(v, v),
+            mu,
+            mass,
+        }
+    }
+
+    /// `ζ = μ − βr`
+    #[inline(always)]
+    pub(super) fn zeta(&self) -> T {
+        self.mu - self.beta * self.distance
+    }
+
+    /// The change with `s G` functions `G1`, `G2`, the distance at the end, and g.
+    #[inline(always)]
+    pub(super) fn change(&self, [g1, g2]: [T; 2], end: T, g: T) -> Change<T> {
+        let Self {
+            distance, mu, mass, ..
+        } = *self;
+        let (inverse, at_end) = (distance.recip(), end.recip());
+        let pull = -mu * g2;
+        [
+            pull * inverse,
+            g / mass,
+            -mass * mu * g1 * inverse * at_end,
+            pull * at_end,
+        ]
+    }
+}
+
+/// `G1`, `G2`, `G3` at `s`, from `c_2` and `c_3` at `ψ = βs²`.
+#[inline(always)]
+pub(super) fn g_functions<T: Scalar>(s: T, psi: T, (c2, c3): (T, T)) -> [T; 3] {
+    let square = s * s;
+    [s * (T::one() - psi * c3), square * c2, square * s * c3]
+}
+
+impl Orbit<f64> {
+    /// The change in the time `h`, for every orbit: ellipse, parabola, hyperbola and line.
+    ///
+    /// The universal anomaly s, `t' = r`, is the zero of a monotone function; Newton's iteration is kept in an interval that is halved where it is slow.
+    pub(super) fn end(&self, h: f64) -> Result<Change<f64>, NoEnd> {
+        let Self {
+            distance,
+            radial,
+            beta,
+            ..
+        } = *self;
+        if distance == 0.0 {
+            return Err(NoEnd::AtCentre);
+        }
+        if ![distance, radial, beta, h].iter().all(|x| x.is_finite()) {
+            return Err(NoEnd::NotFound);
+        }
+        let h = self.without_periods(h)?;
+        if h == 0.0 {
+            return Ok([0.0; 4]);
+        }
+        // Backward is forward with the opposite velocity.
+        let (time, radial, sign) = (h.abs(), radial * h.signum(), h.signum());
+        let zeta = self.zeta();
+        let at = |s: f64| {
+            let psi = beta * s * s;
+            let [g1, g2, g3] = g_functions(s, psi, stumpff::any(psi));
+            let value = distance * s + (radial * g2 + zeta * g3) - time;
+            let end = distance + (radial * g1 + zeta * g2);
+            (value, end, [g1, g2])
+        };
+        // What is not a number is a difference of infinities, above the zero.
+        let (mut low, mut high) = (0.0, time / distance);
+        while at(high).0 < 0.0 {
+            (low, high) = (high, 2.0 * high);
+        }
+        let mut s = low + (high - low) / 2.0;
+        let mut before = high - low;
+        for _ in 0..MOST {
+            let (value, slope, _) = at(s);
+            if value < 0.0 {
+                low = s;
+            } else {
+                high = s;
+            }
+            let newton = s - value / slope;
+            let inside = newton > low && newton < high;
+            let next = if value == 0.0 {
+                s
+            } else if inside && (2.0 * (newton - s)).abs() <= before {
+                newton
+            } else {
+                low + (high - low) / 2.0
+            };
+            before = (next - s).abs();
+            s = next;
+            if before <= f64::EPSILON * s {
+                let (_, end, [g1, g2]) = at(s);
+                if end <= 0.0 {
+                    return Err(NoEnd::AtCentre);
+                }
+                let g = distance * g1 + radial * g2;
+                let change = self.change([sign * g1, g2], end, sign * g);
+                let finite = change.iter().all(|x| x.is_finite());
+                return finite.then_some(change).ok_or(NoEnd::NotFound);
+            }
+        }
+        Err(NoEnd::NotFound)
+    }
+
+    /// The time without whole periods.
+    fn without_periods(&self, h: f64) -> Result<f64, NoEnd> {
+        if self.beta <= 0.0 {
+            return Ok(h);
+        }
+        let period = TAU * self.mu / (self.beta * Scalar::sqrt(self.beta));
+        let periods = Float::round(h / period);
+        if periods.abs() >= MOST_PERIODS {
+            return Err(NoEnd::Periods(periods.abs()));
+        }
+        Ok(if periods == 0.0 {
+            h
+        } else {
+            libm::fma(-periods, period, h)
+        })
+    }
+}

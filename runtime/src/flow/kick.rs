@@ -1,0 +1,61 @@
+//! A kick by the force of a system.
+
+use super::{Flow, FlowError, Span};
+use crate::error::Quantity;
+use crate::method::storage::is_finite;
+use crate::number::Vector;
+use crate::system::{Separable, System};
+
+/// The flow of the potential of a separable system: `p ← p + h force(t, q)`.
+///
+/// ```
+/// use symplectic::flow::{Flow, FlowError, Kick, Span};
+/// use symplectic::nalgebra::Vector1;
+/// use symplectic::acceleration;
+///
+/// let mut kick = Kick::new(acceleration::<Vector1<f64>, _>(|_, q, force| force[0] = -q[0]));
+/// let (mut q, mut p) = (Vector1::new(2.0), Vector1::new(1.0));
+/// kick.flow(Span { time: 0.0, size: 0.25 }, &mut q, &mut p)?;
+/// assert_eq!((q[0], p[0]), (2.0, 0.5));
+/// # Ok::<(), FlowError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Kick<S, V> {
+    system: S,
+    force: Option<V>,
+}
+
+impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Kick<S, V> {
+    /// The kick by the force of this system.
+    pub const fn new(system: S) -> Self {
+        Self {
+            system,
+            force: None,
+        }
+    }
+}
+
+impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Flow<V> for Kick<S, V> {
+    fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
+        let force = self.force.get_or_insert_with(|| p.zeros_like());
+        self.system.force(span.time, q, p, force);
+        add(Quantity::Force, span.size, force, p)
+    }
+}
+
+/// Adds `size · slope` to a vector of as many components.
+pub(super) fn add<V: Vector<Scalar = f64>>(
+    what: Quantity,
+    size: f64,
+    slope: &V,
+    to: &mut V,
+) -> Result<(), FlowError> {
+    if !is_finite(slope) {
+        return Err(FlowError::NonFinite { what });
+    }
+    super::check_dimension(slope.dimension(), to)?;
+    for (to, slope) in to.as_mut_slice().iter_mut().zip(slope.as_slice()) {
+        *to += size * slope;
+    }
+    Ok(())
+}

@@ -1,0 +1,174 @@
+//! Linear systems, exactly.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use nalgebra::DMatrix;
+use num_traits::Float;
+
+use super::{Flow, FlowError, Span, check_dimension, check_parameter};
+use crate::error::{Error, Quantity};
+use crate::number::Vector;
+
+/// The flow of a linear system: `z' = Az` with `z = (q, p)`, so `z ← e^{hA} z`.
+///
+/// `e^{hA} − 1` is computed once for every duration h, of which a method has a few: `2^{−s} hA` is brought below 1/2 in the norm of the largest
+/// column sum, the exponential series is summed to the power 15 (the rest is below 10⁻¹⁸), and `(1 + E)² − 1 = 2E + E²` is applied s times (Moler &
+/// Van Loan, *SIAM Rev.* 45, 2003, method 3). The relative error is about `nε(1 + ‖hA‖)` where `e^{hA}` is bounded, and so is the deviation from symplecticity.
+/// The first flow of a new duration allocates; up to 64 are kept.
+///
+/// ```
+/// use symplectic::flow::{Flow, Linear, Span};
+/// use symplectic::nalgebra::{DMatrix, Vector1};
+///
+/// // H = p²/2 + 9q²/2.
+/// let mut spring = Linear::oscillators(&[1.0], &DMatrix::from_element(1, 1, 9.0))?;
+/// let (mut q, mut p) = (Vector1::new(1.0), Vector1::new(0.0));
+/// spring.flow(Span { time: 0.0, size: 10.0 }, &mut q, &mut p).expect("a flow");
+/// assert!((q[0] - 30.0_f64.cos()).abs() < 1e-14);
+/// # Ok::<(), symplectic::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Linear {
+    /// Number of components of the state, 2n.
+    size: usize,
+    /// A, row by row.
+    matrix: Vec<f64>,
+    /// Durations, and `e^{hA} − 1` row by row.
+    exponentials: Vec<(f64, Vec<f64>)>,
+    state: Vec<f64>,
+}
+
+/// Durations that are kept.
+const MOST: usize = 64;
+
+/// The highest power of the exponential series.
+const POWERS: u32 = 15;
+
+impl Linear {
+    /// The system with this matrix, of 2n rows and columns.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Dimension`] for a matrix that is not square, or of an odd number of rows; [`Error::FlowParameter`] for an entry that is not finite.
+    pub fn new(matrix: &DMatrix<f64>) -> Result<Self, Error> {
+        let (size, columns) = matrix.shape();
+        if size != columns || size % 2 != 0 {
+            return Err(Error::Dimension {
+                position: size,
+                momentum: columns,
+            });
+        }
+        let entries: Vec<f64> = matrix.transpose().iter().copied().collect();
+        for (index, &value) in entries.iter().enumerate() {
+            check_parameter("entry of the matrix", index, value.abs(), true)?;
+        }
+        Ok(Self {
+            size,
+            matrix: entries,
+            exponentials: Vec::new(),
+            state: vec![0.0; size],
+        })
+    }
+
+    /// `H = Σ p_k²/(2m_k) + qᵀKq/2` with these masses and a symmetric K.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`new`](Self::new); [`Error::FlowParameter`] for a mass that is not finite and positive.
+    pub fn oscillators(masses: &[f64], stiffness: &DMatrix<f64>) -> Result<Self, Error> {
+        let n = masses.len();
+        if stiffness.shape() != (n, n) {
+            return Err(Error::Dimension {
+                position: stiffness.nrows(),
+                momentum: n,
+            });
+        }
+        for (index, &mass) in masses.iter().enumerate() {
+            check_parameter("mass", index, mass, false)?;
+        }
+        Self::new(&DMatrix::from_fn(2 * n, 2 * n, |i, j| {
+            if i < n && j == i + n {
+                1.0 / masses[i]
+            } else if i >= n && j < n {
+                -stiffness[(i - n, j)]
+            } else {
+                0.0
+            }
+        }))
+    }
+
+    /// `e^{hA} − 1`.
+    fn exponential(&self, h: f64) -> Option<Vec<f64>> {
+        let n = self.size;
+        let column = |j: usize| (0..n).map(|i| self.matrix[i * n + j].abs()).sum::<f64>();
+        let norm = (0..n).map(column).fold(0.0, f64::max) * h.abs();
+        if !norm.is_finite() {
+            return None;
+        }
+        let (mut scale, mut squarings) = (1.0, 0);
+        while norm * scale > 0.5 {
+            scale /= 2.0;
+            squarings += 1;
+        }
+        let x: Vec<f64> = self.matrix.iter().map(|a| a * h * scale).collect();
+        // X(1 + X/2 (1 + X/3 (1 + …))).
+        let mut sum = x.clone();
+        for power in (2..=POWERS).rev() {
+            let mut inner: Vec<f64> = sum.iter().map(|e| e / f64::from(power)).collect();
+            (0..n).for_each(|i| inner[i * n + i] += 1.0);
+            sum = product(n, &x, &inner);
+        }
+        for _ in 0..squarings {
+            let square = product(n, &sum, &sum);
+            sum.iter_mut()
+                .zip(square)
+                .for_each(|(e, square)| *e = 2.0 * *e + square);
+        }
+        sum.iter().all(|e| Float::is_finite(*e)).then_some(sum)
+    }
+
+    /// The place of `e^{hA} − 1` among those that are kept.
+    fn place(&mut self, h: f64) -> Option<usize> {
+        let found = self.exponentials.iter().position(|(size, _)| *size == h);
+        if found.is_some() {
+            return found;
+        }
+        let exponential = self.exponential(h)?;
+        if self.exponentials.len() == MOST {
+            self.exponentials.clear();
+        }
+        self.exponentials.push((h, exponential));
+        Some(self.exponentials.len() - 1)
+    }
+}
+
+/// The product of two matrices of n rows.
+fn product(n: usize, left: &[f64], right: &[f64]) -> Vec<f64> {
+    let entry = |place: usize| {
+        let (i, j) = (place / n, place % n);
+        (0..n).map(|k| left[i * n + k] * right[k * n + j]).sum()
+    };
+    (0..n * n).map(entry).collect()
+}
+
+impl<V: Vector<Scalar = f64>> Flow<V> for Linear {
+    fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
+        let (n, size) = (self.size / 2, self.size);
+        check_dimension(n, q)?;
+        check_dimension(n, p)?;
+        if n == 0 {
+            return Ok(());
+        }
+        let what = Quantity::Derivative;
+        let place = self.place(span.size).ok_or(FlowError::NonFinite { what })?;
+        let (q, p) = (q.as_mut_slice(), p.as_mut_slice());
+        self.state[..n].copy_from_slice(q);
+        self.state[n..].copy_from_slice(p);
+        let rows = self.exponentials[place].1.chunks_exact(size);
+        for (z, row) in q.iter_mut().chain(p).zip(rows) {
+            *z += row.iter().zip(&self.state).map(|(e, z)| e * z).sum::<f64>();
+        }
+        Ok(())
+    }
+}

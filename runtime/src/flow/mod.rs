@@ -1,0 +1,162 @@
+//! Splittings over flows: `H = A + B + …`, and each part is solved exactly.
+//!
+//! A [`Flow`] takes a state from a time to another one, in place. Flows are put together to flows, and a [`FlowIntegrator`] makes steps of one:
+//!
+//! | what | step of size h | order |
+//! |---|---|---|
+//! | [`Splitting`] | the drifts and kicks of a proved method, with the flows of `A` and `B` in their places | `M::ORDERS.separable`; for `B = O(ε)` its order for perturbed systems |
+//! | [`Palindrome`] | `A(h/2) B(h) A(h/2)`; `B` may be a palindrome again, for three parts and more | 2 |
+//! | [`Composed`] | the steps `γ_i h` of a composition, each a step of a palindrome | `M::ORDERS.general` |
+//! | [`Substeps`] | `n` steps of size `h/n`, for fast parts | that of the step |
+//!
+//! Flows of parts:
+//!
+//! | flow | part | exact |
+//! |---|---|---|
+//! | [`Kick`], [`Drift`] | `U(q)`, `T(p)` of a separable system | yes |
+//! | `Linear` | `z' = Az`, such as `H = pᵀM⁻¹p/2 + qᵀKq/2` | to rounding |
+//! | [`Gyration`] | `p' = p × B(q)` in a magnetic field | yes |
+//! | [`Damping`] | `p' = −γp` | yes |
+//! | [`OrnsteinUhlenbeck`] | `dp = −γp dt + √(2γmkT) dW` | in law |
+//! | `kepler` | `Σ p²/(2m) − mμ/∣q∣` | to rounding |
+//!
+//! The order of a method for separable systems is the order of a splitting of any two parts: the order conditions are the same, those of the
+//! free Lie algebra of `A` and `B` (Hairer, Lubich & Wanner, *Geometric numerical integration*, III.5). The step is symplectic where the flows are.
+//!
+//! # Time
+//!
+//! The first part, in the place of the drift, carries the time: its flows follow one another from the start of the step to its end. The
+//! second one is taken at the time that the first one has reached. So `B(t)` may depend on time, as a kick by `U(t, q)` does; a flow of a
+//! part `A(t)` has to be that of the system with time.
+//!
+//! ```
+//! use symplectic::flow::{Drift, FlowIntegrator, Kick, Splitting};
+//! use symplectic::nalgebra::Vector1;
+//! use symplectic::{Error, State, acceleration};
+//!
+//! symplectic::tableau! { ForestRuth { base: forest-ruth-1990 } }
+//!
+//! # fn main() -> Result<(), Error> {
+//! let pendulum = || acceleration::<Vector1<f64>, _>(|_, q, force| force[0] = -q[0].sin());
+//! let step = Splitting::new(ForestRuth, Drift::new(pendulum()), Kick::new(pendulum()));
+//! let start = State::from_arrays(0.0, [1.0], [0.0]);
+//! let mut run = FlowIntegrator::new(step, start, 0.1)?;
+//! run.integrate_to(10.0)?;
+//! # Ok(())
+//! # }
+//! ```
+
+mod composed;
+mod damping;
+mod drift;
+mod gyration;
+mod integrator;
+#[cfg(feature = "alloc")]
+pub mod kepler;
+mod kick;
+#[cfg(feature = "alloc")]
+mod linear;
+mod ornstein_uhlenbeck;
+mod palindrome;
+mod philox;
+mod splitting;
+mod substeps;
+
+pub use composed::Composed;
+pub use damping::Damping;
+pub use drift::Drift;
+pub use gyration::Gyration;
+pub use integrator::FlowIntegrator;
+pub use kick::Kick;
+#[cfg(feature = "alloc")]
+pub use linear::Linear;
+pub use ornstein_uhlenbeck::OrnsteinUhlenbeck;
+pub use palindrome::Palindrome;
+pub use splitting::Splitting;
+pub use substeps::Substeps;
+
+pub use crate::error::FlowError;
+pub use crate::method::Span;
+
+use crate::error::Error;
+use crate::number::Vector;
+
+/// The flow of a part of a system, exact, or itself a step that keeps what the flow keeps.
+///
+/// ```
+/// use symplectic::flow::{Flow, FlowError, Span};
+/// use symplectic::nalgebra::Vector1;
+///
+/// /// H = qp: q' = q, p' = −p.
+/// struct Saddle;
+///
+/// impl Flow<Vector1<f64>> for Saddle {
+///     fn flow(&mut self, span: Span, q: &mut Vector1<f64>, p: &mut Vector1<f64>) -> Result<(), FlowError> {
+///         *q *= span.size.exp();
+///         *p *= (-span.size).exp();
+///         Ok(())
+///     }
+/// }
+/// ```
+pub trait Flow<V: Vector> {
+    /// Takes position and momentum along, for `span.size`, which may be negative.
+    ///
+    /// # Errors
+    ///
+    /// [`FlowError`]. Flows that consist of several ones, and those of several particles in a magnetic field, may then have moved the
+    /// state in part; a [`FlowIntegrator`] puts it back.
+    fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError>;
+
+    /// Several flows one after another, each from the end of the one before. Where flows of one part meet they may be made one.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`flow`](Self::flow).
+    fn flow_through(
+        &mut self,
+        spans: impl Iterator<Item = Span>,
+        q: &mut V,
+        p: &mut V,
+    ) -> Result<(), FlowError>
+    where
+        Self: Sized,
+    {
+        for span in spans {
+            self.flow(span, q, p)?;
+        }
+        Ok(())
+    }
+}
+
+/// Checks a parameter of a flow: finite, and above 0 or not below it.
+fn check_parameter(
+    what: &'static str,
+    index: usize,
+    value: f64,
+    zero_too: bool,
+) -> Result<(), Error> {
+    if value.is_finite() && (value > 0.0 || (zero_too && value == 0.0)) {
+        return Ok(());
+    }
+    let range = if zero_too {
+        "finite and not negative"
+    } else {
+        "finite and positive"
+    };
+    Err(Error::FlowParameter {
+        what,
+        index,
+        value,
+        range,
+    })
+}
+
+/// Checks that a state has as many components as a flow is for.
+fn check_dimension<V: Vector>(expected: usize, q: &V) -> Result<(), FlowError> {
+    let found = q.dimension();
+    if found == expected {
+        Ok(())
+    } else {
+        Err(FlowError::Dimension { expected, found })
+    }
+}

@@ -1,0 +1,71 @@
+//! The symmetric step of two flows, or more.
+
+use super::{Flow, FlowError, Span};
+use crate::number::Vector;
+
+/// `A(h/2) B(h) A(h/2)`: symmetric, of order 2 (Strang 1968).
+///
+/// `B` may be a palindrome again: `Palindrome::new(a, Palindrome::new(b, c))` is `A/2 B/2 C B/2 A/2`, and so on for any number of
+/// parts. [`Composed`](super::Composed) raises the order. The inner flow carries the time; the outer one is taken at the start and at the end of the
+/// step, and the two that meet where steps meet in [`flow_through`](Flow::flow_through) are one.
+///
+/// ```
+/// use symplectic::flow::{Damping, Drift, FlowIntegrator, Kick, Palindrome};
+/// use symplectic::nalgebra::Vector1;
+/// use symplectic::{State, acceleration};
+///
+/// # fn main() -> Result<(), symplectic::Error> {
+/// let spring = || acceleration::<Vector1<f64>, _>(|_, q, force| force[0] = -q[0]);
+/// let free = Palindrome::new(Drift::new(spring()), Damping::new(0.1)?);
+/// let step = Palindrome::new(Kick::new(spring()), free);
+/// let mut run = FlowIntegrator::new(step, State::from_arrays(0.0, [1.0], [0.0]), 0.01)?;
+/// run.integrate_to(10.0)?;
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Palindrome<A, B> {
+    /// The flow at both ends.
+    pub outer: A,
+    /// The flow in the middle.
+    pub inner: B,
+}
+
+impl<A, B> Palindrome<A, B> {
+    /// The step of these flows.
+    pub const fn new(outer: A, inner: B) -> Self {
+        Self { outer, inner }
+    }
+}
+
+impl<V: Vector, A: Flow<V>, B: Flow<V>> Flow<V> for Palindrome<A, B> {
+    fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
+        self.flow_through(core::iter::once(span), q, p)
+    }
+
+    fn flow_through(
+        &mut self,
+        spans: impl Iterator<Item = Span>,
+        q: &mut V,
+        p: &mut V,
+    ) -> Result<(), FlowError> {
+        let mut waiting: Option<Span> = None;
+        for span in spans {
+            let half = span.size / 2.0;
+            let first = match waiting {
+                Some(Span { time, size }) => Span {
+                    time,
+                    size: size + half,
+                },
+                None => Span { size: half, ..span },
+            };
+            self.outer.flow(first, q, p)?;
+            self.inner.flow(span, q, p)?;
+            waiting = Some(Span {
+                time: span.time + span.size,
+                size: half,
+            });
+        }
+        waiting.map_or(Ok(()), |last| self.outer.flow(last, q, p))
+    }
+}

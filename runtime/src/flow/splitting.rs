@@ -1,0 +1,242 @@
+//! The drifts and kicks of a proved method, with other flows in their places.
+
+use core::marker::PhantomData;
+
+use nalgebra::Vector1;
+
+use super::{Flow, FlowError, Span};
+use crate::method::{
+    Drift, EvaluationObserver, Force, KickDrift, Method, Outcome, Plan, StageStorage,
+};
+use crate::number::{Coefficient, Plain, Summation, Vector};
+use crate::solver::FixedPoint;
+use crate::system::{Separable, System};
+
+/// A step of a splitting method with the flow of `A` in the place of the drift and that of `B` in the place of the kick.
+///
+/// The method is one of [`splitting!`](crate::splitting), [`composition!`](crate::composition) or the catalogue that consists of kicks and
+/// drifts. The order for `H = A + B` is `M::ORDERS.separable`; where `B` is small, O(ε), the error is that of the
+/// order `(s1, s2, …)` for perturbed systems, `O(εh^s1 + ε²h^s2 + …)`. Flows of one part that meet are made one, also where steps meet in
+/// [`flow_through`](Flow::flow_through).
+///
+/// Methods without kicks and drifts do not compile, nor those of Runge–Kutta–Nyström type: their order holds only if `A` is quadratic in
+/// the momenta, and `B` depends on positions only, so that `[B, [B, [B, A]]] = 0`. `method.accept_lower_order()` compiles.
+///
+/// ```compile_fail,E0080
+/// use symplectic::flow::Splitting;
+///
+/// symplectic::tableau! { Nystrom { base: mclachlan-atela-1992-order-4-optimal } }
+/// let step = Splitting::new(Nystrom, (), ());
+/// ```
+///
+/// ```compile_fail,E0080
+/// use symplectic::flow::Splitting;
+///
+/// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
+/// let step = Splitting::new(Gauss2, (), ());
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Splitting<M, A, B> {
+    method: PhantomData<M>,
+    /// The flow in the place of the drift.
+    pub drift: A,
+    /// The flow in the place of the kick.
+    pub kick: B,
+}
+
+impl<M: Method, A, B> Splitting<M, A, B> {
+    /// The step of this method over these flows.
+    pub fn new(_method: M, drift: A, kick: B) -> Self {
+        const {
+            assert!(
+                <M::Separable as Plan>::EVALUATIONS_IN_PLACE.is_some(),
+                "flows take a method that consists of kicks and drifts, such as `velocity-verlet`, `forest-ruth-1990` or `saba-3`"
+            );
+            assert!(
+                !M::NEEDS_QUADRATIC_KINETIC,
+                "the order of this method holds for H = pᵀM⁻¹p/2 + U(q) only (Runge–Kutta–Nyström), not for the flows of any two parts: \
+                 take one of class `separable` or `perturbed`, or `method.accept_lower_order()` for the order M::ORDERS.separable"
+            );
+        }
+        Self {
+            method: PhantomData,
+            drift,
+            kick,
+        }
+    }
+}
+
+impl<V: Vector, M: Method, A: Flow<V>, B: Flow<V>> Flow<V> for Splitting<M, A, B> {
+    fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
+        self.flow_through(core::iter::once(span), q, p)
+    }
+
+    fn flow_through(
+        &mut self,
+        spans: impl Iterator<Item = Span>,
+        q: &mut V,
+        p: &mut V,
+    ) -> Result<(), FlowError> {
+        let mut moves = Flows {
+            drift: &mut self.drift,
+            kick: &mut self.kick,
+            q,
+            p,
+            step: Waiting::NOTHING.span,
+            drifted: 0.0,
+            waiting: Waiting::NOTHING,
+            outcome: Ok(()),
+        };
+        let mut memory = <M::Separable as Plan>::Memory::<_, Nothing, FixedPoint>::like(&PLACE);
+        let [mut a, mut b, mut c, mut d] = [PLACE; 4];
+        for span in spans {
+            let place = Outcome {
+                q: &mut a,
+                q_low: &mut b,
+                p: &mut c,
+                p_low: &mut d,
+            };
+            (moves.step, moves.drifted) = (span, 0.0);
+            M::Separable::take_in_place::<Plain, _, _, FixedPoint, _>(
+                span,
+                &Nothing,
+                &mut memory,
+                place,
+                &mut moves,
+            );
+            if moves.outcome.is_err() {
+                break;
+            }
+        }
+        moves.take_what_waits();
+        moves.outcome
+    }
+}
+
+/// The plan of the method steps a system with one component, which stands still: only its coefficients count.
+struct Nothing;
+
+const PLACE: Vector1<f64> = Vector1::new(0.0);
+
+impl System<Vector1<f64>> for Nothing {
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(&self, _: f64, _: &Vector1<f64>, _: &Vector1<f64>, _: &mut Vector1<f64>) {}
+
+    fn force(&self, _: f64, _: &Vector1<f64>, _: &Vector1<f64>, _: &mut Vector1<f64>) {}
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Part {
+    Drift,
+    Kick,
+}
+
+/// A flow that waits for others of the same part.
+#[derive(Clone, Copy, Debug)]
+struct Waiting {
+    part: Part,
+    span: Span,
+}
+
+impl Waiting {
+    const NOTHING: Self = Self {
+        part: Part::Drift,
+        span: Span {
+            time: 0.0,
+            size: 0.0,
+        },
+    };
+}
+
+/// Takes flows where a splitting makes drifts and kicks.
+struct Flows<'a, V, A, B> {
+    drift: &'a mut A,
+    kick: &'a mut B,
+    q: &'a mut V,
+    p: &'a mut V,
+    step: Span,
+    /// The drifts of the step so far, as a fraction of it.
+    drifted: f64,
+    waiting: Waiting,
+    outcome: Result<(), FlowError>,
+}
+
+impl<V: Vector, A: Flow<V>, B: Flow<V>> Flows<'_, V, A, B> {
+    /// The next flow, by its part of the step.
+    fn next(&mut self, part: Part, weight: Coefficient) {
+        let time = self.step.time + self.drifted * self.step.size;
+        let size = self.step.size * weight.double();
+        if part == Part::Drift {
+            self.drifted += weight.double();
+        }
+        if self.waiting.span.size != 0.0 && self.waiting.part == part {
+            self.waiting.span.size += size;
+            return;
+        }
+        self.take_what_waits();
+        self.waiting = Waiting {
+            part,
+            span: Span { time, size },
+        };
+    }
+
+    #[inline(never)]
+    fn take_what_waits(&mut self) {
+        let Waiting { part, span } = core::mem::replace(&mut self.waiting, Waiting::NOTHING);
+        if span.size == 0.0 || self.outcome.is_err() {
+            return;
+        }
+        self.outcome = match part {
+            Part::Drift => self.drift.flow(span, self.q, self.p),
+            Part::Kick => self.kick.flow(span, self.q, self.p),
+        };
+    }
+}
+
+impl<U: Vector, A: Flow<U>, B: Flow<U>> KickDrift for Flows<'_, U, A, B> {
+    fn force<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
+        &mut self,
+        _force: Force,
+        _system: &S,
+        _place: &mut V,
+        _position: &mut V,
+        _momentum: (&mut V, &mut V),
+        _witness: &mut W,
+    ) {
+    }
+
+    fn kick<R: Summation, V: Vector, S: System<V>>(
+        &mut self,
+        _h: f64,
+        weight: Coefficient,
+        _system: &S,
+        _force: &mut V,
+        _position: &mut V,
+        _momentum: (&mut V, &mut V),
+    ) {
+        self.next(Part::Kick, weight);
+    }
+
+    fn drift<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
+        &mut self,
+        drift: Drift,
+        _system: &S,
+        _evaluations: (&mut V, &mut V),
+        _position: (&mut V, &mut V),
+        _momentum: (&mut V, &mut V),
+        _witness: &mut W,
+    ) {
+        self.next(Part::Drift, drift.weight);
+    }
+
+    fn settle<R: Summation, V: Vector, S: System<V>>(
+        &mut self,
+        _system: &S,
+        _force: &mut V,
+        _position: &mut V,
+        _momentum: (&mut V, &mut V),
+    ) {
+    }
+}

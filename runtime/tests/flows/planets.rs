@@ -1,0 +1,333 @@
+//! The splitting of Wisdom and Holman, against an integrator in inertial coordinates.
+
+use symplectic::flow::kepler::{Heliocentric, Jacobi};
+use symplectic::flow::{Flow, FlowError, FlowIntegrator, Span, Splitting, Substeps};
+use symplectic::nalgebra::{DVector, SMatrix, Vector3};
+use symplectic::{Error, Integrator, Method, Separable, State, System, separable};
+
+use crate::common::distance;
+use crate::common::methods::{Gauss8, StoermerVerlet};
+
+symplectic::tableau! {
+    Leapfrog { base: saba-1 }
+    Saba3 { base: saba-3 }
+    Aba1064 { base: blanes-2013-aba-10-6-4 }
+}
+
+const N: usize = 4;
+const G: f64 = 39.478;
+
+type Bodies = SMatrix<f64, 3, N>;
+
+/// Masses of planets, in parts of the star's.
+fn masses(scale: f64) -> [f64; N] {
+    [1.0, scale, 0.3 * scale, 0.5 * scale]
+}
+
+/// Planets with small eccentricities and inclinations, and a centre of mass that moves.
+fn start(masses: [f64; N]) -> State<Bodies> {
+    let orbits = [(1.0, 0.3), (1.9, 2.4), (3.4, 4.0)];
+    let (mut q, mut p) = (Bodies::zeros(), Bodies::zeros());
+    for (i, (radius, angle)) in orbits.into_iter().enumerate() {
+        let angle: f64 = angle;
+        let speed = (G / radius).sqrt() * 1.03;
+        let place = Vector3::new(angle.cos(), angle.sin(), 0.04 * (i as f64 - 1.0)) * radius;
+        let velocity = Vector3::new(-angle.sin(), angle.cos(), 0.03) * speed;
+        q.set_column(i + 1, &place);
+        p.set_column(i + 1, &(velocity * masses[i + 1]));
+    }
+    q.column_iter_mut()
+        .for_each(|mut q| q += Vector3::new(0.3, -0.2, 0.1));
+    for (i, mut p) in p.column_iter_mut().enumerate() {
+        p += Vector3::new(0.2, 0.1, -0.3) * masses[i];
+    }
+    State::new(0.0, q, p)
+}
+
+/// All bodies, as an ordinary system.
+fn newton(masses: [f64; N]) -> impl System<Bodies, Class = Separable> {
+    separable::<Bodies, _, _>(
+        move |_, p, velocity: &mut Bodies| {
+            *velocity = Bodies::from_fn(|axis, i| p[(axis, i)] / masses[i]);
+        },
+        move |_, q: &Bodies, force: &mut Bodies| {
+            *force = Bodies::from_fn(|axis, i| {
+                let pulls = (0..N).filter(|&j| j != i).map(|j| {
+                    let apart = q.column(j) - q.column(i);
+                    G * masses[i] * masses[j] * apart[axis] / apart.norm().powi(3)
+                });
+                pulls.sum()
+            });
+        },
+    )
+}
+
+const END: f64 = 3.0;
+
+fn exact(masses: [f64; N]) -> State<Bodies> {
+    let mut run = Integrator::new(Gauss8, newton(masses), start(masses), 0.01).expect("a run");
+    run.integrate_to(END).expect("steps").clone()
+}
+
+/// Momenta as velocities, that all bodies count.
+fn by_velocity(state: &State<Bodies>, masses: [f64; N]) -> State<Bodies> {
+    let p = Bodies::from_fn(|axis, i| state.p[(axis, i)] / masses[i]);
+    State::new(state.time, state.q, p)
+}
+
+/// Whether bodies are in Jacobi coordinates, or in heliocentric ones with either splitting.
+#[derive(Clone, Copy, Debug)]
+enum Coordinates {
+    Jacobi,
+    Heliocentric,
+    Pairs,
+}
+
+fn error<M: Method>(
+    method: M,
+    coordinates: Coordinates,
+    masses: [f64; N],
+    exact: &State<Bodies>,
+    steps: u32,
+) -> f64 {
+    let size = END / f64::from(steps);
+    let end = |flow: &mut dyn FnMut(Span, &mut Bodies, &mut Bodies) -> Result<(), FlowError>,
+               start: State<Bodies>| {
+        let State { mut q, mut p, .. } = start;
+        flow(Span { time: 0.0, size }, &mut q, &mut p).expect("steps");
+        State::new(END, q, p)
+    };
+    let end = match coordinates {
+        Coordinates::Jacobi => {
+            let system = Jacobi::new(G, &masses).expect("bodies");
+            let step = Splitting::new(method, system.drift(), system.kick());
+            let mut step = Substeps::new(step, steps).expect("steps");
+            let start = system.from_inertial(&start(masses)).expect("a state");
+            let mut all = |span: Span, q: &mut Bodies, p: &mut Bodies| {
+                step.flow(
+                    Span {
+                        size: span.size * f64::from(steps),
+                        ..span
+                    },
+                    q,
+                    p,
+                )
+            };
+            system.to_inertial(&end(&mut all, start))
+        }
+        Coordinates::Heliocentric | Coordinates::Pairs => {
+            let system = match coordinates {
+                Coordinates::Pairs => Heliocentric::of_pairs(G, &masses),
+                _ => Heliocentric::new(G, &masses),
+            };
+            let system = system.expect("bodies");
+            let step = Splitting::new(method, system.drift(), system.kick());
+            let start = system.from_inertial(&start(masses)).expect("a state");
+            let mut run = FlowIntegrator::new(step, start, size).expect("a run");
+            run.integrate_to(END).expect("steps");
+            system.to_inertial(run.state())
+        }
+    };
+    let end = end.expect("a state");
+    distance(&by_velocity(&end, masses), &by_velocity(exact, masses))
+}
+
+const ALL: [Coordinates; 3] = [
+    Coordinates::Jacobi,
+    Coordinates::Heliocentric,
+    Coordinates::Pairs,
+];
+
+fn near(slope: f64, order: f64) {
+    assert!((slope - order).abs() < 0.05, "{slope} instead of {order}");
+}
+
+#[test]
+fn leapfrog_has_order_2() {
+    let masses = masses(1e-3);
+    let exact = exact(masses);
+    for coordinates in ALL {
+        let [coarse, fine] =
+            [300, 600].map(|steps| error(Leapfrog, coordinates, masses, &exact, steps));
+        near((coarse / fine).log2(), 2.0);
+        let [coarse, fine] =
+            [300, 600].map(|steps| error(StoermerVerlet, coordinates, masses, &exact, steps));
+        near((coarse / fine).log2(), 2.0);
+    }
+}
+
+/// The error is proportional to the masses of the planets, where a splitting into kinetic energy and potential has one that is not.
+#[test]
+fn the_error_is_small_with_the_masses() {
+    for coordinates in ALL {
+        let errors = [1e-3, 1e-5].map(|scale| {
+            let masses = masses(scale);
+            error(Leapfrog, coordinates, masses, &exact(masses), 300)
+        });
+        let ratio = errors[0] / errors[1];
+        assert!((80.0..125.0).contains(&ratio), "{coordinates:?}: {ratio}");
+    }
+}
+
+/// Of SABA(6, 2) the error with ε² is left for small steps; ABA(10, 6, 4) has none of order 2, with far fewer flows.
+#[test]
+fn methods_for_perturbed_systems_are_precise() {
+    let of = |scale: f64| (masses(scale), exact(masses(scale)));
+    let [(heavy, exact_heavy), (light, exact_light)] = [1e-2, 1e-3].map(of);
+    for coordinates in ALL {
+        let heavy_error = |steps| error(Saba3, coordinates, heavy, &exact_heavy, steps);
+        let [coarse, fine] = [120, 240].map(heavy_error);
+        near((coarse / fine).log2(), 2.0);
+        let ratio = fine / error(Saba3, coordinates, light, &exact_light, 240);
+        assert!((60.0..130.0).contains(&ratio), "{coordinates:?}: {ratio}");
+        if let Coordinates::Pairs = coordinates {
+            continue;
+        }
+        let [leapfrog, aba] = [
+            error(Leapfrog, coordinates, light, &exact_light, 300),
+            error(Aba1064, coordinates, light, &exact_light, 40),
+        ];
+        assert!(
+            aba < 1e-11 && leapfrog > 5e4 * aba,
+            "{coordinates:?}: {aba} {leapfrog}"
+        );
+    }
+}
+
+/// The jump of the star and the gravity between planets commute: there is no error of order 2, also with heavy planets. Those of pairs do not.
+#[test]
+fn the_second_part_of_heliocentric_coordinates_is_exact() {
+    let masses = masses(0.1);
+    let exact = exact(masses);
+    for (coordinates, order) in [(Coordinates::Heliocentric, 4.0), (Coordinates::Pairs, 2.0)] {
+        let of = |steps| error(Aba1064, coordinates, masses, &exact, steps);
+        near((of(120) / of(240)).log2(), order);
+    }
+}
+
+#[test]
+fn coordinates_go_back_and_forth() {
+    let masses = masses(0.3);
+    let state = start(masses);
+    let jacobi = Jacobi::new(G, &masses).expect("bodies");
+    let heliocentric = Heliocentric::new(G, &masses).expect("bodies");
+    let there = [
+        jacobi.from_inertial(&state).expect("a state"),
+        heliocentric.from_inertial(&state).expect("a state"),
+    ];
+    let back = [
+        jacobi.to_inertial(&there[0]).expect("a state"),
+        heliocentric.to_inertial(&there[1]).expect("a state"),
+    ];
+    for back in back {
+        assert!(distance(&back, &state) < 1e-14);
+    }
+    // Σ p·dq is the same for any dq: the transformations are canonical.
+    let other = State::new(0.0, state.q.map(|x| x * x + 0.1), state.p);
+    let work = |a: &State<Bodies>, b: &State<Bodies>| a.p.dot(&(b.q - a.q));
+    let expected = work(&state, &other);
+    let others = [
+        jacobi.from_inertial(&other),
+        heliocentric.from_inertial(&other),
+    ];
+    for (there, other) in there.iter().zip(others) {
+        let found = work(there, &other.expect("a state"));
+        assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+        // The centre of mass, and the whole momentum.
+        let total: f64 = masses.iter().sum();
+        let centre = (0..N)
+            .map(|i| state.q.column(i) * masses[i])
+            .sum::<Vector3<f64>>()
+            / total;
+        assert!((there.q.column(0) - centre).norm() < 1e-15);
+        assert!((there.p.column(0) - state.p.column_sum()).norm() < 1e-14);
+    }
+}
+
+/// With two bodies a step of any size is exact in Jacobi coordinates and by pairs: there is nothing but the drift.
+#[test]
+fn two_bodies_need_one_step() {
+    let masses = [1.0, 0.7];
+    let jacobi = Jacobi::new(2.0, &masses).expect("bodies");
+    let pairs = Heliocentric::of_pairs(2.0, &masses).expect("bodies");
+    let q = [0.0, 0.0, 0.0, 1.0, 0.2, 0.0];
+    let p = [0.1, -0.3, 0.0, -0.1, 0.9, 0.2];
+    let start = State::<DVector<f64>>::from_slices(0.0, &q, &p).expect("a state");
+    let by_jacobi = |size: f64| {
+        let step = Splitting::new(Leapfrog, jacobi.drift(), jacobi.kick());
+        let start = jacobi.from_inertial(&start).expect("a state");
+        let mut run = FlowIntegrator::new(step, start, size).expect("a run");
+        jacobi.to_inertial(run.integrate_to(5.0).expect("steps"))
+    };
+    let by_pairs = |size: f64| {
+        let step = Splitting::new(Leapfrog, pairs.drift(), pairs.kick());
+        let start = pairs.from_inertial(&start).expect("a state");
+        let mut run = FlowIntegrator::new(step, start, size).expect("a run");
+        pairs.to_inertial(run.integrate_to(5.0).expect("steps"))
+    };
+    let kepler = separable::<DVector<f64>, _, _>(
+        |_, p, velocity| (0..6).for_each(|i| velocity[i] = p[i] / [1.0, 0.7][i / 3]),
+        |_, q, force| {
+            let apart = Vector3::from_fn(|axis, _| q[3 + axis] - q[axis]);
+            let pull = apart * (1.4 / apart.norm().powi(3));
+            (0..6).for_each(|i| force[i] = [1.0, -1.0][i / 3] * pull[i % 3]);
+        },
+    );
+    let mut exact = Integrator::new(Gauss8, kepler, start.clone(), 0.01).expect("a run");
+    let exact = exact.integrate_to(5.0).expect("steps");
+    for size in [5.0, 0.05] {
+        for end in [by_jacobi(size), by_pairs(size)] {
+            assert!(distance(&end.expect("a state"), exact) < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn bad_bodies_are_refused() {
+    for masses in [&[][..], &[1.0, 0.0], &[1.0, -1e-3], &[f64::NAN]] {
+        assert!(matches!(
+            Jacobi::new(1.0, masses),
+            Err(Error::FlowParameter { .. })
+        ));
+        assert!(matches!(
+            Heliocentric::new(1.0, masses),
+            Err(Error::FlowParameter { .. })
+        ));
+    }
+    assert!(matches!(
+        Jacobi::new(0.0, &[1.0]),
+        Err(Error::FlowParameter { .. })
+    ));
+    let masses = masses(1e-3);
+    let mut state = start(masses);
+    let place = state.q.column(2).into_owned();
+    state.q.set_column(3, &place);
+    let system = Jacobi::new(G, &masses).expect("bodies");
+    let heliocentric = Heliocentric::new(G, &masses).expect("bodies");
+    let mut at = heliocentric.from_inertial(&state).expect("a state");
+    let before = at.clone();
+    let failure = heliocentric.kick().flow(
+        Span {
+            time: 0.0,
+            size: 1e-300,
+        },
+        &mut at.q,
+        &mut at.p,
+    );
+    assert_eq!(
+        failure,
+        Err(FlowError::Collision {
+            first: 2,
+            second: 3
+        })
+    );
+    assert_eq!(at, before);
+    let wrong = State::<DVector<f64>>::from_slices(0.0, &[0.0; 6], &[0.0; 6]).expect("a state");
+    assert_eq!(
+        system.from_inertial(&wrong),
+        Err(Error::Dimension {
+            position: 6,
+            momentum: 6
+        })
+    );
+}
