@@ -456,6 +456,15 @@ pub enum Error {
         pivot: f64,
     },
 
+    /// A Galerkin method whose basis does not contain the constants, so that no path inside a step is uniform.
+    #[error(
+        "the basis of {method} does not contain the constants: add 1 to it, or take the tableau with `LagrangianIntegrator::new`"
+    )]
+    NoConstants {
+        /// Name of the method.
+        method: &'static str,
+    },
+
     /// The momentum at the start is none of the Lagrangian: it violates a primary constraint.
     #[error(
         "no velocity has this momentum: component {component} is off a primary constraint by {value:e}; start from \

@@ -216,6 +216,20 @@ fn galerkin_is_the_tableau_for_a_quadratic_kinetic_energy_only() {
 
 /// Equations (30) of Leok & Zhang with the Hamiltonian, for ψ = 1, x − 1/2 and the Gauss formula with three nodes, at the step that (38) takes
 /// with the Lagrangian: their Proposition 2.
+/// No path inside a step is uniform: its velocity is a combination of t and t².
+#[test]
+fn a_basis_without_constants_has_no_galerkin_step() {
+    symplectic::tableau! { NoConstants { basis: [t, t^2], quadrature: gauss(3) } }
+    let particle = Particle { friction: 0.0 };
+    let refused = Run::galerkin(NoConstants, particle, near_perihelion(), 0.1);
+    assert!(matches!(
+        refused.err(),
+        Some(Error::NoConstants {
+            method: "NoConstants"
+        })
+    ));
+}
+
 #[test]
 fn galerkin_steps_obey_the_hamiltonian_equations() {
     let (h, particle, system) = (

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 
 use num_traits::Float;
 
+use crate::error::Error;
 use crate::method::Method;
 use crate::number::Coefficient;
 
@@ -59,14 +60,18 @@ impl StageCoefficients {
     ///
     /// At the nodes the velocities of that space are those `Q̇` for which a position `q0 + h Σ_j a_ij Q̇_j` is exact, and their span is that of
     /// the rows of `a_ij/b_j` and of the row of ones. The basis here is one of that span, orthonormal for the quadrature formula.
-    pub(super) fn galerkin<M: Method>() -> Self {
+    ///
+    /// # Errors
+    /// [`Error::NoConstants`] where that span is larger than the space of the basis.
+    pub(super) fn galerkin<M: Method>() -> Result<Self, Error> {
         if M::FUNCTIONS == M::STAGES {
-            return Self::of::<M>();
+            return Ok(Self::of::<M>());
         }
         let tableau = &M::COEFFICIENTS;
         let weights = doubles(tableau.b);
         let rows: Vec<Vec<f64>> = tableau.a.iter().map(|row| doubles(row)).collect();
-        let basis = orthonormal(&rows, &weights, M::FUNCTIONS);
+        let basis = orthonormal(&rows, &weights, M::FUNCTIONS)
+            .ok_or(Error::NoConstants { method: M::NAME })?;
         let along = |row: &[f64]| -> Vec<f64> {
             let sum = |function: &Vec<f64>| row.iter().zip(function).map(|(a, psi)| a * psi).sum();
             basis.iter().map(sum).collect()
@@ -81,7 +86,7 @@ impl StageCoefficients {
             let nodes = function.iter().zip(&weights);
             nodes.map(|(psi, b)| b * psi).collect()
         });
-        Self {
+        Ok(Self {
             forces: forces.collect(),
             momenta: momenta.collect(),
             velocities: (0..weights.len())
@@ -93,7 +98,7 @@ impl StageCoefficients {
             end,
             weights,
             nodes: doubles(tableau.c),
-        }
+        })
     }
 
     /// The number of unknown velocities.
@@ -107,9 +112,11 @@ impl StageCoefficients {
     }
 }
 
-/// So many functions on the nodes, orthonormal for the weights up to their sign, with the span of `a_ij/b_j` and of one: by Gram and Schmidt,
-/// twice each, the largest remainder first.
-fn orthonormal(rows: &[Vec<f64>], weights: &[f64], count: usize) -> Vec<Vec<f64>> {
+/// A number of functions on the nodes, orthonormal for the weights up to their sign, with the span of `a_ij/b_j` and of one: by Gram and Schmidt,
+/// twice each, the largest remainder first. `None` if these span more.
+fn orthonormal(rows: &[Vec<f64>], weights: &[f64], count: usize) -> Option<Vec<Vec<f64>>> {
+    /// A norm that is a rounding error beside 1, of functions as smooth as a method can have.
+    const NOTHING: f64 = 1e-8;
     let product = |x: &[f64], y: &[f64]| -> f64 {
         let terms = x.iter().zip(y).zip(weights);
         terms.map(|((x, y), b)| b * x * y).sum()
@@ -120,13 +127,14 @@ fn orthonormal(rows: &[Vec<f64>], weights: &[f64], count: usize) -> Vec<Vec<f64>
         entries.map(|(a, b)| a / b).collect()
     }));
     let mut basis: Vec<(Vec<f64>, f64)> = Vec::new();
+    let norm = |candidate: &Vec<f64>| {
+        let squares = candidate.iter().zip(weights);
+        let square: f64 = squares.map(|(x, b)| Float::abs(*b) * x * x).sum();
+        Float::sqrt(square)
+    };
     while basis.len() < count {
-        let norms = candidates.iter().map(|candidate| {
-            let squares = candidate.iter().zip(weights);
-            squares.map(|(x, b)| Float::abs(*b) * x * x).sum::<f64>()
-        });
-        let largest = norms.enumerate().max_by(|x, y| x.1.total_cmp(&y.1));
-        let Some((place, _)) = largest else { break };
+        let norms = candidates.iter().map(norm).enumerate();
+        let (place, _) = norms.max_by(|x, y| x.1.total_cmp(&y.1))?;
         let mut function = candidates.swap_remove(place);
         let square = product(&function, &function);
         let size = Float::sqrt(Float::abs(square));
@@ -140,7 +148,8 @@ fn orthonormal(rows: &[Vec<f64>], weights: &[f64], count: usize) -> Vec<Vec<f64>
             }
         }
     }
-    basis.into_iter().map(|(function, _)| function).collect()
+    let spanned = candidates.iter().all(|candidate| norm(candidate) < NOTHING);
+    spanned.then(|| basis.into_iter().map(|(function, _)| function).collect())
 }
 
 fn identity(size: usize) -> Vec<Vec<f64>> {

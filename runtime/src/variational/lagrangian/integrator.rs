@@ -98,7 +98,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new).
+    /// As for [`new`](Self::new), and [`Error::NoConstants`].
     ///
     /// ```
     /// symplectic::tableau! { Rectangular { basis: polynomial(2), quadrature: gauss(3) } }
@@ -126,7 +126,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         state: State<L::Vector<f64>>,
         step_size: f64,
     ) -> Result<Self, Error> {
-        let coefficients = StageCoefficients::galerkin::<M>();
+        let coefficients = StageCoefficients::galerkin::<M>()?;
         Self::by(coefficients, lagrangian, state, step_size)
     }
 
