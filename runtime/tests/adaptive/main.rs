@@ -1,0 +1,10 @@
+//! Steps of variable size.
+
+mod controller;
+mod errors;
+mod kepler;
+mod logarithmic;
+mod monitors;
+mod output;
+mod poincare;
+mod restart;
