@@ -600,6 +600,22 @@ pub enum Error {
         value: f64,
     },
 
+    /// No step near the size of the step before conserves the discrete energy: the curvature c of the orbit is about to change its sign.
+    #[error(
+        "step {step} at time {time}: no step between half and twice the size {step_size} of the step before conserves the discrete energy \
+         here (curvature {curvature:e}); go on with steps of one size, by `VariationalIntegrator`"
+    )]
+    NoEnergyStep {
+        /// Time at the start of the step.
+        time: f64,
+        /// Size of the step before.
+        step_size: f64,
+        /// Number of the step, from 1.
+        step: u64,
+        /// The curvature c.
+        curvature: f64,
+    },
+
     /// The monitor of variable steps, or its slope along the motion, is not finite, or the monitor is not positive.
     #[error(
         "the monitor of the step sizes is {value} at time {time}; it must be finite and positive wherever the motion goes, and so must \

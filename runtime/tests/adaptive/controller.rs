@@ -2,14 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use symplectic::adaptive::{Adaptive, DistancePower, Monitor};
+use symplectic::adaptive::{Adaptive, DistancePower, Monitor, Symmetry};
 use symplectic::nalgebra::{SVector, Vector2};
 use symplectic::{
     Error, General, Hamiltonian, Integrator, Method, ProvedFor, Scalar, Separable, State,
 };
 
 use super::kepler::{
-    ForestRuth, Gauss2, Kepler, VelocityVerlet, assert_order, energy, pericentre, position,
+    ForestRuth, Gauss2, Kepler, McLachlanAtela, VelocityVerlet, assert_order, energy, pericentre,
+    position,
 };
 
 const FREE_FALL: DistancePower = DistancePower(1.5);
@@ -254,4 +255,17 @@ fn a_general_hamiltonian_keeps_its_energy() -> Result<(), Error> {
     let slope = (coarse[1] / fine[1]).log2();
     assert!((slope - 4.0).abs() < 0.3, "{slope}");
     Ok(())
+}
+
+#[test]
+fn methods_know_where_they_are_symmetric() {
+    fn symmetry<M: Method>(_: M) -> (bool, bool) {
+        let Symmetry { general, separable } = M::SYMMETRY;
+        (general, separable)
+    }
+    assert_eq!(symmetry(VelocityVerlet), (false, true));
+    assert_eq!(symmetry(ForestRuth), (false, true));
+    assert_eq!(symmetry(Gauss2), (true, true));
+    assert_eq!(symmetry(McLachlanAtela), (false, false));
+    assert_eq!(symmetry(Gauss2.accept_lower_order()), (true, true));
 }

@@ -1,6 +1,7 @@
 //! Steps of variable size.
 
 mod controller;
+mod energy_momentum;
 mod errors;
 mod kepler;
 mod logarithmic;
