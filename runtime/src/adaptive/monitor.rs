@@ -85,7 +85,7 @@ impl Monitor for DistancePower {
 /// σ = (Σ_{i<j} |q_i − q_j|^{−2m})^{−α/(2m)}
 /// ```
 ///
-/// `q` holds the bodies one after the other, with as many components each as space has dimensions. With a larger m the sum follows
+/// `q` holds the bodies one after the other, with as many components each as space has dimensions; components left over do not count. With a larger m the sum follows
 /// the least distance more closely.
 ///
 /// ```
@@ -110,7 +110,8 @@ pub struct PairDistances {
 impl PairDistances {
     /// Shows `see` the pairs of bodies, by the places of their first components, with the square of their distance and its −m-th power.
     fn pairs<T: Scalar>(&self, q: &[T], mut see: impl FnMut(usize, usize, T, T)) {
-        let places = || (0..q.len()).step_by(self.dimensions.max(1));
+        let dimensions = self.dimensions.max(1);
+        let places = || (0..q.len() / dimensions).map(|body| body * dimensions);
         let body = |place: usize| q[place..].iter().take(self.dimensions);
         for i in places() {
             for j in places().take_while(|&j| j < i) {

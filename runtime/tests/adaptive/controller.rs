@@ -3,14 +3,16 @@
 use std::f64::consts::TAU;
 
 use symplectic::adaptive::{Adaptive, DistancePower, Monitor, Symmetry};
-use symplectic::nalgebra::{SVector, Vector2};
+use symplectic::nalgebra::{SVector, Vector1, Vector2};
+use symplectic::system::Gradients;
 use symplectic::{
-    Error, General, Hamiltonian, Integrator, Method, ProvedFor, Scalar, Separable, State,
+    Constrained, Error, General, Hamiltonian, Integrator, Method, ProvedFor, Scalar, Separable,
+    State, acceleration,
 };
 
 use super::kepler::{
-    ForestRuth, Gauss2, Kepler, McLachlanAtela, VelocityVerlet, assert_order, energy, pericentre,
-    position,
+    ForestRuth, Gauss2, Gauss5, Kepler, McLachlanAtela, Rattle, VelocityVerlet, assert_order,
+    energy, pericentre, position,
 };
 
 const FREE_FALL: DistancePower = DistancePower(1.5);
@@ -268,4 +270,73 @@ fn methods_know_where_they_are_symmetric() {
     assert_eq!(symmetry(Gauss2), (true, true));
     assert_eq!(symmetry(McLachlanAtela), (false, false));
     assert_eq!(symmetry(Gauss2.accept_lower_order()), (true, true));
+}
+
+/// A pendulum of length 1 in the plane: H = |p|²/2 + y, |q|² = 1.
+struct Pendulum;
+
+impl Hamiltonian for Pendulum {
+    type Class = Constrained<Separable>;
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    const UNIT_MASSES: bool = true;
+
+    fn velocity<T: Scalar>(
+        &self,
+        _: T,
+        _: &SVector<T, 2>,
+        p: &SVector<T, 2>,
+        velocity: &mut SVector<T, 2>,
+    ) {
+        *velocity = *p;
+    }
+
+    fn force<T: Scalar>(
+        &self,
+        _: T,
+        _: &SVector<T, 2>,
+        _: &SVector<T, 2>,
+        force: &mut SVector<T, 2>,
+    ) {
+        *force = SVector::from([T::zero(), -T::one()]);
+    }
+
+    fn constraints(&self) -> usize {
+        1
+    }
+
+    fn constraint_values<T: Scalar>(&self, q: &SVector<T, 2>, values: &mut [T]) {
+        values[0] = q.dot(q) - T::one();
+    }
+
+    fn constraint_gradients<T: Scalar>(&self, q: &SVector<T, 2>, gradients: &mut Gradients<T>) {
+        gradients.set(0, 0, q[0] + q[0]);
+        gradients.set(0, 1, q[1] + q[1]);
+    }
+}
+
+/// Shorter steps where the pendulum is low and fast.
+struct Height;
+
+impl Monitor for Height {
+    fn value<T: Scalar>(&self, q: &[T]) -> T {
+        q[1] + T::from_f64(1.5)
+    }
+}
+
+#[test]
+fn constrained_systems_have_variable_steps_too() -> Result<(), Error> {
+    // The same motion in the angle: θ'' = −sin θ.
+    let angle = acceleration(|_, q: &Vector1<f64>, a: &mut Vector1<f64>| a[0] = -q[0].sin());
+    let mut fine = Integrator::new(Gauss5, angle, State::from_arrays(0.0, [0.0], [1.9]), 1e-2)?;
+    let angle = fine.integrate_to(7.0)?.q[0];
+    let expected = Vector2::new(angle.sin(), -angle.cos());
+    let start = || State::from_arrays(0.0, [0.0, -1.0], [1.9, 0.0]);
+    let errors = [0.02, 0.01, 0.005].map(|epsilon| {
+        let mut run =
+            Integrator::adaptive(Rattle, Pendulum, Height, start(), epsilon).expect("a run");
+        (run.integrate_to(7.0).expect("steps").q - expected).norm()
+    });
+    assert_order("RATTLE", 2.0, &errors);
+    Ok(())
 }

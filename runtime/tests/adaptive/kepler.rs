@@ -9,6 +9,8 @@ symplectic::tableau! {
     pub ForestRuth { base: forest-ruth-1990 }
     /// Of order 4 for quadratic kinetic energies only.
     pub McLachlanAtela { base: mclachlan-atela-1992-order-4-optimal }
+    /// Lobatto IIIA–IIIB with two stages.
+    pub Rattle { basis: polynomial(2), nodes: lobatto(2) }
     pub Gauss1 { basis: polynomial(1), nodes: gauss(1) }
     pub Gauss2 { basis: polynomial(2), nodes: gauss(2) }
     pub Gauss5 { basis: polynomial(5), nodes: gauss(5) }

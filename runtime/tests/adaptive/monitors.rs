@@ -61,6 +61,28 @@ fn pairs_see_the_least_distance() {
 }
 
 #[test]
+fn components_left_over_do_not_count() {
+    let triangle = [0.0, 0.0, 1.0, 0.0, 0.5, 0.75];
+    let more = [0.0, 0.0, 1.0, 0.0, 0.5, 0.75, 9.0];
+    assert_eq!(PAIRS.value::<f64>(&triangle), PAIRS.value::<f64>(&more));
+    let (mut first, mut second) = ([0.0; 6], [f64::NAN; 7]);
+    PAIRS.logarithmic_gradient(&triangle, &mut first);
+    PAIRS.logarithmic_gradient(&more, &mut second);
+    assert_eq!((&first[..], 0.0), (&second[..6], second[6]));
+    // No space and no sharpness is no monitor, and no panic.
+    for (dimensions, sharpness) in [(0, 2), (2, 0), (9, 2)] {
+        let bad = PairDistances {
+            dimensions,
+            sharpness,
+            exponent: 1.5,
+        };
+        bad.logarithmic_gradient(&triangle, &mut first);
+        let value = bad.value::<f64>(&triangle);
+        assert!(!(value > 0.0 && value.is_finite()), "{value}");
+    }
+}
+
+#[test]
 fn dual_numbers_give_the_same_steps() -> Result<(), Error> {
     let monitor = DistancePower(1.5);
     let start = || pericentre(0.6);
