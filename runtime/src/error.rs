@@ -547,6 +547,21 @@ pub enum Error {
         value: f64,
     },
 
+    /// The velocity is not `M⁻¹p` with a constant M, and the logarithmic Hamiltonian takes `T = p·M⁻¹p/2`.
+    #[error(
+        "component {component} of the velocity is {velocity} in size, and {linear} if it were linear in the momentum and without time: \
+         the logarithmic Hamiltonian is for H = pᵀM⁻¹p/2 + U(t, q) with a constant M; take `Poincare` or `Integrator::adaptive` for this \
+         system"
+    )]
+    LogarithmicMasses {
+        /// The component of the velocity, from 0.
+        component: usize,
+        /// Its size.
+        velocity: f64,
+        /// The size that it would have if it were linear in the momentum.
+        linear: f64,
+    },
+
     /// The velocity is not `M⁻¹p` with a constant M, and Newmark's method needs the acceleration `M⁻¹ force`.
     #[error(
         "component {component} of the velocity is {velocity} in size, and {linear} if it were linear in the momentum and without time: \
@@ -624,6 +639,64 @@ pub enum Error {
         range: &'static str,
     },
 
+    /// No step near the size of the step before conserves the discrete energy: the curvature c of the orbit is about to change its sign.
+    #[error(
+        "step {step} at time {time}: no step between half and twice the size {step_size} of the step before conserves the discrete energy \
+         here (curvature {curvature:e}); go on with steps of one size, by `VariationalIntegrator`"
+    )]
+    NoEnergyStep {
+        /// Time at the start of the step.
+        time: f64,
+        /// Size of the step before.
+        step_size: f64,
+        /// Number of the step, from 1.
+        step: u64,
+        /// The curvature c.
+        curvature: f64,
+    },
+
+    /// The monitor of variable steps, or its slope along the motion, is not finite, or the monitor is not positive.
+    #[error(
+        "the monitor of the step sizes is {value} at time {time}; it must be finite and positive wherever the motion goes, and so must \
+         its slope be finite"
+    )]
+    Monitor {
+        /// Time of the state.
+        time: f64,
+        /// Value of the monitor.
+        value: f64,
+    },
+
+    /// The density of variable steps, about 1 over the monitor, is no longer positive: the monitor changes too much within a step.
+    #[error(
+        "step {step} at time {time}: the step density z is {density}, and there is no step of size ε/z; take a smaller ε, or a monitor \
+         that changes less within a step"
+    )]
+    StepDensity {
+        /// Time at the start of the step.
+        time: f64,
+        /// Number of the step, from 1.
+        step: u64,
+        /// The density z.
+        density: f64,
+    },
+
+    /// The logarithm of a quantity that is not positive: the logarithmic Hamiltonian is for `U < 0` and `T + B > 0`.
+    #[error(
+        "step {step} from time {time}: {what} is {value}, and the logarithmic Hamiltonian needs it positive; take a smaller step, or \
+         `Integrator::adaptive` where the potential is not negative everywhere"
+    )]
+    LogarithmicDomain {
+        /// Physical time at the start of the step.
+        time: f64,
+        /// Number of the step, from 1; 0 for a state that is to be extended.
+        step: u64,
+        /// `−U` or `T + B`.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+
     /// The step is so small that it does not change the time.
     #[error(
         "a step of size {step_size} does not change the time {time}, which has 53 bits; take a larger step, or \
@@ -687,6 +760,11 @@ impl fmt::Display for Quantity {
 }
 
 impl Error {
+    /// [`Error::Monitor`] at a time, for a value.
+    pub(crate) const fn monitor_at(time: f64) -> impl Fn(f64) -> Self {
+        move |value| Self::Monitor { time, value }
+    }
+
     /// The error with the name of the constraint that it is about.
     pub(crate) fn named(mut self, of: impl Fn(usize) -> Option<ConstraintName>) -> Self {
         if let Self::GradientMismatch {

@@ -22,6 +22,7 @@
 //! | The system: a formula, closures or a trait | [`hamiltonian!`], [`lagrangian!`]; [`separable`], [`hamiltonian()`], [`acceleration`]; [`SeparableHamiltonian`], [`Hamiltonian`]; [`system`] |
 //! | Numbers and vectors | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors), [`simd`] |
 //! | Constraints, friction and other forces | [`Constrained`], [`consistent`], [`constraint_force`]; [`Nonholonomic`], [`consistent_momentum`]; [`Damped`], [`Hamiltonian::applied_force`] |
+//! | Steps of variable size, for close encounters | [`Integrator::adaptive`]; [`adaptive`] |
 //! | A rigid body that turns about a point | [`rotation`] |
 //! | Splittings over flows of your own: harmonic, magnetic, damped, stochastic, Kepler | [`flow`] |
 //! | Discrete and degenerate Lagrangians, generating functions, stages and balances | [`variational`] |
@@ -78,6 +79,7 @@ extern crate alloc;
 mod error;
 mod state;
 
+pub mod adaptive;
 pub mod flow;
 mod integrator;
 mod method;
@@ -165,6 +167,8 @@ mod book {
     struct LongRuns;
     #[doc = include_str!("../../docs/src/guide/events.md")]
     struct Events;
+    #[doc = include_str!("../../docs/src/guide/variable-steps.md")]
+    struct VariableSteps;
     #[doc = include_str!("../../docs/src/guide/constraints.md")]
     struct Constraints;
     #[doc = include_str!("../../docs/src/guide/forces.md")]

@@ -13,6 +13,7 @@ const ROOMS: &[&[&str]] = &[
     &["solver"],
     &["integrator"],
     &["flow", "output", "rotation", "variational"],
+    &["adaptive"],
 ];
 
 /// The imports that run up. A system chooses how it is stepped: its class the plan of a method, and its type the solver.

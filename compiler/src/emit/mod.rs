@@ -86,6 +86,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
         (Class::Separable, &separable_plan),
     ];
     let orders = orders(tableau);
+    let symmetry = symmetry(tableau);
     let (methods, substeps) = substeps(&provenance.definition)?;
     let parts = (&methods[..], &substeps[..]);
     let plans = plan::plans(tableau, &numbers, parts, names);
@@ -122,6 +123,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
                 const DEFINITION: &'static str = #definition;
                 #coefficients
                 #orders
+                #symmetry
                 #functions
                 #constrained
                 #nonholonomic
@@ -283,6 +285,18 @@ fn orders(tableau: &Tableau) -> TokenStream {
         const ORDERS: ::symplectic::emitted::Orders =
             ::symplectic::emitted::Orders { general: #general, separable: #separable, nystrom: #nystrom };
     }
+}
+
+/// Whether the method is its own adjoint; nothing for a method that is not.
+fn symmetry(tableau: &Tableau) -> Option<TokenStream> {
+    let general = tableau.properties().symmetric.holds;
+    let separable = general || tableau.separable_properties().symmetric.holds;
+    separable.then(|| {
+        quote! {
+            const SYMMETRY: ::symplectic::emitted::Symmetry =
+                ::symplectic::emitted::Symmetry { general: #general, separable: #separable };
+        }
+    })
 }
 
 /// The classes of systems on which the method is no worse than on narrower ones; those with holonomic constraints too where it is

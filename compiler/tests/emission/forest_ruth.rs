@@ -289,6 +289,10 @@ const _: () = {
             separable: 4,
             nystrom: 4,
         };
+        const SYMMETRY: ::symplectic::emitted::Symmetry = ::symplectic::emitted::Symmetry {
+            general: false,
+            separable: true,
+        };
         type General = ::symplectic::emitted::Coupled<ForestRuthGeneral>;
         type Separable = ::symplectic::emitted::Splitting<ForestRuthSeparable>;
     }

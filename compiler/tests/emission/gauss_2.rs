@@ -101,6 +101,10 @@ const _: () = {
             separable: 4,
             nystrom: 4,
         };
+        const SYMMETRY: ::symplectic::emitted::Symmetry = ::symplectic::emitted::Symmetry {
+            general: true,
+            separable: true,
+        };
         type General = ::symplectic::emitted::Coupled<Gauss2General>;
         type Separable = ::symplectic::emitted::Coupled<Gauss2Separable>;
     }

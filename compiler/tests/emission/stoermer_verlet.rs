@@ -94,6 +94,10 @@ const _: () = {
             separable: 2,
             nystrom: 2,
         };
+        const SYMMETRY: ::symplectic::emitted::Symmetry = ::symplectic::emitted::Symmetry {
+            general: true,
+            separable: true,
+        };
         const CONSTRAINED: &'static [::symplectic::emitted::ConstrainedStep] = {
             const TABLEAU1: ::symplectic::emitted::ConstrainedTableau = ::symplectic::emitted::ConstrainedTableau {
                 positions: &[

@@ -157,12 +157,23 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ///
     /// [`CheckpointError::Scalar`]
     pub fn checkpoint(&self) -> Result<Checkpoint, CheckpointError> {
-        let mut checkpoint = self.blank_checkpoint()?;
+        self.checkpoint_with("", &[])
+    }
+
+    /// A checkpoint of a run of this kind, with what changes in it beside the integrator.
+    pub(crate) fn checkpoint_with(
+        &self,
+        kind: &str,
+        beside: &[f64],
+    ) -> Result<Checkpoint, CheckpointError> {
+        let mut checkpoint = self.blank_checkpoint(kind)?;
         let mut run = self.all_that_changes();
-        run.words(&mut |word| {
+        let mut add = |word: u64| {
             // Writing to a string does not fail.
             let _ = write!(checkpoint.words, "{word:016x}");
-        });
+        };
+        run.words(&mut |word| add(*word));
+        beside.iter().for_each(|value| add(value.to_bits()));
         checkpoint.checksum = checkpoint.sum();
         Ok(checkpoint)
     }
@@ -174,8 +185,19 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ///
     /// [`CheckpointError`]; the integrator is then as it was.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
-        let mine = self.blank_checkpoint()?.header();
-        for ((what, found), (_, expected)) in checkpoint.header().into_iter().zip(mine) {
+        self.restore_with("", checkpoint, &mut [], |_, _| true)
+    }
+
+    /// Goes on from a checkpoint of [this kind](Self::checkpoint_with), if what is beside the integrator is `mine` at the position.
+    pub(crate) fn restore_with(
+        &mut self,
+        kind: &str,
+        checkpoint: &Checkpoint,
+        beside: &mut [f64],
+        mine: impl FnOnce(&V, &[f64]) -> bool,
+    ) -> Result<(), CheckpointError> {
+        let own = self.blank_checkpoint(kind)?.header();
+        for ((what, found), (_, expected)) in checkpoint.header().into_iter().zip(own) {
             if found != expected {
                 return Err(CheckpointError::OtherRun {
                     what,
@@ -186,14 +208,17 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         }
         let mut words = checkpoint.decoded()?.into_iter();
         let (mut run, mut missing) = (self.all_that_changes(), false);
-        run.words(&mut |word| match words.next() {
+        let mut read = |word: &mut u64| match words.next() {
             Some(found) => *word = found,
             None => missing = true,
-        });
+        };
+        run.words(&mut read);
+        beside.words(&mut read);
         if missing || words.next().is_some() {
             return Err(DAMAGED("it has not as many words as this run"));
         }
-        if run.evaluations != run.evaluated(&self.system) {
+        let known = run.evaluations == run.evaluated(&self.system);
+        if !known || !mine(&run.course.state.q, beside) {
             return Err(CheckpointError::OtherSystem);
         }
         self.course = run.course;
@@ -205,8 +230,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Ok(())
     }
 
-    /// A checkpoint without words.
-    fn blank_checkpoint(&self) -> Result<Checkpoint, CheckpointError> {
+    /// A checkpoint without words, of a run of this kind.
+    fn blank_checkpoint(&self, kind: &str) -> Result<Checkpoint, CheckpointError> {
         let sums = if R::COMPENSATED {
             "compensated"
         } else {
@@ -214,7 +239,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         };
         Ok(Checkpoint {
             version: env!("CARGO_PKG_VERSION").to_string(),
-            method: M::NAME.to_string(),
+            method: match kind {
+                "" => M::NAME.to_string(),
+                _ => format!("{}, {kind}", M::NAME),
+            },
             definition: match self.course.memory.tableau() {
                 Some(tableau) => tableau.definition(),
                 None => M::DEFINITION.to_string(),

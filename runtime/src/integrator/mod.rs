@@ -405,7 +405,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 
     /// One step, like [`step`](Self::step), the parts of which are shown to `see`.
-    pub(crate) fn step_in_sight(
+    pub(crate) fn step_shown_to(
         &mut self,
         mut see: impl FnMut(&Self) -> Result<(), Error>,
     ) -> Result<(), Error> {

@@ -83,6 +83,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         }
         let error = attempt.error(failure, &fault, &self.course.memory, &self.course.next.0);
         self.course.forget();
-        error.named(|constraint| self.system.constraint_name(constraint))
+        let error = error.named(|constraint| self.system.constraint_name(constraint));
+        self.system.explain(error, &self.course.state.q)
     }
 }

@@ -42,7 +42,7 @@ pub use interpolation::{Inside, Interpolation};
 pub use kick_drift::{Drift, Force, KickDrift};
 #[cfg(feature = "alloc")]
 pub use nonholonomic::{NonholonomicPlan, NonholonomicStages, consistent_momentum};
-pub use proved::{LowerOrder, Orders, ProvedFor};
+pub use proved::{LowerOrder, Orders, ProvedFor, Symmetry};
 #[cfg(feature = "alloc")]
 pub use run_time::{
     AtRunTime, RunTimeCoefficients, RunTimePlan, RunTimeStages, RunTimeTableau, TableauError,
@@ -81,6 +81,8 @@ pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static 
     const COEFFICIENTS: Coefficients;
     /// Its order for each class of Hamiltonians.
     const ORDERS: Orders;
+    /// The Hamiltonians for which it is symmetric.
+    const SYMMETRY: Symmetry = Symmetry::NONE;
     /// Whether it is refused for separable systems whose kinetic energy is not quadratic: where its order is lower there.
     const NEEDS_QUADRATIC_KINETIC: bool = Self::ORDERS.nystrom > Self::ORDERS.separable;
 

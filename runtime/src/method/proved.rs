@@ -2,7 +2,7 @@
 
 use crate::method::Method;
 use crate::number::Coefficients;
-use crate::system::Unconstrained;
+use crate::system::{Class, Unconstrained};
 
 /// The order and the symplecticity of a method on the systems of class `C` are not lower than on a narrower class.
 ///
@@ -55,6 +55,29 @@ pub struct Orders {
     pub nystrom: u32,
 }
 
+/// For which Hamiltonians a method is symmetric, its own adjoint: a step of size `−h` undoes one of size `h`. As the compiler proved
+/// it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Symmetry {
+    /// For every `H(q, p)`.
+    pub general: bool,
+    /// For `H = T(p) + U(q)`.
+    pub separable: bool,
+}
+
+impl Symmetry {
+    /// For none.
+    pub const NONE: Self = Self {
+        general: false,
+        separable: false,
+    };
+
+    /// Whether it is for systems of class `C`.
+    pub(crate) const fn of<C: Class>(self) -> bool {
+        self.general || C::SEPARABLE && self.separable
+    }
+}
+
 /// A method on systems for which it has a lower order, or is not symplectic: what [`Method::accept_lower_order`] returns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LowerOrder<M>(pub(crate) M);
@@ -65,6 +88,7 @@ impl<M: Method> Method for LowerOrder<M> {
     const DEFINITION: &'static str = M::DEFINITION;
     const COEFFICIENTS: Coefficients = M::COEFFICIENTS;
     const ORDERS: Orders = M::ORDERS;
+    const SYMMETRY: Symmetry = M::SYMMETRY;
     const NEEDS_QUADRATIC_KINETIC: bool = false;
     const FUNCTIONS: usize = M::FUNCTIONS;
     type General = M::General;

@@ -5,7 +5,6 @@ pub(crate) mod coefficient;
 pub(crate) mod elementary;
 #[cfg(feature = "alloc")]
 pub(crate) mod elimination;
-#[cfg(feature = "alloc")]
 pub(crate) mod hyper_dual;
 pub(crate) mod lanes;
 pub(crate) mod linear_combination;

@@ -2,10 +2,10 @@
 
 use crate::error::Error;
 use crate::integrator::Integrator;
-use crate::integrator::clock::check_count;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::output::dense::Ends;
+use crate::output::steps::Steps;
 use crate::state::State;
 use crate::system::System;
 
@@ -44,49 +44,71 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         times: &[f64],
         mut observe: F,
     ) -> Result<&State<V>, Error> {
-        self.check_times(times)?;
-        let mut rest = times;
-        let mut output = Output {
-            ends: Ends::new(),
-            state: self.state().clone(),
-        };
-        output.show(self, &mut rest, &mut observe)?;
-        while !rest.is_empty() {
-            self.step_in_sight(|integrator| output.show(integrator, &mut rest, &mut observe))?;
-        }
+        integrate_at(self, times, &mut observe)?;
         Ok(self.state())
     }
+}
 
-    /// Whether `time` comes after `other` in the direction of the steps.
-    fn is_after(&self, time: f64, other: f64) -> bool {
-        if self.step_size() > 0.0 {
-            time > other
-        } else {
-            time < other
-        }
+/// [`Integrator::integrate_at`] for everything that takes steps.
+pub(crate) fn integrate_at<M, S, V, R, N>(
+    steps: &mut impl Steps<M, S, V, R, N>,
+    times: &[f64],
+    observe: &mut impl FnMut(&State<V>),
+) -> Result<(), Error>
+where
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    let direction = steps.direction();
+    let present = steps.integrator().state().time;
+    // The last step may have gone the other way.
+    let before = match steps.integrator().last_step() {
+        Some(last) if is_after(direction, present, last.start) => last.start,
+        _ => present,
+    };
+    steps.check_count(check_times(direction, times, before)?)?;
+    let mut rest = times;
+    let mut output = Output {
+        ends: Ends::new(),
+        state: steps.integrator().state().clone(),
+        direction,
+    };
+    output.show(steps.integrator(), &mut rest, observe)?;
+    while !rest.is_empty() {
+        steps.step_in_sight(|integrator| output.show(integrator, &mut rest, observe))?;
     }
+    Ok(())
+}
 
-    fn check_times(&self, times: &[f64]) -> Result<(), Error> {
-        let present = self.state().time;
-        // The last step may have gone the other way.
-        let mut before = match self.last_step() {
-            Some(last) if self.is_after(present, last.start) => last.start,
-            _ => present,
-        };
-        for &time in times {
-            if !time.is_finite() || self.is_after(before, time) {
-                return Err(Error::OutputTime { time, before });
-            }
-            before = time;
-        }
-        check_count(present, before, self.step_size())
+/// Whether `time` comes after `other` in a direction.
+fn is_after(direction: f64, time: f64, other: f64) -> bool {
+    if direction > 0.0 {
+        time > other
+    } else {
+        time < other
     }
+}
+
+/// The last of the times, which come one after the other from `before` on.
+fn check_times(direction: f64, times: &[f64], mut before: f64) -> Result<f64, Error> {
+    for &time in times {
+        if !time.is_finite() || is_after(direction, before, time) {
+            return Err(Error::OutputTime { time, before });
+        }
+        before = time;
+    }
+    Ok(before)
 }
 
 /// A state that is shown.
 struct Output<V> {
     ends: Ends<V>,
     state: State<V>,
+    /// The sign of the step size.
+    direction: f64,
 }
 
 impl<V: Vector> Output<V> {
@@ -106,7 +128,7 @@ impl<V: Vector> Output<V> {
         let mut evaluated = false;
         while let Some((&time, rest)) = times.split_first() {
             let present = integrator.state();
-            if integrator.is_after(time, present.time) {
+            if is_after(self.direction, time, present.time) {
                 break;
             }
             if time == present.time {

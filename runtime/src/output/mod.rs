@@ -9,6 +9,7 @@ pub(crate) mod event;
 pub(crate) mod invariant;
 pub(crate) mod progress;
 pub(crate) mod states;
+pub(crate) mod steps;
 
 pub use crate::method::{Inside, Interpolation};
 pub use balance::Balance;

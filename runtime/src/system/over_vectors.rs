@@ -2,7 +2,7 @@
 
 use num_traits::Zero;
 
-use crate::error::ConstraintName;
+use crate::error::{ConstraintName, Error};
 use crate::method::Solver;
 use crate::number::{F64x2, F64x4, F64x8, Vector};
 use crate::solver::Automatic;
@@ -135,6 +135,12 @@ pub trait System<V: Vector>: Sized {
     /// Sets the rows of w: see [`Hamiltonian::nonholonomic_rows`].
     #[cfg(feature = "alloc")]
     fn nonholonomic_rows(&self, _q: &V, _rows: &mut Gradients<V::Scalar>) {}
+
+    /// The error of a step from the position `q`, with what the system knows of it.
+    #[doc(hidden)]
+    fn explain(&self, error: Error, _q: &V) -> Error {
+        error
+    }
 
     // What follows is how a `Chain` is made fast, for no other system.
 

@@ -150,6 +150,40 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
         self.add_forces(lagrangian, at);
     }
 
+    /// [`second`](Self::second), and the matrix of second derivatives `D1D2`, `D1D_h`, `D2D_h` and `D_hD_h` by rows: those of `D1 Ld` and then
+    /// of `∂Ld/∂h`, by q1 and h. Returns `∂Ld/∂h`.
+    pub(super) fn by_size(
+        &mut self,
+        lagrangian: &L,
+        at: At<'_, L::Vector<f64>>,
+        rows: &mut [f64],
+    ) -> f64 {
+        self.second(lagrangian, at);
+        let n = self.start.len();
+        for (row, mixed) in rows.chunks_mut(n + 1).zip(self.mixed.chunks(n)) {
+            row[..n].copy_from_slice(mixed);
+        }
+        let time = HyperDual::from_f64(at.time);
+        let size = |first: f64| HyperDual {
+            first,
+            second: 1.0,
+            ..HyperDual::from_f64(at.size)
+        };
+        for k in 0..n {
+            self.q0.as_mut_slice()[k].first = 1.0;
+            let dual = lagrangian.value(time, size(0.0), &self.q0, &self.q1);
+            rows[k * (n + 1) + n] = dual.mixed;
+            self.q0.as_mut_slice()[k].first = 0.0;
+            self.q1.as_mut_slice()[k].first = 1.0;
+            let dual = lagrangian.value(time, size(0.0), &self.q0, &self.q1);
+            rows[n * (n + 1) + k] = dual.mixed;
+            self.q1.as_mut_slice()[k].first = 0.0;
+        }
+        let dual = lagrangian.value(time, size(1.0), &self.q0, &self.q1);
+        rows[n * (n + 1) + n] = dual.mixed;
+        dual.first
+    }
+
     /// Whether everything that [`first`](Self::first) or [`second`](Self::second) has written is finite.
     pub(super) fn is_finite(&self) -> bool {
         let lists = [&self.start, &self.end, &self.mixed];

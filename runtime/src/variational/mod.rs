@@ -1,7 +1,8 @@
 //! Discrete mechanics: what generates a step, its stages, and the balances of energy and momentum.
 //!
 //! A method has a [generating function](generating_function()) for each of its steps, and [stages](StagesOfStep) with the work and the impulse
-//! of applied forces. A [`DiscreteLagrangian`] that is given has steps that it generates, by a [`VariationalIntegrator`]; what holds for it
+//! of applied forces. A [`DiscreteLagrangian`] that is given has steps that it generates, by a [`VariationalIntegrator`], or
+//! an [`EnergyMomentumIntegrator`] that chooses their size; what holds for it
 //! is asked of a [`DiscretePath`]. A [`LagrangianIntegrator`] takes the steps of a method for a [`Lagrangian`](crate::Lagrangian); degenerate
 //! ones, and constraints on velocities, are for a [`DiracIntegrator`].
 
@@ -9,6 +10,7 @@ mod checks;
 mod cotangent_lift;
 mod dirac;
 mod discrete_lagrangian;
+mod energy_momentum;
 mod failure;
 pub(crate) mod generating_function;
 mod hamilton_jacobi;
@@ -25,6 +27,7 @@ pub use checks::DiscretePath;
 pub use cotangent_lift::{PointTransformation, cotangent_lift};
 pub use dirac::{DiracIntegrator, DiracRule, DiracSystem, PrimaryConstraint, primary_constraints};
 pub use discrete_lagrangian::DiscreteLagrangian;
+pub use energy_momentum::EnergyMomentumIntegrator;
 pub use generating_function::{GeneratingFunction, generating_function};
 pub use hamilton_jacobi::DiscreteHamiltonJacobi;
 pub use integrator::VariationalIntegrator;

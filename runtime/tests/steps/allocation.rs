@@ -10,6 +10,7 @@ use std::ops::ControlFlow;
 use crate::common::systems::Pendulum;
 
 use crate::common::methods::{Midpoint, StoermerVerlet};
+use symplectic::adaptive::{DistancePower, Logarithmic, Poincare};
 use symplectic::flow::{Drift, FlowIntegrator, Kick, Splitting, Substeps};
 use symplectic::system::{Bonds, Chain};
 use symplectic::variational::{DiscreteLagrangian, Newmark, VariationalIntegrator};
@@ -280,6 +281,55 @@ fn steps_of_flows_make_no_vectors() -> Result<(), Error> {
     let mut integrator = FlowIntegrator::new(step, start, 0.1)?;
     integrator.step()?;
     let (count, outcome) = made(|| integrator.integrate_to(10.0).map(|_| ()));
+    outcome?;
+    assert_eq!(count, 0);
+    Ok(())
+}
+
+#[test]
+fn steps_of_variable_size_make_no_vectors() -> Result<(), Error> {
+    struct Line;
+    impl SeparableHamiltonian for Line {
+        type Vector<T: Scalar> = Counted<T>;
+
+        fn velocity<T: Scalar>(&self, _: T, p: &Counted<T>, velocity: &mut Counted<T>) {
+            velocity.0.copy_from_slice(&p.0);
+        }
+
+        fn force<T: Scalar>(&self, _: T, q: &Counted<T>, force: &mut Counted<T>) {
+            force.0[0] = -q.0[0] * (q.0[0] * q.0[0] + T::one()).recip();
+        }
+
+        fn energy<T: Scalar>(&self, _: T, q: &Counted<T>, p: &Counted<T>) -> Option<T> {
+            let half = T::from_f64(0.5);
+            let square = q.0[0] * q.0[0] + T::one();
+            Some(half * (p.0[0] * p.0[0] + square.ln()) - T::from_f64(4.0))
+        }
+    }
+    let start = || State::new(0.0, Counted::new(vec![1.0]), Counted::new(vec![0.0]));
+    let monitor = DistancePower(0.0);
+    let mut run = Integrator::adaptive(StoermerVerlet, Line, monitor, start(), 0.1)?;
+    let (count, outcome) = made(|| run.take_steps(100).map(|_| ()));
+    outcome?;
+    assert_eq!(count, 0);
+
+    let logarithmic = Logarithmic::new(Line);
+    let extended: State<Counted<f64>> = logarithmic.extend(&start())?;
+    let mut run = Integrator::new(StoermerVerlet, logarithmic, extended, 0.1)?;
+    let (count, outcome) = made(|| run.step().map(|_| ()));
+    outcome?;
+    assert!(count > 0);
+    let (count, outcome) = made(|| run.take_steps(100).map(|_| ()));
+    outcome?;
+    assert_eq!(count, 0);
+
+    let poincare = Poincare::new(Line, monitor);
+    let extended: State<Counted<f64>> = poincare.extend(&start())?;
+    let mut run = Integrator::new(Midpoint, poincare, extended, 0.1)?;
+    let (count, outcome) = made(|| run.step().map(|_| ()));
+    outcome?;
+    assert!(count > 0);
+    let (count, outcome) = made(|| run.take_steps(100).map(|_| ()));
     outcome?;
     assert_eq!(count, 0);
     Ok(())

@@ -4,7 +4,7 @@ use crate::state::State;
 
 mod list;
 mod locate;
-mod run;
+pub(crate) mod run;
 mod search;
 mod track;
 

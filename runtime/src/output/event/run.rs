@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
+use crate::output::steps::Steps;
 use crate::state::State;
 use crate::system::System;
 
@@ -116,41 +117,59 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         E: Events<V> + ?Sized,
         F: FnMut(Moment<'_, V>) -> ControlFlow<B>,
     {
-        let present = self.state().time;
-        check_times(times, present, end)?;
-        let forward = present <= end;
-        let step = self.step_size().abs().copysign(end - present);
-        let mut search = Search::new(events, times, self.state(), self.last_event(), forward);
-        search.start(self, step)?;
-        let mut ended = search.show_output(self, present, &mut handle)?;
-        loop {
-            let stepped = match ended {
-                ControlFlow::Break(stop) => Ok(ControlFlow::Break(stop)),
-                ControlFlow::Continue(()) => self.steps_to(end, |integrator, next| {
-                    integrator.advance_in_sight(next.size, next.time, &mut |integrator: &Self| {
-                        let seen = search.step(integrator, &mut handle);
-                        Ok(seen.unwrap_or_else(|error| search.fail(integrator, error)))
-                    })
-                }),
-            };
-            self.set_last_event(search.last);
-            let ControlFlow::Break(stop) = stepped? else {
-                return Ok(None);
-            };
-            if !matches!(stop, Stop::Broken(_, false)) {
-                let changed = self.copy_state(&search.shown);
-                if changed.is_err() {
-                    self.copy_state(&search.state)?;
-                }
-                changed?;
+        integrate_through(self, end, times, events, &mut handle)
+    }
+}
+
+/// [`Integrator::integrate_through`] for everything that takes steps.
+pub(crate) fn integrate_through<M, S, V, R, N, E, B>(
+    steps: &mut impl Steps<M, S, V, R, N>,
+    end: f64,
+    times: &[f64],
+    events: &E,
+    handle: &mut impl FnMut(Moment<'_, V>) -> ControlFlow<B>,
+) -> Result<Option<B>, Error>
+where
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+    E: Events<V> + ?Sized,
+{
+    let run = steps.integrator();
+    let present = run.state().time;
+    check_times(times, present, end)?;
+    let step = steps.size_to(end);
+    let forward = step.is_sign_positive();
+    let mut search = Search::new(events, times, run.state(), run.last_event(), forward);
+    search.start(run, step)?;
+    let mut ended = search.show_output(run, present, handle)?;
+    loop {
+        let stepped = match ended {
+            ControlFlow::Break(stop) => Ok(ControlFlow::Break(stop)),
+            ControlFlow::Continue(()) => steps.steps_in_sight(end, |integrator| {
+                let seen = search.step(integrator, handle);
+                Ok(seen.unwrap_or_else(|error| search.fail(integrator, error)))
+            }),
+        };
+        steps.keep_last_event(search.last);
+        let ControlFlow::Break(stop) = stepped? else {
+            return Ok(None);
+        };
+        if !matches!(stop, Stop::Broken(_, false)) {
+            let changed = steps.replace_state(&search.shown);
+            if changed.is_err() {
+                steps.replace_state(&search.state)?;
             }
-            match stop {
-                Stop::Broken(value, _) => return Ok(Some(value)),
-                Stop::Failed(error) => return Err(error),
-                Stop::Reset => search.start(self, step)?,
-            }
-            ended = ControlFlow::Continue(());
+            changed?;
         }
+        match stop {
+            Stop::Broken(value, _) => return Ok(Some(value)),
+            Stop::Failed(error) => return Err(error),
+            Stop::Reset => search.start(steps.integrator(), step)?,
+        }
+        ended = ControlFlow::Continue(());
     }
 }
 

@@ -1,0 +1,413 @@
+//! Reversible steps of variable size: the integrating controller.
+
+use core::fmt;
+
+use super::monitor::{Monitor, Slopes, value_at};
+use crate::error::Error;
+use crate::integrator::validation::{check_state, check_step_size};
+use crate::integrator::{Integrator, Retry};
+use crate::method::{Method, ProvedFor, Solver};
+use crate::number::summation::{fast_two_sum, two_sum};
+use crate::number::{Compensated, Summation, Vector};
+use crate::output::DenseOutput;
+use crate::state::State;
+use crate::system::System;
+
+/// A symmetric method with steps of variable size `h ≈ ε σ(q)`, reversible: the integrating controller of Hairer & Söderlind (2005;
+/// Hairer, Lubich & Wanner, *Geometric numerical integration*, VIII.3.2).
+///
+/// The step density `z ≈ 1/σ` is a variable of its own. It is kicked before and after a step Φ of the method:
+///
+/// ```text
+/// z ← z + ε/2 G(q, p)      (q, p) ← Φ_{ε/z}(q, p)      t ← t + ε/z      z ← z + ε/2 G(q, p)
+/// G = −∇σ·q'/σ             z_0 = 1/σ(q_0)
+/// ```
+///
+/// $$ z_{n+1/2} = z_n + \frac{\varepsilon}{2} G(q_n, p_n) \qquad (q, p)_{n+1} = \Phi_{\varepsilon/z_{n+1/2}}((q, p)_n) \qquad
+/// z_{n+1} = z_{n+1/2} + \frac{\varepsilon}{2} G(q_{n+1}, p_{n+1}) $$
+///
+/// The map of (q, p, z) is symmetric, and reversible where the flow is. So the energy of a reversible system does not drift, as it
+/// does where a step size is taken from the state before the step. The map is not symplectic: for a system that is not
+/// reversible there is no such promise; take [`Poincare`](super::Poincare) or [`Logarithmic`](super::Logarithmic).
+///
+/// The order in ε is that of the method, as t counts the steps that were taken. Steps are explicit if those of the method are; a step
+/// costs one slope of the [`Monitor`] more, and one velocity unless it [is the momentum](System::UNIT_MASSES).
+///
+/// # Back to the start
+///
+/// [`reverse`](Self::reverse) turns the steps round. The first step back has the size of the last one to the bit; the others have those of
+/// the steps that they undo to rounding, as positions and momenta come back to rounding.
+///
+/// # Output
+///
+/// Nothing that is seen of a run changes its steps. A run ends with the first step that reaches its end time or goes beyond, and
+/// what is seen at times inside a step comes from the [dense output](Integrator::dense), or from a shorter step from the same start.
+///
+/// ```
+/// use symplectic::adaptive::DistancePower;
+/// use symplectic::{Error, Integrator, State};
+///
+/// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+/// symplectic::hamiltonian! {
+///     Kepler
+///     q: [x, y], p: [px, py];
+///     H = (px^2 + py^2)/2 - 1/sqrt(x^2 + y^2)
+/// }
+///
+/// # fn main() -> Result<(), Error> {
+/// // The pericentre of an orbit of eccentricity 0.9.
+/// let start = State::from_arrays(0.0, [0.1, 0.0], [0.0, 19_f64.sqrt()]);
+/// let mut run = Integrator::adaptive(VelocityVerlet, Kepler, DistancePower(1.5), start, 0.02)?;
+/// let before = run.energy().expect("the system has an energy");
+/// run.integrate_to(20.0 * core::f64::consts::TAU)?;
+/// let after = run.energy().expect("the system has an energy");
+/// assert!((after - before).abs() < 1e-3);
+/// # Ok(())
+/// # }
+/// ```
+///
+/// A method that is not symmetric does not compile:
+///
+/// ```compile_fail,E0080
+/// use symplectic::adaptive::DistancePower;
+/// use symplectic::{Error, Integrator, State};
+///
+/// symplectic::tableau! { SymplecticEuler { basis: polynomial(1), nodes: [0] } }
+/// symplectic::hamiltonian! { Kepler q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 - 1/sqrt(x^2 + y^2) }
+///
+/// let start = State::from_arrays(0.0, [0.1, 0.0], [0.0, 19_f64.sqrt()]);
+/// let run = Integrator::adaptive(SymplecticEuler, Kepler, DistancePower(1.5), start, 0.02);
+/// ```
+pub struct Adaptive<
+    M: Method,
+    S: System<V>,
+    W,
+    V: Vector,
+    R: Summation = Compensated,
+    N: Solver<V, S> = <S as System<V>>::Solver,
+> {
+    pub(super) integrator: Integrator<M, S, V, R, N>,
+    pub(super) monitor: W,
+    slopes: Slopes<V>,
+    velocity: V,
+    pub(super) controller: Controller,
+}
+
+/// What chooses the step sizes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Controller {
+    pub(super) epsilon: f64,
+    /// z inside the last step, or at the start.
+    pub(super) density: f64,
+    /// The ε/2 of the kick of z that is to finish the last step; 0 at the start.
+    pub(super) unfinished: f64,
+    /// What the time of the state leaves out.
+    pub(super) time_low: f64,
+}
+
+impl Controller {
+    /// That which starts at a value of the monitor.
+    const fn new(epsilon: f64, monitor: f64) -> Self {
+        Self {
+            epsilon,
+            density: 1.0 / monitor,
+            unfinished: 0.0,
+            time_low: 0.0,
+        }
+    }
+
+    fn step_size(&self) -> f64 {
+        self.epsilon / self.density
+    }
+}
+
+impl<M: Method, S: System<V>, V: Vector<Scalar = f64>> Integrator<M, S, V> {
+    /// Steps of variable size: see [`Adaptive`](crate::adaptive::Adaptive). `epsilon` is the size of a step in units of the monitor, `h ≈ ε σ(q)`; negative to
+    /// go backward.
+    ///
+    /// Does not compile unless the method is symmetric on systems of this class.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`new`](Integrator::new), with [`Error::StepSize`] for ε; [`Error::Monitor`].
+    pub fn adaptive<W: Monitor>(
+        method: M,
+        system: S,
+        monitor: W,
+        start: State<V>,
+        epsilon: f64,
+    ) -> Result<Adaptive<M, S, W, V>, Error>
+    where
+        M: ProvedFor<S::Class>,
+    {
+        Adaptive::new(Self::new(method, system, start, 1.0)?, monitor, epsilon)
+    }
+}
+
+impl<M, S, W, V, R, N> Adaptive<M, S, W, V, R, N>
+where
+    M: Method,
+    S: System<V>,
+    W: Monitor,
+    V: Vector<Scalar = f64>,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    /// Goes on from the state of an integrator of any sums and solver. Its step size is not used, and steps that fail are not
+    /// [split](Retry): parts of a step would not be symmetric.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`] for ε, [`Error::Monitor`].
+    ///
+    /// ```
+    /// use symplectic::adaptive::{Adaptive, DistancePower};
+    /// use symplectic::nalgebra::Vector2;
+    /// use symplectic::{Error, Integrator, State, acceleration};
+    ///
+    /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let kepler = acceleration(|_time, q: &Vector2<f64>, acceleration| *acceleration = -q / q.norm().powi(3));
+    /// let start = State::from_arrays(0.0, [0.1, 0.0], [0.0, 19_f64.sqrt()]);
+    /// let newton = Integrator::plain(Gauss2, kepler, start, 1.0)?.by_newton();
+    /// let mut run = Adaptive::new(newton, DistancePower(1.5), 0.1)?;
+    /// let end = run.integrate_to(core::f64::consts::TAU)?;
+    /// assert!((end.q[0] - 0.1).abs() < 0.01);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn new(
+        mut integrator: Integrator<M, S, V, R, N>,
+        monitor: W,
+        epsilon: f64,
+    ) -> Result<Self, Error> {
+        const {
+            assert!(
+                M::SYMMETRY.of::<S::Class>(),
+                "variable steps are reversible only for a symmetric method: \
+                 take `velocity-verlet`, a symmetric splitting, or `basis: polynomial(s)` with `nodes: gauss(s)` or `lobatto(s)`"
+            );
+        }
+        check_step_size(epsilon)?;
+        let State { time, q, .. } = integrator.state();
+        let value = value_at(&monitor, q).map_err(Error::monitor_at(*time))?;
+        let (slopes, velocity) = (Slopes::like(q), q.zeros_like());
+        integrator.set_retry(Retry::Never);
+        Ok(Self {
+            integrator,
+            monitor,
+            slopes,
+            velocity,
+            controller: Controller::new(epsilon, value),
+        })
+    }
+
+    /// Takes one step and returns the state after it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Integrator::step`]; [`Error::Monitor`] where the monitor or its slope is not finite, or the monitor not positive;
+    /// [`Error::StepDensity`] where z is no longer positive. State and step density are untouched.
+    pub fn step(&mut self) -> Result<&State<V>, Error> {
+        self.advance()?;
+        Ok(self.integrator.state())
+    }
+
+    /// Takes `count` steps and returns the state after them.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`step`](Self::step); the state is then that after the last good step.
+    pub fn take_steps(&mut self, count: u64) -> Result<&State<V>, Error> {
+        for _ in 0..count {
+            self.advance()?;
+        }
+        Ok(self.integrator.state())
+    }
+
+    pub(super) fn advance(&mut self) -> Result<(), Error> {
+        let mut next = self.controller;
+        let half = 0.5 * next.epsilon;
+        let kick = next.unfinished + half;
+        // After a reversal there is no kick, and the step size is that of the step before.
+        if kick != 0.0 {
+            next.density += kick * self.rate()?;
+        }
+        let size = next.step_size();
+        let time = self.integrator.state().time;
+        if !(next.density > 0.0 && size.is_finite()) {
+            return Err(Error::StepDensity {
+                time,
+                step: self.integrator.steps() + 1,
+                density: next.density,
+            });
+        }
+        let (span, rest) = two_sum(size, next.time_low);
+        let (sum, error) = two_sum(time, span);
+        let (end, low) = fast_two_sum(sum, error + rest);
+        self.integrator.advance(size, end)?;
+        next.time_low = low;
+        next.unfinished = half;
+        self.controller = next;
+        Ok(())
+    }
+
+    /// `G = −∇σ·q'/σ` at the present state.
+    fn rate(&mut self) -> Result<f64, Error> {
+        let State { time, q, p } = self.integrator.state();
+        let velocity = if S::UNIT_MASSES {
+            p
+        } else {
+            let system = self.integrator.system();
+            system.velocity(*time, q, p, &mut self.velocity);
+            &self.velocity
+        };
+        let slope = self.slopes.along(&self.monitor, q, velocity);
+        if slope.is_finite() {
+            Ok(-slope)
+        } else {
+            Err(Error::monitor_at(*time)(self.monitor.value(q.as_slice())))
+        }
+    }
+
+    /// Turns the steps round: the next one undoes the last one.
+    ///
+    /// ```
+    /// use symplectic::adaptive::DistancePower;
+    /// use symplectic::nalgebra::Vector2;
+    /// use symplectic::{Error, Integrator, State, acceleration};
+    ///
+    /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let kepler = acceleration(|_time, q: &Vector2<f64>, acceleration| *acceleration = -q / q.norm().powi(3));
+    /// let start = State::from_arrays(0.0, [0.1, 0.0], [0.0, 19_f64.sqrt()]);
+    /// let mut run = Integrator::adaptive(VelocityVerlet, kepler, DistancePower(1.5), start.clone(), 0.05)?;
+    /// run.take_steps(100)?;
+    /// let size = run.step_size();
+    /// run.reverse();
+    /// run.step()?;
+    /// assert_eq!(run.step_size(), -size);
+    /// run.take_steps(99)?;
+    /// assert!((run.state().q - start.q).norm() < 1e-11);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub const fn reverse(&mut self) {
+        self.controller.epsilon = -self.controller.epsilon;
+    }
+
+    /// Puts another state of the same dimension in place of the present one; the step density starts again as 1/σ.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Integrator::set_state`], [`Error::Monitor`]; the state is then untouched.
+    pub fn set_state(&mut self, state: State<V>) -> Result<(), Error> {
+        let controller = self.restarted(&state)?;
+        self.integrator.set_state(state)?;
+        self.controller = controller;
+        Ok(())
+    }
+
+    /// [`set_state`](Self::set_state) without an allocation.
+    pub(super) fn copy_state(&mut self, state: &State<V>) -> Result<(), Error> {
+        let controller = self.restarted(state)?;
+        self.integrator.copy_state(state)?;
+        self.controller = controller;
+        Ok(())
+    }
+
+    fn restarted(&self, state: &State<V>) -> Result<Controller, Error> {
+        let State { time, q, p } = state;
+        check_state(*time, q, p, self.integrator.state().q.dimension())?;
+        let value = value_at(&self.monitor, q).map_err(Error::monitor_at(*time))?;
+        Ok(Controller::new(self.controller.epsilon, value))
+    }
+}
+
+impl<M, S, W, V, R, N> Adaptive<M, S, W, V, R, N>
+where
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    /// The present state.
+    pub const fn state(&self) -> &State<V> {
+        self.integrator.state()
+    }
+
+    /// The energy of the present state, where the system knows it.
+    pub fn energy(&self) -> Option<V::Scalar> {
+        self.integrator.energy()
+    }
+
+    /// The size of the last step; before the first step `ε σ(q)`. Negative where the steps go backward.
+    pub fn step_size(&self) -> f64 {
+        self.controller.step_size()
+    }
+
+    /// The ε of the run, negative where its steps go backward.
+    pub const fn epsilon(&self) -> f64 {
+        self.controller.epsilon
+    }
+
+    /// The monitor.
+    pub const fn monitor(&self) -> &W {
+        &self.monitor
+    }
+
+    /// The states inside the last step: see [`Integrator::dense`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Integrator::dense`].
+    pub fn dense(&self) -> Result<DenseOutput<'_, M, S, V, R, N>, Error> {
+        self.integrator.dense()
+    }
+
+    /// The integrator that takes the steps: for its system, its statistics and all else that can be read.
+    pub const fn integrator(&self) -> &Integrator<M, S, V, R, N> {
+        &self.integrator
+    }
+}
+
+impl<M, S, W, V, R, N> Clone for Adaptive<M, S, W, V, R, N>
+where
+    M: Method,
+    S: System<V> + Clone,
+    W: Clone,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    /// Both go on with the same bits.
+    fn clone(&self) -> Self {
+        Self {
+            integrator: self.integrator.clone(),
+            monitor: self.monitor.clone(),
+            slopes: self.slopes.clone(),
+            velocity: self.velocity.clone(),
+            controller: self.controller,
+        }
+    }
+}
+
+impl<M, S, W, V, R, N> fmt::Debug for Adaptive<M, S, W, V, R, N>
+where
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("Adaptive")
+            .field("integrator", &self.integrator)
+            .field("controller", &self.controller)
+            .finish_non_exhaustive()
+    }
+}

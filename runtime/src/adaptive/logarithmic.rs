@@ -1,0 +1,279 @@
+//! The logarithmic Hamiltonian.
+
+use alloc::boxed::Box;
+use core::cell::Cell;
+use core::fmt;
+
+use super::extended::{Room, energy_of, extended, parted, parted_mut, reduced};
+use crate::error::Error;
+use crate::number::{Scalar, Vector};
+use crate::solver::FixedPoint;
+use crate::state::State;
+use crate::system::linearity::non_linear_velocity;
+use crate::system::{Hamiltonian, Separable, System};
+
+/// The logarithmic Hamiltonian of a system `H = T(p) + U(q)` with `U < 0` (Mikkola & Tanikawa 1999; Preto & Tremaine 1999), in a time τ of
+/// its own:
+///
+/// ```text
+/// K = ln(T(p) + B) − ln(−U(q))      B = −H(start)
+/// dq/dτ = v/(T + B)      dt/dτ = 1/(T + B)      dp/dτ = −∇U/(−U)      dB/dτ = U_t/U
+/// ```
+///
+/// $$ K = \ln(T(p) + B) - \ln(-U(q)) \qquad \frac{dt}{d\tau} = \frac{1}{T + B} $$
+///
+/// Positions are (q, t) and momenta (p, B). K is zero along the motion, on which its orbits are those of H; a step of size ε in τ takes
+/// the time `ε/(T + B) = ε/(−U)`, which is short where the potential is deep. K is separable: all splittings for separable systems
+/// apply, explicit and symplectic. Methods of which the order holds for quadratic kinetic energy only (Runge–Kutta–Nyström) would lose
+/// it, and are refused with [`Error::NotQuadraticKinetic`].
+///
+/// For the Kepler problem `position-verlet` and its compositions have the exact orbit, to rounding: the energy and the Laplace vector stay.
+/// Only time has an error, of the order of the method. Any other splitting, and `velocity-verlet` too, has its error in the orbit as well.
+///
+/// `T = p·M⁻¹p/2` with a constant M. U may depend on time. The system must give its [energy](Hamiltonian::energy), from which U is
+/// taken: `U(t, q) = H(t, q, 0)`.
+///
+/// # How to use it
+///
+/// [`extend`](Self::extend) makes the start, for vectors of one component more than those of the system; [`reduce`](Self::reduce)
+/// gives back the state at time t. A time t is reached by an [`Event`](crate::Event) of the last position.
+///
+/// ```
+/// use symplectic::adaptive::Logarithmic;
+/// use symplectic::nalgebra::Vector3;
+/// use symplectic::{Error, Event, Integrator, State};
+///
+/// symplectic::composition! { TripleJump { base: position-verlet, weights: triple_jump(4) } }
+/// symplectic::hamiltonian! {
+///     Kepler
+///     q: [x, y], p: [px, py];
+///     H = (px^2 + py^2)/2 - 1/sqrt(x^2 + y^2)
+/// }
+///
+/// # fn main() -> Result<(), Error> {
+/// // The pericentre of an orbit of eccentricity 0.99.
+/// let start = State::from_arrays(0.0, [0.01, 0.0], [0.0, 199_f64.sqrt()]);
+/// let logarithmic = Logarithmic::new(Kepler);
+/// let extended: State<Vector3<f64>> = logarithmic.extend(&start)?;
+/// let mut run = Integrator::new(TripleJump, logarithmic, extended, 0.05)?;
+/// // One period.
+/// let end = core::f64::consts::TAU;
+/// let arrival = Event::rising(|state: &State<Vector3<f64>>| state.q[2] - end).by_steps();
+/// let found = run.find_event(100.0, &arrival)?.expect("time goes on");
+/// let found = run.system().reduce(&found)?;
+/// assert!((found.time - end).abs() < 1e-13);
+/// let energy = found.p.norm_squared() / 2.0 - 1.0 / found.q.norm();
+/// assert!((energy + 0.5).abs() < 1e-11);
+/// # Ok(())
+/// # }
+/// ```
+///
+/// # Errors of steps
+///
+/// [`Error::LogarithmicDomain`] where `U ≥ 0` or `T + B ≤ 0`. A force without a potential has no place in K; a system with an
+/// [applied force](Hamiltonian::applied_force) does not compile.
+pub struct Logarithmic<S: Hamiltonian<Class = Separable>> {
+    system: S,
+    /// Where the system is evaluated; there is none before the first time, and during it.
+    room: Cell<Option<Box<Room<S>>>>,
+    /// What was not positive in the last evaluation that failed.
+    fault: Cell<Option<(&'static str, f64)>>,
+}
+
+impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
+    /// The logarithmic Hamiltonian of a system.
+    pub const fn new(system: S) -> Self {
+        const {
+            assert!(
+                !S::FORCED,
+                "a force without a potential has no place in a logarithmic Hamiltonian: take `Integrator::adaptive`"
+            );
+        }
+        Self {
+            system,
+            room: Cell::new(None),
+            fault: Cell::new(None),
+        }
+    }
+
+    /// The extended state ((q, t), (p, B)) at τ = 0.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::NoEnergy`]; [`Error::LogarithmicMasses`] where the velocity is not `M⁻¹p`
+    /// with a constant M; [`Error::LogarithmicDomain`] where `U ≥ 0`; [`Error::Length`] where the vectors do not have one component
+    /// more.
+    pub fn extend<W: Vector<Scalar = f64>>(
+        &self,
+        state: &State<S::Vector<f64>>,
+    ) -> Result<State<W>, Error> {
+        let energy = energy_of(&self.system, state)?;
+        let State { time, q, p } = state;
+        if let Some(found) = non_linear_velocity(&self.system, *time, q, p) {
+            return Err(Error::LogarithmicMasses {
+                component: found.component,
+                velocity: found.velocity,
+                linear: found.linear,
+            });
+        }
+        let rest = p.zeros_like();
+        let potential =
+            Hamiltonian::energy(&self.system, *time, q, &rest).ok_or(Error::NoEnergy)?;
+        if !(potential < 0.0 && potential.is_finite()) {
+            return Err(Error::LogarithmicDomain {
+                time: *time,
+                step: 0,
+                what: POTENTIAL,
+                value: -potential,
+            });
+        }
+        extended(state, -energy)
+    }
+
+    /// The state (q, p) at time t of an extended one.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::Length`].
+    pub fn reduce<W: Vector<Scalar = f64>>(
+        &self,
+        state: &State<W>,
+    ) -> Result<State<S::Vector<f64>>, Error> {
+        reduced(state)
+    }
+
+    /// The system in its own time.
+    pub const fn system(&self) -> &S {
+        &self.system
+    }
+
+    /// `look` with the room for `dimension` components; nothing where the system has another dimension.
+    fn in_room<T>(&self, dimension: usize, look: impl FnOnce(&mut Room<S>) -> T) -> Option<T> {
+        let room = self.room.take();
+        let mut room = match room.filter(|room| room.q.dimension() == dimension) {
+            Some(room) => room,
+            None => Box::new(Room::new(dimension).ok()?),
+        };
+        let seen = look(&mut room);
+        self.room.set(Some(room));
+        Some(seen)
+    }
+
+    /// `T + B`, with the velocity in the room; nothing where it is not positive.
+    fn kinetic(&self, room: &mut Room<S>, p: &[f64], b: f64) -> Option<f64> {
+        room.set_p(p);
+        let Room { q, p, slope, .. } = room;
+        Hamiltonian::velocity(&self.system, 0.0, q, p, slope);
+        let products = p
+            .as_slice()
+            .iter()
+            .zip(slope.as_slice())
+            .map(|(p, v)| p * v);
+        let kinetic = 0.5 * products.fold(0.0, |sum, product| sum + product) + b;
+        self.positive(KINETIC, kinetic)
+    }
+
+    /// `−U` and `∂ ln(−U)/∂t`; nothing where U is not negative.
+    fn potential(&self, room: &mut Room<S>, q: &[f64], time: f64) -> Option<(f64, f64)> {
+        room.set_q(q);
+        room.p.as_mut_slice().fill(0.0);
+        let found = room.energy(&self.system, time);
+        let depth = self.positive(POTENTIAL, -found.value)?;
+        Some((depth, -found.first / depth))
+    }
+
+    fn positive(&self, what: &'static str, value: f64) -> Option<f64> {
+        if value > 0.0 {
+            return Some(value);
+        }
+        // NaN comes of evaluations that failed before.
+        if !value.is_nan() {
+            self.fault.set(Some((what, value)));
+        }
+        None
+    }
+}
+
+const POTENTIAL: &str = "−U";
+const KINETIC: &str = "T + B";
+
+impl<S, W> System<W> for Logarithmic<S>
+where
+    S: Hamiltonian<Class = Separable>,
+    W: Vector<Scalar = f64>,
+{
+    type Class = Separable;
+    type Solver = FixedPoint;
+
+    fn velocity(&self, _time: f64, _q: &W, p: &W, velocity: &mut W) {
+        let (p, b) = parted(p);
+        let found = self.in_room(p.len(), |room| {
+            let sum = self.kinetic(room, p, b)?;
+            let (out, last) = parted_mut(velocity)?;
+            for (out, v) in out.iter_mut().zip(room.slope.as_slice()) {
+                *out = v / sum;
+            }
+            *last = 1.0 / sum;
+            Some(())
+        });
+        if found.flatten().is_none() {
+            velocity.as_mut_slice().fill(f64::NAN);
+        }
+    }
+
+    fn force(&self, _time: f64, q: &W, _p: &W, force: &mut W) {
+        let (q, time) = parted(q);
+        let found = self.in_room(q.len(), |room| {
+            let (depth, slope) = self.potential(room, q, time)?;
+            let Room { q, p, slope: f, .. } = room;
+            Hamiltonian::force(&self.system, time, q, p, f);
+            let (out, last) = parted_mut(force)?;
+            for (out, f) in out.iter_mut().zip(f.as_slice()) {
+                *out = f / depth;
+            }
+            *last = slope;
+            Some(())
+        });
+        if found.flatten().is_none() {
+            force.as_mut_slice().fill(f64::NAN);
+        }
+    }
+
+    /// K, which is zero along the motion.
+    fn energy(&self, _time: f64, q: &W, p: &W) -> Option<f64> {
+        let ((q, time), (p, b)) = (parted(q), parted(p));
+        let found = self.in_room(q.len(), |room| {
+            let sum = self.kinetic(room, p, b)?;
+            let (depth, _) = self.potential(room, q, time)?;
+            Some(Scalar::ln(sum / depth))
+        });
+        Some(found.flatten().unwrap_or(f64::NAN))
+    }
+
+    fn explain(&self, error: Error, q: &W) -> Error {
+        match (self.fault.take(), error) {
+            (Some((what, value)), Error::NonFinite { step, .. }) => Error::LogarithmicDomain {
+                time: parted(q).1,
+                step,
+                what,
+                value,
+            },
+            (_, error) => error,
+        }
+    }
+}
+
+impl<S: Hamiltonian<Class = Separable> + Clone> Clone for Logarithmic<S> {
+    fn clone(&self) -> Self {
+        Self::new(self.system.clone())
+    }
+}
+
+impl<S: Hamiltonian<Class = Separable> + fmt::Debug> fmt::Debug for Logarithmic<S> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut structure = formatter.debug_struct("Logarithmic");
+        structure
+            .field("system", &self.system)
+            .finish_non_exhaustive()
+    }
+}

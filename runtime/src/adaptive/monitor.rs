@@ -1,0 +1,239 @@
+//! How long steps are where the positions are q.
+
+use crate::number::hyper_dual::HyperDual;
+use crate::number::{Scalar, Vector};
+
+/// A monitor σ(q) > 0: steps are as long as `σ(q)` says, in units of the ε that a run is given.
+///
+/// It is small where the motion is fast: `|q|^{3/2}` for a Kepler orbit, as Kepler's third law has it. The positions are given
+/// as a slice, so that one monitor serves vectors of every type. It is written once, for every [`Scalar`]: dual numbers give its
+/// derivatives. As everywhere in code for every scalar, no value decides which way to go.
+///
+/// ```
+/// use symplectic::Scalar;
+/// use symplectic::adaptive::Monitor;
+///
+/// /// Short steps near the wall x = 0.
+/// struct NearWall;
+///
+/// impl Monitor for NearWall {
+///     fn value<T: Scalar>(&self, q: &[T]) -> T {
+///         (q[0] * q[0] + T::from_f64(0.01)).sqrt()
+///     }
+/// }
+///
+/// assert!((NearWall.value(&[0.0_f64]) - 0.1).abs() < 1e-15);
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a monitor of step sizes",
+    note = "take `DistancePower` or `PairDistances`, or implement `Monitor` with `fn value<T: Scalar>(&self, q: &[T]) -> T`"
+)]
+pub trait Monitor {
+    /// σ(q). It must be finite and positive wherever the motion goes.
+    fn value<T: Scalar>(&self, q: &[T]) -> T;
+
+    /// Writes `∇ ln σ = ∇σ/σ`, as many components as `q` has, and returns `true`; `false` leaves it to dual numbers. Worth writing
+    /// out where it is cheaper than σ itself.
+    fn logarithmic_gradient(&self, _q: &[f64], _gradient: &mut [f64]) -> bool {
+        false
+    }
+}
+
+impl<W: Monitor + ?Sized> Monitor for &W {
+    fn value<T: Scalar>(&self, q: &[T]) -> T {
+        (**self).value(q)
+    }
+
+    fn logarithmic_gradient(&self, q: &[f64], gradient: &mut [f64]) -> bool {
+        (**self).logarithmic_gradient(q, gradient)
+    }
+}
+
+/// The monitor `σ = |q|^α`, for motion about a centre.
+///
+/// `α = 3/2` gives steps in proportion to the time of free fall to the centre, the choice for Kepler orbits of high eccentricity.
+///
+/// ```
+/// use symplectic::adaptive::{DistancePower, Monitor};
+///
+/// assert!((DistancePower(1.5).value(&[0.0, 4.0_f64]) - 8.0).abs() < 1e-14);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DistancePower(
+    /// The exponent α.
+    pub f64,
+);
+
+impl Monitor for DistancePower {
+    fn value<T: Scalar>(&self, q: &[T]) -> T {
+        power(square(q), 0.5 * self.0)
+    }
+
+    /// `α q/|q|²`
+    fn logarithmic_gradient(&self, q: &[f64], gradient: &mut [f64]) -> bool {
+        let factor = self.0 / square(q);
+        for (gradient, q) in gradient.iter_mut().zip(q) {
+            *gradient = factor * q;
+        }
+        true
+    }
+}
+
+/// A smooth monitor for bodies that meet: about the power α of the least distance of two of them,
+///
+/// ```text
+/// σ = (Σ_{i<j} |q_i − q_j|^{−2m})^{−α/(2m)}
+/// ```
+///
+/// `q` holds the bodies one after the other, with as many components each as space has dimensions; components left over do not count. With a larger m the sum follows
+/// the least distance more closely.
+///
+/// ```
+/// use symplectic::adaptive::{Monitor, PairDistances};
+///
+/// // Three bodies in the plane.
+/// let monitor = PairDistances { dimensions: 2, sharpness: 2, exponent: 1.5 };
+/// let least = 0.25_f64;
+/// let found = monitor.value(&[0.0, 0.0, least, 0.0, 3.0, 4.0]);
+/// assert!((found / least.powf(1.5) - 1.0).abs() < 1e-3);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairDistances {
+    /// Components of a body: 2 in the plane, 3 in space.
+    pub dimensions: usize,
+    /// m
+    pub sharpness: u16,
+    /// α
+    pub exponent: f64,
+}
+
+impl PairDistances {
+    /// Shows `see` the pairs of bodies, by the places of their first components, with the square of their distance and its −m-th power.
+    fn pairs<T: Scalar>(&self, q: &[T], mut see: impl FnMut(usize, usize, T, T)) {
+        let dimensions = self.dimensions.max(1);
+        let places = || (0..q.len() / dimensions).map(|body| body * dimensions);
+        let body = |place: usize| q[place..].iter().take(self.dimensions);
+        for i in places() {
+            for j in places().take_while(|&j| j < i) {
+                let differences = body(i).zip(body(j)).map(|(&a, &b)| a - b);
+                let square = differences.fold(T::zero(), |sum, d| sum + d * d);
+                see(i, j, square, square.powi(-i32::from(self.sharpness)));
+            }
+        }
+    }
+}
+
+impl Monitor for PairDistances {
+    fn value<T: Scalar>(&self, q: &[T]) -> T {
+        let mut sum = T::zero();
+        self.pairs(q, |_, _, _, term| sum += term);
+        power(sum, -0.5 * self.exponent / f64::from(self.sharpness))
+    }
+
+    /// `α Σ_j r_ij^{−2m−2} (q_i − q_j) / Σ r^{−2m}` for the body i.
+    fn logarithmic_gradient(&self, q: &[f64], gradient: &mut [f64]) -> bool {
+        gradient.fill(0.0);
+        let mut sum = 0.0;
+        self.pairs(q, |i, j, square, term| {
+            sum += term;
+            for k in 0..self.dimensions {
+                let part = term / square * (q[i + k] - q[j + k]);
+                gradient[i + k] += part;
+                gradient[j + k] -= part;
+            }
+        });
+        for component in gradient {
+            *component *= self.exponent / sum;
+        }
+        true
+    }
+}
+
+/// Σ x²
+fn square<T: Scalar>(x: &[T]) -> T {
+    x.iter().fold(T::zero(), |sum, &x| sum + x * x)
+}
+
+/// `x^exponent` for x > 0.
+fn power<T: Scalar>(x: T, exponent: f64) -> T {
+    (x.ln() * T::from_f64(exponent)).exp()
+}
+
+/// The value of a monitor at a position; an error, with the value, where it is not finite and positive.
+pub(super) fn value_at<W: Monitor, V: Vector<Scalar = f64>>(
+    monitor: &W,
+    q: &V,
+) -> Result<f64, f64> {
+    let value = monitor.value(q.as_slice());
+    // Nor may 1/σ overflow.
+    let sound = value > 0.0 && value.is_finite() && value.recip().is_finite();
+    if sound { Ok(value) } else { Err(value) }
+}
+
+/// Room for the derivatives of a monitor.
+#[derive(Clone, Debug)]
+pub(super) struct Slopes<V: Vector> {
+    gradient: V,
+    duals: V::With<HyperDual>,
+}
+
+impl<V: Vector<Scalar = f64>> Slopes<V> {
+    pub(super) fn like(prototype: &V) -> Self {
+        Self {
+            gradient: prototype.zeros_like(),
+            duals: prototype.zeros_with(),
+        }
+    }
+
+    /// `∇ ln σ · direction`; NaN where σ is seen not to be positive.
+    pub(super) fn along<W: Monitor>(&mut self, monitor: &W, q: &V, direction: &V) -> f64 {
+        let (q, direction) = (q.as_slice(), direction.as_slice());
+        let gradient = self.gradient.as_mut_slice();
+        if monitor.logarithmic_gradient(q, gradient) {
+            let products = gradient.iter().zip(direction).map(|(g, d)| g * d);
+            return products.fold(0.0, |sum, product| sum + product);
+        }
+        let duals = self.duals.as_mut_slice();
+        for ((dual, &value), &first) in duals.iter_mut().zip(q).zip(direction) {
+            *dual = HyperDual {
+                first,
+                ..HyperDual::from_f64(value)
+            };
+        }
+        let found = monitor.value(duals);
+        if found.value > 0.0 {
+            found.first / found.value
+        } else {
+            f64::NAN
+        }
+    }
+
+    /// `∇ ln σ`
+    #[cfg(feature = "alloc")]
+    pub(super) fn gradient<W: Monitor>(&mut self, monitor: &W, q: &V) -> &V {
+        let q = q.as_slice();
+        let gradient = self.gradient.as_mut_slice();
+        if !monitor.logarithmic_gradient(q, gradient) {
+            let duals = self.duals.as_mut_slice();
+            for (dual, &value) in duals.iter_mut().zip(q) {
+                *dual = HyperDual::from_f64(value);
+            }
+            // Two components by one evaluation.
+            for (pair, gradient) in gradient.chunks_mut(2).enumerate() {
+                let seed = |duals: &mut [HyperDual], slope: f64| {
+                    duals[2 * pair].first = slope;
+                    if let Some(dual) = duals.get_mut(2 * pair + 1) {
+                        dual.second = slope;
+                    }
+                };
+                seed(duals, 1.0);
+                let found = monitor.value(duals);
+                seed(duals, 0.0);
+                for (gradient, slope) in gradient.iter_mut().zip([found.first, found.second]) {
+                    *gradient = slope / found.value;
+                }
+            }
+        }
+        &self.gradient
+    }
+}

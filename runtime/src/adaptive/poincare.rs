@@ -1,0 +1,245 @@
+//! Poincaré's transformation of time.
+
+use alloc::boxed::Box;
+use core::cell::Cell;
+use core::fmt;
+
+use super::extended::{Room, energy_of, extended, parted, parted_mut, reduced};
+use super::monitor::{Monitor, Slopes, value_at};
+use crate::error::Error;
+use crate::number::Vector;
+use crate::solver::FixedPoint;
+use crate::state::State;
+use crate::system::{Conservative, General, Hamiltonian, System};
+
+/// The Hamiltonian `K = σ(q)(H + p_t)` of Poincaré's transformation of time (Hairer 1997; Reich 1999), for any H and any [`Monitor`] σ, in a
+/// time τ of its own:
+///
+/// ```text
+/// dq/dτ = σ H_p      dt/dτ = σ      dp/dτ = −σ H_q − (H + p_t) ∇σ      dp_t/dτ = −σ H_t
+/// ```
+///
+/// $$ K = \sigma(q)\,(H(t, q, p) + p_t) \qquad p_t = -H(\text{start}) \qquad \frac{dt}{d\tau} = \sigma(q) $$
+///
+/// Positions are (q, t) and momenta (p, p_t). K is zero along the motion, on which its orbits are those of H; a step of size ε in τ takes
+/// about the time `ε σ(q)`. K is not separable, whatever H is: methods for [`General`] systems step it, such as `basis: polynomial(s),
+/// nodes: gauss(s)`, and they are symplectic in the extended phase space. The order in ε is that of the method.
+///
+/// The system must give its [energy](Hamiltonian::energy), which may depend on time. [`extend`](Self::extend) makes the start, for
+/// vectors of one component more than those of the system; [`reduce`](Self::reduce) gives back the state at time t.
+///
+/// ```
+/// use symplectic::adaptive::{DistancePower, Poincare};
+/// use symplectic::nalgebra::Vector3;
+/// use symplectic::{Error, Event, Integrator, State};
+///
+/// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
+/// symplectic::hamiltonian! {
+///     Kepler
+///     q: [x, y], p: [px, py];
+///     H = (px^2 + py^2)/2 - 1/sqrt(x^2 + y^2)
+/// }
+///
+/// # fn main() -> Result<(), Error> {
+/// // The pericentre of an orbit of eccentricity 0.9.
+/// let start = State::from_arrays(0.0, [0.1, 0.0], [0.0, 19_f64.sqrt()]);
+/// let poincare = Poincare::new(Kepler, DistancePower(1.5));
+/// let extended: State<Vector3<f64>> = poincare.extend(&start)?;
+/// let mut run = Integrator::new(Gauss3, poincare, extended, 0.1)?;
+/// // One period.
+/// let end = core::f64::consts::TAU;
+/// let arrival = Event::rising(|state: &State<Vector3<f64>>| state.q[2] - end).by_steps();
+/// let found = run.find_event(100.0, &arrival)?.expect("time goes on");
+/// let found = run.system().reduce(&found)?;
+/// assert!((found.q - start.q).norm() < 1e-4);
+/// # Ok(())
+/// # }
+/// ```
+///
+/// # Errors of steps
+///
+/// [`Error::Monitor`] where the monitor is not finite and positive. A force without a potential has no place in K; a system with an
+/// [applied force](Hamiltonian::applied_force) does not compile.
+pub struct Poincare<S: Hamiltonian, W> {
+    system: S,
+    monitor: W,
+    /// Where system and monitor are evaluated; there is none before the first time, and during it.
+    room: Cell<Option<Box<Rooms<S>>>>,
+    /// The value of the monitor that was not positive.
+    fault: Cell<Option<f64>>,
+}
+
+struct Rooms<S: Hamiltonian> {
+    of_system: Room<S>,
+    of_monitor: Slopes<S::Vector<f64>>,
+}
+
+impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
+    /// The transformed Hamiltonian of a system.
+    pub const fn new(system: S, monitor: W) -> Self {
+        const {
+            assert!(
+                !S::FORCED,
+                "a force without a potential has no place in a transformed Hamiltonian: take `Integrator::adaptive`"
+            );
+        }
+        Self {
+            system,
+            monitor,
+            room: Cell::new(None),
+            fault: Cell::new(None),
+        }
+    }
+
+    /// The extended state ((q, t), (p, p_t)) at τ = 0.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::NoEnergy`], [`Error::Monitor`]; [`Error::Length`] where the vectors do not
+    /// have one component more.
+    pub fn extend<V: Vector<Scalar = f64>>(
+        &self,
+        state: &State<S::Vector<f64>>,
+    ) -> Result<State<V>, Error> {
+        let energy = energy_of(&self.system, state)?;
+        value_at(&self.monitor, &state.q).map_err(Error::monitor_at(state.time))?;
+        extended(state, -energy)
+    }
+
+    /// The state (q, p) at time t of an extended one.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::Length`].
+    pub fn reduce<V: Vector<Scalar = f64>>(
+        &self,
+        state: &State<V>,
+    ) -> Result<State<S::Vector<f64>>, Error> {
+        reduced(state)
+    }
+
+    /// The system in its own time.
+    pub const fn system(&self) -> &S {
+        &self.system
+    }
+
+    /// The monitor.
+    pub const fn monitor(&self) -> &W {
+        &self.monitor
+    }
+
+    /// `look` with σ at a state, which is in the room; nothing where σ is not positive, or the system has another dimension.
+    fn at_state<T>(
+        &self,
+        (q, p): (&[f64], &[f64]),
+        look: impl FnOnce(f64, &mut Rooms<S>) -> T,
+    ) -> Option<T> {
+        let room = self.room.take();
+        let mut room = match room.filter(|room| room.of_system.q.dimension() == q.len()) {
+            Some(room) => room,
+            None => {
+                let of_system = Room::new(q.len()).ok()?;
+                let of_monitor = Slopes::like(&of_system.q);
+                Box::new(Rooms {
+                    of_system,
+                    of_monitor,
+                })
+            }
+        };
+        room.of_system.set_q(q);
+        room.of_system.set_p(p);
+        let value = value_at(&self.monitor, &room.of_system.q);
+        let seen = value.map(|value| look(value, &mut room));
+        self.room.set(Some(room));
+        // NaN comes of evaluations that failed before.
+        seen.map_err(|value| self.fault.set(Some(value).filter(|value| !value.is_nan())))
+            .ok()
+    }
+}
+
+impl<S, W, V> System<V> for Poincare<S, W>
+where
+    S: Hamiltonian<Class: Conservative>,
+    W: Monitor,
+    V: Vector<Scalar = f64>,
+{
+    type Class = General;
+    type Solver = FixedPoint;
+
+    fn velocity(&self, _time: f64, q: &V, p: &V, velocity: &mut V) {
+        let ((q, time), (p, _)) = (parted(q), parted(p));
+        let found = self.at_state((q, p), |monitor, room| {
+            let Room { q, p, slope, .. } = &mut room.of_system;
+            Hamiltonian::velocity(&self.system, time, q, p, slope);
+            let (out, last) = parted_mut(velocity)?;
+            for (out, v) in out.iter_mut().zip(slope.as_slice()) {
+                *out = monitor * v;
+            }
+            *last = monitor;
+            Some(())
+        });
+        if found.flatten().is_none() {
+            velocity.as_mut_slice().fill(f64::NAN);
+        }
+    }
+
+    fn force(&self, _time: f64, q: &V, p: &V, force: &mut V) {
+        let ((q, time), (p, momentum)) = (parted(q), parted(p));
+        let found = self.at_state((q, p), |monitor, room| {
+            let energy = room.of_system.energy(&self.system, time);
+            let Room { q, p, slope, .. } = &mut room.of_system;
+            let gradient = room.of_monitor.gradient(&self.monitor, q);
+            Hamiltonian::force(&self.system, time, q, p, slope);
+            let excess = energy.value + momentum;
+            let (out, last) = parted_mut(force)?;
+            let terms = slope.as_slice().iter().zip(gradient.as_slice());
+            for (out, (f, g)) in out.iter_mut().zip(terms) {
+                *out = monitor * (f - excess * g);
+            }
+            *last = -monitor * energy.first;
+            Some(())
+        });
+        if found.flatten().is_none() {
+            force.as_mut_slice().fill(f64::NAN);
+        }
+    }
+
+    /// K, which is zero along the motion.
+    fn energy(&self, _time: f64, q: &V, p: &V) -> Option<f64> {
+        let ((q, time), (p, momentum)) = (parted(q), parted(p));
+        let found = self.at_state((q, p), |monitor, room| {
+            let energy = room.of_system.energy(&self.system, time);
+            monitor * (energy.value + momentum)
+        });
+        Some(found.unwrap_or(f64::NAN))
+    }
+
+    fn explain(&self, error: Error, q: &V) -> Error {
+        match (self.fault.take(), error) {
+            (Some(value), Error::NonFinite { .. } | Error::NoConvergence { .. }) => {
+                Error::monitor_at(parted(q).1)(value)
+            }
+            (_, error) => error,
+        }
+    }
+}
+
+impl<S: Hamiltonian + Clone, W: Clone> Clone for Poincare<S, W> {
+    fn clone(&self) -> Self {
+        Self {
+            system: self.system.clone(),
+            monitor: self.monitor.clone(),
+            room: Cell::new(None),
+            fault: Cell::new(None),
+        }
+    }
+}
+
+impl<S: Hamiltonian + fmt::Debug, W: fmt::Debug> fmt::Debug for Poincare<S, W> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut structure = formatter.debug_struct("Poincare");
+        structure.field("system", &self.system);
+        structure.field("monitor", &self.monitor);
+        structure.finish_non_exhaustive()
+    }
+}

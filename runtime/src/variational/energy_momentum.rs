@@ -1,0 +1,293 @@
+//! Symplectic–energy–momentum steps.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use num_traits::Float;
+
+use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
+use super::failure::Failure;
+use super::regular::Factors;
+use crate::error::{Error, Quantity};
+use crate::integrator::validation::{check_state, check_step_size};
+use crate::number::Vector;
+use crate::state::State;
+
+/// Symplectic–energy–momentum steps of a [`DiscreteLagrangian`] that does not depend on time (Kane, Marsden & Ortiz 1999; Marsden & West
+/// 2001, 4.9): the step size is an unknown, and the discrete energy `E_d = −∂Ld/∂h` is the same in all steps.
+///
+/// ```text
+/// p0 = −D1 Ld(q0, q1, h)      E = −∂Ld/∂h (q0, q1, h)      p1 = D2 Ld(q0, q1, h)
+/// ```
+///
+/// $$ p_0 = -D_1 L_d(q_0, q_1, h) \qquad E = -\frac{\partial L_d}{\partial h}(q_0, q_1, h) \qquad p_1 = D_2 L_d(q_0, q_1, h) $$
+///
+/// The first step has the size that is given, and defines E. Newton's iteration with the exact matrix solves for q1 and h. The momentum
+/// maps of the symmetries of `Ld` are conserved as in steps of one size.
+///
+/// # Where there is no step
+///
+/// At a state with the energy H the discrete energy of a step of size h is `H − h²c + …`, with a curvature c of the orbit; for the
+/// midpoint rule `c = (p·M⁻¹∇²V M⁻¹p + ∇V·M⁻¹∇V)/8`. So `h ∝ c^{−1/2}`, and where c changes its sign no step conserves the energy:
+/// steps grow on the way there, and the run ends with [`Error::NoEnergyStep`]. A step is at most twice as long as the step before and
+/// at least half as long, so that another root of the equations is not taken for it. For a Lagrangian without time, steps of one size
+/// ([`VariationalIntegrator`](super::VariationalIntegrator)) go on where these end, as Marsden & West (4.9.3) advise.
+///
+/// The condition of the equations grows as `h⁻²`: E is conserved to rounding times that.
+///
+/// ```
+/// use symplectic::nalgebra::SVector;
+/// use symplectic::variational::{DiscreteLagrangian, EnergyMomentumIntegrator};
+/// use symplectic::{Scalar, State};
+///
+/// /// Kepler's problem, L = |v|²/2 + 1/|q|, by the midpoint rule.
+/// struct Kepler;
+///
+/// impl DiscreteLagrangian for Kepler {
+///     type Vector<T: Scalar> = SVector<T, 2>;
+///
+///     fn value<T: Scalar>(&self, _time: T, h: T, q0: &SVector<T, 2>, q1: &SVector<T, 2>) -> T {
+///         let half = T::from_f64(0.5);
+///         let (way, middle) = (q1 - q0, (q0 + q1) * half);
+///         half * way.dot(&way) / h + h * middle.dot(&middle).sqrt().recip()
+///     }
+/// }
+///
+/// # fn main() -> Result<(), symplectic::Error> {
+/// // The pericentre of an orbit of eccentricity 1/2: steps grow from here.
+/// let start = State::from_arrays(0.0, [0.5, 0.0], [0.0, 3_f64.sqrt()]);
+/// let mut run = EnergyMomentumIntegrator::new(Kepler, start, 0.01)?;
+/// for _ in 0..20 {
+///     run.step()?;
+/// }
+/// assert!(run.step_size() > 0.01);
+/// # Ok(())
+/// # }
+/// ```
+pub struct EnergyMomentumIntegrator<L: DiscreteLagrangian> {
+    lagrangian: L,
+    state: State<L::Vector<f64>>,
+    q1: L::Vector<f64>,
+    step_size: f64,
+    steps: u64,
+    energy: Option<f64>,
+    curvature: Option<f64>,
+    derivatives: Derivatives<L>,
+    /// By rows.
+    matrix: Vec<f64>,
+    /// The derivatives of `∂Ld/∂h` by q1 and h.
+    last_row: Vec<f64>,
+    factors: Factors,
+}
+
+/// Iterations after which Newton's iteration does not converge any more.
+const MAX_ITERATIONS: u32 = 40;
+
+/// The relative change of an iterate after which the next iterate is exact up to rounding.
+const LAST_CHANGE: f64 = 1e-9;
+
+/// The most by which a step is longer or shorter than the step before.
+const MOST_CHANGE: f64 = 2.0;
+
+impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
+    /// An integrator at `state`, with a first step of size `step_size`, negative to go backward.
+    ///
+    /// Does not compile for a Lagrangian with [`forces`](DiscreteLagrangian::FORCED), which change the energy.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`].
+    pub fn new(lagrangian: L, state: State<L::Vector<f64>>, step_size: f64) -> Result<Self, Error> {
+        const {
+            assert!(
+                !L::FORCED,
+                "forces change the energy: take a `VariationalIntegrator`"
+            );
+        }
+        check_step_size(step_size)?;
+        let n = state.q.dimension();
+        check_state(state.time, &state.q, &state.p, n)?;
+        Ok(Self {
+            lagrangian,
+            q1: state.q.clone(),
+            step_size,
+            steps: 0,
+            energy: None,
+            curvature: None,
+            derivatives: Derivatives::new(&state.q)?,
+            matrix: vec![0.0; (n + 1) * (n + 1)],
+            last_row: vec![0.0; n + 1],
+            factors: Factors::new(n + 1),
+            state,
+        })
+    }
+
+    /// Takes one step and returns the state after it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoEnergyStep`] where no step conserves the discrete energy, as far as Newton's iteration tells;
+    /// [`Error::NoEndOfStep`], [`Error::IrregularLagrangian`], [`Error::NonFinite`] where a step of the size of the step before has no end;
+    /// [`Error::TimeResolution`]. The state is untouched.
+    pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
+        let (time, before) = (self.state.time, self.step_size);
+        // The end of a step of the size before, and then that of a step with the energy.
+        self.q1
+            .as_mut_slice()
+            .copy_from_slice(self.state.q.as_slice());
+        let fixed = self.solve(before, None);
+        fixed.map_err(|failure| self.error(failure))?;
+        let curvature = self.slope_of_energy() / (-2.0 * before);
+        let size = match self.energy {
+            None => before,
+            Some(energy) => self
+                .solve(before, Some(energy))
+                .map_err(|_| Error::NoEnergyStep {
+                    time,
+                    step_size: before,
+                    step: self.steps + 1,
+                    curvature,
+                })?,
+        };
+        let end = time + size;
+        if end == time {
+            return Err(Error::TimeResolution {
+                time,
+                step_size: size,
+            });
+        }
+        let energy = self.evaluate(size);
+        let at = At {
+            time,
+            size,
+            q0: &self.state.q,
+            q1: &self.q1,
+        };
+        self.derivatives.first(&self.lagrangian, at);
+        if !(self.derivatives.is_finite() && energy.is_finite()) {
+            return Err(self.error(Failure::NonFinite { stage: None }));
+        }
+        let Derivatives {
+            start, end: last, ..
+        } = &self.derivatives;
+        let momenta = self.state.p.as_mut_slice().iter_mut();
+        for (p, (start, last)) in momenta.zip(start.iter().zip(last)) {
+            *p += start + last;
+        }
+        core::mem::swap(&mut self.state.q, &mut self.q1);
+        self.state.time = end;
+        self.energy.get_or_insert(energy);
+        (self.step_size, self.curvature) = (size, Some(curvature));
+        self.steps += 1;
+        Ok(&self.state)
+    }
+
+    /// The present state.
+    pub const fn state(&self) -> &State<L::Vector<f64>> {
+        &self.state
+    }
+
+    /// The size of the last step; before the first step, its size.
+    pub const fn step_size(&self) -> f64 {
+        self.step_size
+    }
+
+    /// The discrete energy E of all steps; `None` before the first one.
+    pub const fn discrete_energy(&self) -> Option<f64> {
+        self.energy
+    }
+
+    /// The curvature c at the start of the last step, from the slope of the discrete energy by the step size: `−dE_d/dh / (2h)`. Where it
+    /// comes near zero, the run is about to end. `None` before the first step.
+    pub const fn curvature(&self) -> Option<f64> {
+        self.curvature
+    }
+
+    /// Steps taken.
+    pub const fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Newton's iteration for q1, and for the step size if there is an energy; from the q1 that is there.
+    fn solve(&mut self, before: f64, energy: Option<f64>) -> Result<f64, Failure> {
+        let n = self.q1.dimension();
+        let (mut size, mut residual) = (before, f64::INFINITY);
+        for _ in 0..MAX_ITERATIONS {
+            let found = self.evaluate(size);
+            if !(self.derivatives.is_finite() && found.is_finite()) {
+                return Err(Failure::NonFinite { stage: None });
+            }
+            let matrix = &mut self.matrix;
+            let missing = energy.map(|energy| found - energy);
+            if missing.is_none() {
+                // The last equation is that the size stays.
+                matrix[n * (n + 1)..].fill(0.0);
+                matrix[n * (n + 1) + n] = 1.0;
+            }
+            self.factors.factor(matrix).map_err(Failure::Singular)?;
+            let pairs = self.state.p.as_slice().iter().zip(&self.derivatives.start);
+            let right = pairs.map(|(p, start)| -(p + start));
+            let changes = self.factors.solve(right.chain([missing.unwrap_or(0.0)]));
+            let (mut changed, mut way) = (0.0_f64, 0.0_f64);
+            let ends = self
+                .q1
+                .as_mut_slice()
+                .iter_mut()
+                .zip(self.state.q.as_slice());
+            for (&change, (q1, q0)) in changes.iter().zip(ends) {
+                *q1 += change;
+                changed = changed.max(Float::abs(change));
+                way = way
+                    .max(Float::abs(*q1 - q0))
+                    .max(Float::abs(*q1) * f64::EPSILON);
+            }
+            size += changes[n];
+            residual = (changed / way).max(Float::abs(changes[n] / size));
+            let ratio = size / before;
+            if !(1.0 / MOST_CHANGE..=MOST_CHANGE).contains(&ratio) {
+                break;
+            }
+            if residual <= LAST_CHANGE {
+                return Ok(size);
+            }
+        }
+        Err(Failure::NotFound {
+            residual,
+            iterations: MAX_ITERATIONS,
+        })
+    }
+
+    /// Evaluates all derivatives for a step of this size, and returns `E_d = −∂Ld/∂h`.
+    fn evaluate(&mut self, size: f64) -> f64 {
+        let at = At {
+            time: self.state.time,
+            size,
+            q0: &self.state.q,
+            q1: &self.q1,
+        };
+        let slope = self
+            .derivatives
+            .by_size(&self.lagrangian, at, &mut self.matrix);
+        let n = self.q1.dimension();
+        self.last_row.copy_from_slice(&self.matrix[n * (n + 1)..]);
+        -slope
+    }
+
+    /// `dE_d/dh` along the ends of steps of all sizes, where the iteration for one size has just ended.
+    fn slope_of_energy(&mut self) -> f64 {
+        let n = self.q1.dimension();
+        let right = (0..=n).map(|k| if k == n { 1.0 } else { 0.0 });
+        let ends = self.factors.solve(right);
+        let products = self
+            .last_row
+            .iter()
+            .zip(ends)
+            .map(|(slope, end)| slope * end);
+        -products.fold(0.0, |sum, product| sum + product)
+    }
+
+    fn error(&self, failure: Failure) -> Error {
+        let what = Quantity::DiscreteLagrangian;
+        failure.error(what, self.state.time, self.step_size, self.steps + 1)
+    }
+}
