@@ -196,7 +196,9 @@ class Nodes:
 
     def __init__(self, exact):
         m = [Fraction(x) for x in exact["node_polynomial"]]
-        demand(len(m) > 1 and m[-1] != 0, "a node polynomial")
+        # Whole coefficients without a common factor, so that each method has one polynomial.
+        whole = all(x.denominator == 1 for x in m) and math.gcd(*(x.numerator for x in m)) == 1
+        demand(len(m) > 1 and m[-1] > 0 and whole, "a primitive node polynomial")
         self.m = [x / m[-1] for x in m]
         self.s = len(m) - 1
         # Sums of powers of the nodes, by Newton's identities.
