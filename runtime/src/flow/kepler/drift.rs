@@ -29,7 +29,7 @@ use crate::number::{F64x4, Lanes, Vector};
 /// # Errors
 ///
 /// [`FlowError::AtCentre`] where a body starts or ends at the centre, [`FlowError::Periods`], [`FlowError::NoOrbit`] where its end
-/// overflows, [`FlowError::Dimension`].
+/// overflows or loses half of its digits, [`FlowError::Dimension`].
 ///
 /// ```
 /// use symplectic::flow::kepler::KeplerDrift;
