@@ -71,7 +71,7 @@ pub enum FlowError {
         body: usize,
     },
 
-    /// A flow of yours cannot be taken.
+    /// A flow cannot be taken, for a reason of its own: also for flows of yours.
     #[error("{reason}")]
     Other {
         /// Why, and what to do.

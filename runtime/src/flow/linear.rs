@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 use num_traits::Float;
 
-use super::{Flow, FlowError, Span, check_dimension, check_parameter};
+use super::{Flow, FlowError, Span, check_count, check_dimension, check_parameter};
 use crate::error::{Error, Quantity};
 use crate::number::Vector;
 
@@ -54,15 +54,15 @@ impl Linear {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] for a matrix that is not square, or of an odd number of rows; [`Error::FlowParameter`] for an entry that is not finite.
+    /// [`Error::FlowParameter`] for a matrix that is not square, or of an odd number of rows, and for an entry that is not finite.
     pub fn new(matrix: &DMatrix<f64>) -> Result<Self, Error> {
         let (size, columns) = matrix.shape();
-        if size != columns || size % 2 != 0 {
-            return Err(Error::Dimension {
-                position: size,
-                momentum: columns,
-            });
-        }
+        check_count(
+            "number of rows of the matrix",
+            size,
+            size == columns && size % 2 == 0,
+            "even, and the number of columns",
+        )?;
         let entries: Vec<f64> = matrix.transpose().iter().copied().collect();
         for (index, &value) in entries.iter().enumerate() {
             check_parameter("entry of the matrix", index, value.abs(), true)?;
@@ -82,12 +82,12 @@ impl Linear {
     /// Those of [`new`](Self::new); [`Error::FlowParameter`] for a mass that is not finite and positive.
     pub fn oscillators(masses: &[f64], stiffness: &DMatrix<f64>) -> Result<Self, Error> {
         let n = masses.len();
-        if stiffness.shape() != (n, n) {
-            return Err(Error::Dimension {
-                position: stiffness.nrows(),
-                momentum: n,
-            });
-        }
+        check_count(
+            "number of masses",
+            n,
+            stiffness.shape() == (n, n),
+            "that of the rows and of the columns of the stiffness",
+        )?;
         for (index, &mass) in masses.iter().enumerate() {
             check_parameter("mass", index, mass, false)?;
         }
@@ -107,8 +107,8 @@ impl Linear {
         let n = self.size;
         let column = |j: usize| (0..n).map(|i| self.matrix[i * n + j].abs()).sum::<f64>();
         let norm = (0..n).map(column).fold(0.0, f64::max) * h.abs();
-        // What is not finite neither.
-        if !(norm * n as f64 * f64::EPSILON <= LARGEST_ERROR) {
+        let error = norm * n as f64 * f64::EPSILON;
+        if error.is_nan() || error > LARGEST_ERROR {
             return Err(FlowError::Other {
                 reason: "the step is so long that less than three digits of the linear flow are known; take a smaller step",
             });

@@ -156,6 +156,24 @@ fn check_parameter(
     })
 }
 
+/// Checks a number of rows, of components and the like.
+fn check_count(
+    what: &'static str,
+    count: usize,
+    right: bool,
+    range: &'static str,
+) -> Result<(), Error> {
+    if right {
+        return Ok(());
+    }
+    Err(Error::FlowParameter {
+        what,
+        index: 0,
+        value: count as f64,
+        range,
+    })
+}
+
 /// Checks that a state has as many components as a flow is for.
 fn check_dimension<V: Vector>(expected: usize, q: &V) -> Result<(), FlowError> {
     let found = q.dimension();

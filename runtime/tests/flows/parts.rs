@@ -68,7 +68,7 @@ fn a_linear_system_may_grow_and_be_stiff() {
     assert_eq!((q[0], p[0]), (1.0, 0.0));
     assert!(matches!(
         Linear::new(&DMatrix::zeros(3, 3)),
-        Err(Error::Dimension { .. })
+        Err(Error::FlowParameter { value: 3.0, .. })
     ));
     let entry = DMatrix::from_element(2, 2, f64::NAN);
     assert!(matches!(
