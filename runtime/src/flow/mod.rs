@@ -157,6 +157,7 @@ fn check_parameter(
 }
 
 /// Checks a number of rows, of components and the like.
+#[cfg(feature = "alloc")]
 fn check_count(
     what: &'static str,
     count: usize,
