@@ -627,7 +627,7 @@ pub enum Error {
     },
 
     /// A parameter of a flow is not finite, or out of its range.
-    #[error("the {what} with number {index} is {value}; it must be {range}")]
+    #[error("the {what} (index {index}) is {value}; it must be {range}")]
     FlowParameter {
         /// What it is.
         what: &'static str,

@@ -62,14 +62,16 @@ pub enum FlowError {
         periods: f64,
     },
 
-    /// The end of a Kepler orbit was not found, or is not finite.
-    #[error("the end of the orbit of body {body} is not finite; take a smaller step")]
+    /// The end of a Kepler orbit is not finite, or less than half of the digits of its distance are left.
+    #[error(
+        "the end of the orbit of body {body} is not finite, or known to less than half of its digits; take a smaller step"
+    )]
     NoOrbit {
         /// The body, from 0.
         body: usize,
     },
 
-    /// A flow of yours cannot be taken.
+    /// A flow cannot be taken, for a reason of its own: also for flows of yours.
     #[error("{reason}")]
     Other {
         /// Why, and what to do.

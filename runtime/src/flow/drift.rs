@@ -1,12 +1,14 @@
 //! A drift by the velocity of a system.
 
-use super::kick::add;
+use super::kick::{add, room};
 use super::{Flow, FlowError, Span};
 use crate::error::Quantity;
 use crate::number::Vector;
 use crate::system::{Separable, System};
 
-/// The flow of the kinetic energy of a separable system: `q ← q + h velocity(t, p)`.
+/// The flow of the kinetic energy of a separable system: `q ← q + h velocity(t, p)`, with t in the [middle](Span::middle) of the span.
+///
+/// It is exact if the velocity does not depend on time, and of order 2 otherwise.
 ///
 /// ```
 /// use symplectic::flow::{Drift, Flow, FlowError, Span};
@@ -41,8 +43,8 @@ impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Flow<V> for Drift
         if S::UNIT_MASSES {
             return add(Quantity::Velocity, span.size, p, q);
         }
-        let velocity = self.velocity.get_or_insert_with(|| q.zeros_like());
-        self.system.velocity(span.time, q, p, velocity);
+        let velocity = room(&mut self.velocity, q, p)?;
+        self.system.velocity(span.middle(), q, p, velocity);
         add(Quantity::Velocity, span.size, velocity, q)
     }
 }

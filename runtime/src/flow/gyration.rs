@@ -6,7 +6,8 @@ use super::{Flow, FlowError, Span};
 use crate::error::Quantity;
 use crate::number::{Scalar, Vector};
 
-/// Particles in space turned by a magnetic field: `v' = v × B(t, q)` at a fixed position, `B` in units of mass over charge.
+/// Particles in space turned by a magnetic field: `v' = v × B(t, q)` at a fixed position, `B` in units of mass over charge, at the time in the
+/// [middle](Span::middle) of the span.
 ///
 /// The velocity of each particle, three components of `p`, turns about `B(t, q)` by the angle `−h|B|`, exactly, by Rodrigues' formula. Its length
 /// stays, and so does the volume in phase space, for any field: the map is a rotation of `v` that depends on `q` only. With a
@@ -36,7 +37,7 @@ impl<F: Fn(f64, &Vector3<f64>) -> Vector3<f64>> Gyration<F> {
 
     /// The rotation of a velocity.
     fn turned(&self, span: Span, q: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
-        let angle = (self.field)(span.time, q) * -span.size;
+        let angle = (self.field)(span.middle(), q) * -span.size;
         let (size, half) = (Scalar::sqrt(angle.dot(&angle)), 0.5);
         if size == 0.0 {
             return *v;

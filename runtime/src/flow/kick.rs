@@ -6,7 +6,7 @@ use crate::method::storage::is_finite;
 use crate::number::Vector;
 use crate::system::{Separable, System};
 
-/// The flow of the potential of a separable system: `p ← p + h force(t, q)`.
+/// The flow of the potential of a separable system: `p ← p + h force(t, q)`, with t in the [middle](Span::middle) of the span.
 ///
 /// ```
 /// use symplectic::flow::{Flow, FlowError, Kick, Span};
@@ -37,10 +37,27 @@ impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Kick<S, V> {
 
 impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Flow<V> for Kick<S, V> {
     fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
-        let force = self.force.get_or_insert_with(|| p.zeros_like());
-        self.system.force(span.time, q, p, force);
+        let force = room(&mut self.force, q, p)?;
+        self.system.force(span.middle(), q, p, force);
         add(Quantity::Force, span.size, force, p)
     }
+}
+
+/// Room for a slope, of as many components as the state now has.
+pub(super) fn room<'a, V: Vector>(
+    kept: &'a mut Option<V>,
+    q: &V,
+    p: &V,
+) -> Result<&'a mut V, FlowError> {
+    let dimension = q.dimension();
+    super::check_dimension(dimension, p)?;
+    if kept
+        .as_ref()
+        .is_some_and(|kept| kept.dimension() != dimension)
+    {
+        *kept = None;
+    }
+    Ok(kept.get_or_insert_with(|| q.zeros_like()))
 }
 
 /// Adds `size · slope` to a vector of as many components.

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 use num_traits::Float;
 
-use super::{Flow, FlowError, Span, check_dimension, check_parameter};
+use super::{Flow, FlowError, Span, check_count, check_dimension, check_parameter};
 use crate::error::{Error, Quantity};
 use crate::number::Vector;
 
@@ -14,7 +14,8 @@ use crate::number::Vector;
 ///
 /// `e^{hA} − 1` is computed once for every duration h, of which a method has a few: `2^{−s} hA` is brought below 1/2 in the norm of the largest
 /// column sum, the exponential series is summed to the power 15 (the rest is below 10⁻¹⁸), and `(1 + E)² − 1 = 2E + E²` is applied s times (Moler &
-/// Van Loan, *SIAM Rev.* 45, 2003, method 3). The relative error is about `nε(1 + ‖hA‖)` where `e^{hA}` is bounded, and so is the deviation from symplecticity.
+/// Van Loan, *SIAM Rev.* 45, 2003, method 3). The relative error is about `nε(1 + ‖hA‖)` where `e^{hA}` is bounded, and so is the deviation from symplecticity;
+/// from 1/1000 on the flow fails with [`FlowError::Other`], and where `e^{hA}` overflows with [`FlowError::NonFinite`].
 /// The first flow of a new duration allocates; up to 64 are kept.
 ///
 /// ```
@@ -42,6 +43,9 @@ pub struct Linear {
 /// Durations that are kept.
 const MOST: usize = 64;
 
+/// The relative error of an exponential that is too large.
+const LARGEST_ERROR: f64 = 1e-3;
+
 /// The highest power of the exponential series.
 const POWERS: u32 = 15;
 
@@ -50,15 +54,15 @@ impl Linear {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] for a matrix that is not square, or of an odd number of rows; [`Error::FlowParameter`] for an entry that is not finite.
+    /// [`Error::FlowParameter`] for a matrix that is not square, or of an odd number of rows, and for an entry that is not finite.
     pub fn new(matrix: &DMatrix<f64>) -> Result<Self, Error> {
         let (size, columns) = matrix.shape();
-        if size != columns || size % 2 != 0 {
-            return Err(Error::Dimension {
-                position: size,
-                momentum: columns,
-            });
-        }
+        check_count(
+            "number of rows of the matrix",
+            size,
+            size == columns && size % 2 == 0,
+            "even, and the number of columns",
+        )?;
         let entries: Vec<f64> = matrix.transpose().iter().copied().collect();
         for (index, &value) in entries.iter().enumerate() {
             check_parameter("entry of the matrix", index, value.abs(), true)?;
@@ -78,12 +82,12 @@ impl Linear {
     /// Those of [`new`](Self::new); [`Error::FlowParameter`] for a mass that is not finite and positive.
     pub fn oscillators(masses: &[f64], stiffness: &DMatrix<f64>) -> Result<Self, Error> {
         let n = masses.len();
-        if stiffness.shape() != (n, n) {
-            return Err(Error::Dimension {
-                position: stiffness.nrows(),
-                momentum: n,
-            });
-        }
+        check_count(
+            "number of masses",
+            n,
+            stiffness.shape() == (n, n),
+            "that of the rows and of the columns of the stiffness",
+        )?;
         for (index, &mass) in masses.iter().enumerate() {
             check_parameter("mass", index, mass, false)?;
         }
@@ -99,12 +103,15 @@ impl Linear {
     }
 
     /// `e^{hA} − 1`.
-    fn exponential(&self, h: f64) -> Option<Vec<f64>> {
+    fn exponential(&self, h: f64) -> Result<Vec<f64>, FlowError> {
         let n = self.size;
         let column = |j: usize| (0..n).map(|i| self.matrix[i * n + j].abs()).sum::<f64>();
         let norm = (0..n).map(column).fold(0.0, f64::max) * h.abs();
-        if !norm.is_finite() {
-            return None;
+        let error = norm * n as f64 * f64::EPSILON;
+        if error.is_nan() || error > LARGEST_ERROR {
+            return Err(FlowError::Other {
+                reason: "the step is so long that less than three digits of the linear flow are known; take a smaller step",
+            });
         }
         let (mut scale, mut squarings) = (1.0, 0);
         while norm * scale > 0.5 {
@@ -125,21 +132,22 @@ impl Linear {
                 .zip(square)
                 .for_each(|(e, square)| *e = 2.0 * *e + square);
         }
-        sum.iter().all(|e| Float::is_finite(*e)).then_some(sum)
+        let what = Quantity::Derivative;
+        let finite = sum.iter().all(|e| Float::is_finite(*e));
+        finite.then_some(sum).ok_or(FlowError::NonFinite { what })
     }
 
     /// The place of `e^{hA} − 1` among those that are kept.
-    fn place(&mut self, h: f64) -> Option<usize> {
-        let found = self.exponentials.iter().position(|(size, _)| *size == h);
-        if found.is_some() {
-            return found;
+    fn place(&mut self, h: f64) -> Result<usize, FlowError> {
+        if let Some(found) = self.exponentials.iter().position(|(size, _)| *size == h) {
+            return Ok(found);
         }
         let exponential = self.exponential(h)?;
         if self.exponentials.len() == MOST {
             self.exponentials.clear();
         }
         self.exponentials.push((h, exponential));
-        Some(self.exponentials.len() - 1)
+        Ok(self.exponentials.len() - 1)
     }
 }
 
@@ -160,8 +168,7 @@ impl<V: Vector<Scalar = f64>> Flow<V> for Linear {
         if n == 0 {
             return Ok(());
         }
-        let what = Quantity::Derivative;
-        let place = self.place(span.size).ok_or(FlowError::NonFinite { what })?;
+        let place = self.place(span.size)?;
         let (q, p) = (q.as_mut_slice(), p.as_mut_slice());
         self.state[..n].copy_from_slice(q);
         self.state[n..].copy_from_slice(p);

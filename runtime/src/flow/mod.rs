@@ -25,9 +25,13 @@
 //!
 //! # Time
 //!
-//! The first part, in the place of the drift, carries the time: its flows follow one another from the start of the step to its end. The
-//! second one is taken at the time that the first one has reached. So `B(t)` may depend on time, as a kick by `U(t, q)` does; a flow of a
-//! part `A(t)` has to be that of the system with time.
+//! A flow is given a [`Span`] of time. A part that depends on time is taken at the [middle](Span::middle) of the span: by [`Kick`], [`Drift`] and
+//! [`Gyration`], and so it should be by a flow of your own.
+//!
+//! The first part, in the place of the drift, carries the time: its spans follow one another from the start of the step to its end. A span of
+//! the second part has its middle at the time that the first one has reached. If only the second part depends on time, as a kick by
+//! `U(t, q)` does, the order is that of the method. If other parts do, the order of a [`Splitting`] is 2 in general; that of a
+//! composition of Verlet steps stays, as in [`Composed`].
 //!
 //! ```
 //! use symplectic::flow::{Drift, FlowIntegrator, Kick, Splitting};
@@ -99,7 +103,8 @@ use crate::number::Vector;
 /// }
 /// ```
 pub trait Flow<V: Vector> {
-    /// Takes position and momentum along, for `span.size`, which may be negative.
+    /// Takes position and momentum along, for `span.size`, which may be negative. What depends on time is taken at
+    /// [`span.middle()`](Span::middle).
     ///
     /// # Errors
     ///
@@ -147,6 +152,25 @@ fn check_parameter(
         what,
         index,
         value,
+        range,
+    })
+}
+
+/// Checks a number of rows, of components and the like.
+#[cfg(feature = "alloc")]
+fn check_count(
+    what: &'static str,
+    count: usize,
+    right: bool,
+    range: &'static str,
+) -> Result<(), Error> {
+    if right {
+        return Ok(());
+    }
+    Err(Error::FlowParameter {
+        what,
+        index: 0,
+        value: count as f64,
         range,
     })
 }

@@ -16,6 +16,7 @@ use crate::number::{Scalar, Vector};
 ///
 /// The random numbers are those of a counter, Philox-4×32-10: they depend on the seed, the number of the [draw](Self::draws) and the component
 /// only, and are the same on every machine. Every flow takes a draw, also one of a step that fails in another flow.
+/// Several baths in one step need different seeds.
 ///
 /// ```
 /// symplectic::tableau! { Verlet { base: velocity-verlet } }

@@ -6,8 +6,8 @@ use crate::number::Vector;
 /// `A(h/2) B(h) A(h/2)`: symmetric, of order 2 (Strang 1968).
 ///
 /// `B` may be a palindrome again: `Palindrome::new(a, Palindrome::new(b, c))` is `A/2 B/2 C B/2 A/2`, and so on for any number of
-/// parts. [`Composed`](super::Composed) raises the order. The inner flow carries the time; the outer one is taken at the start and at the end of the
-/// step, and the two that meet where steps meet in [`flow_through`](Flow::flow_through) are one.
+/// parts. [`Composed`](super::Composed) raises the order. The inner flow carries the time; the outer one is taken about the start and about the end of
+/// the step, and the two that meet where steps meet in [`flow_through`](Flow::flow_through) are one.
 ///
 /// ```
 /// use symplectic::flow::{Damping, Drift, FlowIntegrator, Kick, Palindrome};
@@ -49,23 +49,20 @@ impl<V: Vector, A: Flow<V>, B: Flow<V>> Flow<V> for Palindrome<A, B> {
         q: &mut V,
         p: &mut V,
     ) -> Result<(), FlowError> {
-        let mut waiting: Option<Span> = None;
+        // The time of the outer flow that waits, and its size.
+        let mut waiting: Option<(f64, f64)> = None;
         for span in spans {
             let half = span.size / 2.0;
             let first = match waiting {
-                Some(Span { time, size }) => Span {
-                    time,
-                    size: size + half,
-                },
-                None => Span { size: half, ..span },
+                Some((time, size)) => Span::about(time, size + half),
+                None => Span::about(span.time, half),
             };
             self.outer.flow(first, q, p)?;
             self.inner.flow(span, q, p)?;
-            waiting = Some(Span {
-                time: span.time + span.size,
-                size: half,
-            });
+            waiting = Some((span.time + span.size, half));
         }
-        waiting.map_or(Ok(()), |last| self.outer.flow(last, q, p))
+        waiting.map_or(Ok(()), |(time, size)| {
+            self.outer.flow(Span::about(time, size), q, p)
+        })
     }
 }

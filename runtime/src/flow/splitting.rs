@@ -82,7 +82,7 @@ impl<V: Vector, M: Method, A: Flow<V>, B: Flow<V>> Flow<V> for Splitting<M, A, B
             kick: &mut self.kick,
             q,
             p,
-            step: Waiting::NOTHING.span,
+            step: Span::about(0.0, 0.0),
             drifted: 0.0,
             waiting: Waiting::NOTHING,
             outcome: Ok(()),
@@ -137,16 +137,16 @@ enum Part {
 #[derive(Clone, Copy, Debug)]
 struct Waiting {
     part: Part,
-    span: Span,
+    /// When a drift starts, or the time of a kick.
+    time: f64,
+    size: f64,
 }
 
 impl Waiting {
     const NOTHING: Self = Self {
         part: Part::Drift,
-        span: Span {
-            time: 0.0,
-            size: 0.0,
-        },
+        time: 0.0,
+        size: 0.0,
     };
 }
 
@@ -171,26 +171,24 @@ impl<V: Vector, A: Flow<V>, B: Flow<V>> Flows<'_, V, A, B> {
         if part == Part::Drift {
             self.drifted += weight.double();
         }
-        if self.waiting.span.size != 0.0 && self.waiting.part == part {
-            self.waiting.span.size += size;
+        if self.waiting.size != 0.0 && self.waiting.part == part {
+            self.waiting.size += size;
             return;
         }
         self.take_what_waits();
-        self.waiting = Waiting {
-            part,
-            span: Span { time, size },
-        };
+        self.waiting = Waiting { part, time, size };
     }
 
     #[inline(never)]
     fn take_what_waits(&mut self) {
-        let Waiting { part, span } = core::mem::replace(&mut self.waiting, Waiting::NOTHING);
-        if span.size == 0.0 || self.outcome.is_err() {
+        let Waiting { part, time, size } = core::mem::replace(&mut self.waiting, Waiting::NOTHING);
+        if size == 0.0 || self.outcome.is_err() {
             return;
         }
+        let (q, p) = (&mut *self.q, &mut *self.p);
         self.outcome = match part {
-            Part::Drift => self.drift.flow(span, self.q, self.p),
-            Part::Kick => self.kick.flow(span, self.q, self.p),
+            Part::Drift => self.drift.flow(Span { time, size }, q, p),
+            Part::Kick => self.kick.flow(Span::about(time, size), q, p),
         };
     }
 }

@@ -43,7 +43,7 @@ impl<F> Substeps<F> {
     /// [`Error::FlowParameter`] for 0 steps.
     pub fn new(step: F, count: u32) -> Result<Self, Error> {
         let count = NonZeroU32::new(count).ok_or(Error::FlowParameter {
-            what: "count of substeps",
+            what: "number of substeps",
             index: 0,
             value: 0.0,
             range: "1 or more",

@@ -88,6 +88,21 @@ impl Span {
     pub fn at<T: Scalar>(&self, c: Coefficient) -> T {
         T::from_f64(self.time + c.double() * self.size)
     }
+
+    /// The time in the middle, `t0 + h/2`.
+    #[inline(always)]
+    pub const fn middle(&self) -> f64 {
+        self.time + self.size / 2.0
+    }
+
+    /// The span of this size about a time in its middle.
+    #[inline(always)]
+    pub(crate) const fn about(middle: f64, size: f64) -> Self {
+        Self {
+            time: middle - size / 2.0,
+            size,
+        }
+    }
 }
 
 /// A stage of a step that was taken.

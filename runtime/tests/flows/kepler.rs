@@ -213,6 +213,34 @@ fn a_fall_turns_back_at_the_centre() {
     assert!(difference(found, line(0.7)) < 1e-5);
 }
 
+/// Where the first guess of the universal anomaly is so far that one of Stumpff's functions overflows before the others.
+#[test]
+fn long_flows_of_hyperbolas() {
+    let orbit = Orbit::Hyperbola(0.8, 2.0);
+    for from in [-0.9, -0.3] {
+        let start = orbit.at(from);
+        for exponent in 7000..7200 {
+            let size = f64::from(exponent) / 10.0 * start.0.norm() * (0.8 / MU).sqrt();
+            let found = drifted(start, size).expect("an orbit");
+            assert!(difference(found, orbit.at(from + size)) < 1e-12);
+        }
+    }
+}
+
+/// A fast fall to the centre: `|q| v²/μ ≈ 10⁴` at the start, and its square in units of ε is lost.
+#[test]
+fn a_flow_that_loses_half_of_the_digits_is_an_error() {
+    let direction = Vector3::new(1.0, 1.0, 0.3).normalize();
+    let start = |speed: f64| (direction * 0.07, direction * -speed);
+    let energy = |(q, v): Point| v.norm_squared() / 2.0 - MU / q.norm();
+    let slow = drifted(start(40.0), 1000.0).expect("an orbit");
+    assert!((energy(slow) / energy(start(40.0)) - 1.0).abs() < 1e-10);
+    assert_eq!(
+        drifted(start(1000.0), 1000.0),
+        Err(FlowError::NoOrbit { body: 0 })
+    );
+}
+
 #[test]
 fn what_has_no_end_is_an_error_and_leaves_the_state() {
     let mut drift = KeplerDrift::new(&[1.0; 2], &[1.0; 2]).expect("a drift");

@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod in_time;
 mod kepler;
 mod parts;
 mod planets;

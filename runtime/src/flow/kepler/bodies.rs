@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use crate::error::Error;
-use crate::flow::check_parameter;
+use crate::flow::{check_count, check_parameter};
 use crate::number::Vector;
 use crate::state::State;
 
@@ -24,14 +24,12 @@ impl Bodies {
         for (index, &mass) in masses.iter().enumerate() {
             check_parameter("mass", index, mass, false)?;
         }
-        if masses.is_empty() {
-            return Err(Error::FlowParameter {
-                what: "count of bodies",
-                index: 0,
-                value: 0.0,
-                range: "1 or more",
-            });
-        }
+        check_count(
+            "number of bodies",
+            masses.len(),
+            !masses.is_empty(),
+            "1 or more",
+        )?;
         let sums = masses.iter().scan(0.0, |sum, mass| {
             *sum += mass;
             Some(*sum)
@@ -63,11 +61,14 @@ impl Bodies {
         &self,
         state: &State<V>,
     ) -> Result<State<V>, Error> {
-        let (position, momentum) = (state.q.dimension(), state.p.dimension());
-        if position == 3 * self.masses.len() && momentum == position {
-            Ok(state.clone())
-        } else {
-            Err(Error::Dimension { position, momentum })
+        for count in [state.q.dimension(), state.p.dimension()] {
+            check_count(
+                "number of components of the state",
+                count,
+                count == 3 * self.masses.len(),
+                "three for each body",
+            )?;
         }
+        Ok(state.clone())
     }
 }

@@ -7,7 +7,7 @@ use core::marker::PhantomData;
 use super::in_lanes::changes;
 use super::orbit::{NoEnd, Orbit};
 use crate::error::Error;
-use crate::flow::{Flow, FlowError, Span, check_dimension, check_parameter};
+use crate::flow::{Flow, FlowError, Span, check_count, check_dimension, check_parameter};
 use crate::number::array::array;
 use crate::number::{F64x4, Lanes, Vector};
 
@@ -29,7 +29,7 @@ use crate::number::{F64x4, Lanes, Vector};
 /// # Errors
 ///
 /// [`FlowError::AtCentre`] where a body starts or ends at the centre, [`FlowError::Periods`], [`FlowError::NoOrbit`] where its end
-/// overflows, [`FlowError::Dimension`].
+/// overflows or loses half of its digits, [`FlowError::Dimension`].
 ///
 /// ```
 /// use symplectic::flow::kepler::KeplerDrift;
@@ -59,14 +59,14 @@ impl KeplerDrift {
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] where a mass or a μ is not finite and positive; [`Error::Dimension`] where there are not as many of them.
+    /// [`Error::FlowParameter`] where a mass or a μ is not finite and positive, or there are not as many of them.
     pub fn new(masses: &[f64], mus: &[f64]) -> Result<Self, Error> {
-        if masses.len() != mus.len() {
-            return Err(Error::Dimension {
-                position: masses.len(),
-                momentum: mus.len(),
-            });
-        }
+        check_count(
+            "number of masses",
+            masses.len(),
+            masses.len() == mus.len(),
+            "that of the gravitational parameters",
+        )?;
         for (what, values) in [("mass", masses), ("gravitational parameter", mus)] {
             for (index, &value) in values.iter().enumerate() {
                 check_parameter(what, index, value, false)?;

@@ -60,7 +60,7 @@ impl Heliocentric {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] where the state does not have three components for each body.
+    /// [`Error::FlowParameter`] where the state does not have three components for each body.
     #[allow(clippy::wrong_self_convention)]
     pub fn from_inertial<V: Vector<Scalar = f64>>(
         &self,
@@ -89,7 +89,7 @@ impl Heliocentric {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] where the state does not have three components for each body.
+    /// [`Error::FlowParameter`] where the state does not have three components for each body.
     pub fn to_inertial<V: Vector<Scalar = f64>>(
         &self,
         state: &State<V>,

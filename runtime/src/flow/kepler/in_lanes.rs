@@ -67,18 +67,18 @@ pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (
         }
     }
     let [g1, g2, g3] = functions(s);
-    let end = distance + (radial * g1 + zeta * g2);
+    let (end, least) = orbit.at_end(radial, [g1, g2]);
     let mut change = orbit.change([g1, g2], end, step - mu * g3);
     let (first, second) = (distance * s, radial * g2 + zeta * g3);
     let value = (first + second - step).abs();
     let terms = first.abs() + (radial * g2).abs() + (zeta * g3).abs() + step.abs();
     let bound = terms * L::from_f64(RESIDUAL);
-    let (value, bound, end) = (value.to_array(), bound.to_array(), end.to_array());
+    let (value, bound, left) = (value.to_array(), bound.to_array(), (end - least).to_array());
     let psi = (beta * s * s).abs().to_array();
     let arc = (mu * s * s * inverse).to_array();
     for lane in 0..L::WIDTH {
         let in_range = psi.as_ref()[lane] <= LARGEST_PSI && arc.as_ref()[lane] <= LARGEST_ARC;
-        let found = value.as_ref()[lane] <= bound.as_ref()[lane] && end.as_ref()[lane] > 0.0;
+        let found = value.as_ref()[lane] <= bound.as_ref()[lane] && left.as_ref()[lane] > 0.0;
         if !(in_range && found) {
             let alone = orbit.lane(lane).end(h).map_err(|why| (lane, why))?;
             for (lanes, alone) in change.iter_mut().zip(alone) {

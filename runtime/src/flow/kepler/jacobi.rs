@@ -43,7 +43,7 @@ impl Jacobi {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] where the state does not have three components for each body.
+    /// [`Error::FlowParameter`] where the state does not have three components for each body.
     #[allow(clippy::wrong_self_convention)]
     pub fn from_inertial<V: Vector<Scalar = f64>>(
         &self,
@@ -70,7 +70,7 @@ impl Jacobi {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] where the state does not have three components for each body.
+    /// [`Error::FlowParameter`] where the state does not have three components for each body.
     pub fn to_inertial<V: Vector<Scalar = f64>>(
         &self,
         state: &State<V>,

@@ -15,9 +15,10 @@
 //! # Rounding
 //!
 //! The universal anomaly is found to the last bits in any case. Steps of less than a third of a period, and of less than a few radii, go in lanes; all
-//! others one by one. Energy and angular momentum, relative to their largest terms, have errors of a few ε, and up to 2000ε where a hyperbola passes its
-//! pericentre in one flow (largest of two million random orbits of all kinds). Over k periods the phase has the error `kε`, and from
-//! 2²⁶ periods in one flow on the error is [`FlowError::Periods`](super::FlowError::Periods). Every body has the same bits for every width of the lanes.
+//! others one by one. Energy and angular momentum, relative to their largest terms, have errors of some ten ε. Where a hyperbola passes its pericentre in
+//! one flow they are larger, up to about `ε(r/a)²` for a fast fall to the centre from the distance r; where half of the digits are lost the flow
+//! fails with [`FlowError::NoOrbit`](super::FlowError::NoOrbit). Over k periods the phase has the error `kε`, and from 2²⁶ periods in one flow on the
+//! error is [`FlowError::Periods`](super::FlowError::Periods). Every body has the same bits for every width of the lanes.
 //!
 //! ```
 //! symplectic::tableau! { Saba3 { base: saba-3 } }

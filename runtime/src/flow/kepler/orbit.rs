@@ -14,7 +14,7 @@ pub(super) enum NoEnd {
     AtCentre,
     /// It goes through too many periods.
     Periods(f64),
-    /// It was not found, or is not finite.
+    /// It is not finite, or half of its digits are lost.
     NotFound,
 }
 
@@ -57,6 +57,15 @@ impl<T: Scalar> Orbit<T> {
     #[inline(always)]
     pub(super) fn zeta(&self) -> T {
         self.mu - self.beta * self.distance
+    }
+
+    /// The distance at the end, and the one below which cancellation has taken half of its digits.
+    #[inline(always)]
+    pub(super) fn at_end(&self, radial: T, [g1, g2]: [T; 2]) -> (T, T) {
+        let (first, second) = (radial * g1, self.zeta() * g2);
+        let terms = self.distance + first.abs() + second.abs();
+        let end = self.distance + (first + second);
+        (end, terms * T::from_f64(MOST_PERIODS.recip()))
     }
 
     /// The change with `s G` functions `G1`, `G2`, the distance at the end, and g.
@@ -111,10 +120,14 @@ impl Orbit<f64> {
             let psi = beta * s * s;
             let [g1, g2, g3] = g_functions(s, psi, stumpff::any(psi));
             let value = distance * s + (radial * g2 + zeta * g3) - time;
-            let end = distance + (radial * g1 + zeta * g2);
-            (value, end, [g1, g2])
+            // A function that overflows does so above the zero, whatever the sum of infinities is.
+            let value = if value.is_finite() {
+                value
+            } else {
+                f64::INFINITY
+            };
+            (value, self.at_end(radial, [g1, g2]), [g1, g2])
         };
-        // What is not a number is a difference of infinities, above the zero.
         let (mut low, mut high) = (0.0, time / distance);
         while at(high).0 < 0.0 {
             (low, high) = (high, 2.0 * high);
@@ -122,7 +135,7 @@ impl Orbit<f64> {
         let mut s = low + (high - low) / 2.0;
         let mut before = high - low;
         for _ in 0..MOST {
-            let (value, slope, _) = at(s);
+            let (value, (slope, _), _) = at(s);
             if value < 0.0 {
                 low = s;
             } else {
@@ -140,9 +153,12 @@ impl Orbit<f64> {
             before = (next - s).abs();
             s = next;
             if before <= f64::EPSILON * s {
-                let (_, end, [g1, g2]) = at(s);
+                let (_, (end, least), [g1, g2]) = at(s);
                 if end <= 0.0 {
                     return Err(NoEnd::AtCentre);
+                }
+                if end < least {
+                    return Err(NoEnd::NotFound);
                 }
                 let g = distance * g1 + radial * g2;
                 let change = self.change([sign * g1, g2], end, sign * g);
