@@ -7,10 +7,7 @@ use std::process::Command;
 fn python(arguments: &[&str]) -> Option<String> {
     let version = "import sys; sys.exit(sys.version_info < (3, 11))";
     let known = Command::new("python3").args(["-c", version]).status();
-    if !known.is_ok_and(|status| status.success()) {
-        eprintln!("there is no Python 3.11 here");
-        return None;
-    }
+    known.ok().filter(std::process::ExitStatus::success)?;
     let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
     let output = Command::new("python3")
         .args(arguments)

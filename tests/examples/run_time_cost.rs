@@ -24,8 +24,8 @@ symplectic::hamiltonian! {
 
 symplectic::hamiltonian! {
     Product
-    q: [q], p: [p];
-    H = (q^2 + 1) (p^2 + 1)/2
+    q: [x], p: [px];
+    H = (x^2 + 1) (px^2 + 1)/2
 }
 
 /// Springs between 1024 masses, by closures.

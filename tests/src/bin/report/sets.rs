@@ -3,7 +3,7 @@
 //! Every method is generic over the system once, here: a scene chooses a set and says its numbers.
 
 use symplectic::system::Unconstrained;
-use symplectic::{Constrained, Integrator, Nonholonomic, Separable, System, Vector};
+use symplectic::{Class, Constrained, Integrator, Nonholonomic, Separable, System, Vector};
 use symplectic_report::Problem;
 use symplectic_tests::methods::{
     BlanesMoanS6, BlanesMoanS10, BlanesMoanSrkn11b, BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4,
@@ -102,7 +102,7 @@ pub fn nonholonomic<V, S, C>(problem: Problem<V, S>) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
     S: System<V, Class = Nonholonomic<C>> + Clone + 'static,
-    C: Unconstrained,
+    C: Class + Unconstrained,
 {
     run!(problem, integrator => Ok(integrator);
         Midpoint "Midpoint" plain,
