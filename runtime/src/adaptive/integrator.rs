@@ -88,7 +88,7 @@ pub struct Adaptive<
 > {
     pub(super) integrator: Integrator<M, S, V, R, N>,
     pub(super) monitor: W,
-    slopes: Slopes<V>,
+    pub(super) slopes: Slopes<V>,
     velocity: V,
     pub(super) controller: Controller,
 }
