@@ -63,12 +63,7 @@ where
     N: Solver<V, S>,
 {
     let direction = steps.direction();
-    let present = steps.integrator().state().time;
-    // The last step may have gone the other way.
-    let before = match steps.integrator().last_step() {
-        Some(last) if is_after(direction, present, last.start) => last.start,
-        _ => present,
-    };
+    let before = steps.start_of_last_step();
     steps.check_count(check_times(direction, times, before)?)?;
     let mut rest = times;
     let mut output = Output {

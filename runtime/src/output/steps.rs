@@ -29,6 +29,27 @@ where
     /// The sign of the step size.
     fn direction(&self) -> f64;
 
+    /// Whether `time` comes after `other` in the direction of the steps.
+    fn is_after(&self, time: f64, other: f64) -> bool {
+        if self.direction() > 0.0 {
+            time > other
+        } else {
+            time < other
+        }
+    }
+
+    /// The start of the last step, or the present time where there is none, or where the last step went the other way.
+    fn start_of_last_step(&self) -> f64 {
+        let present = self.integrator().state().time;
+        match self.integrator().last_step() {
+            Some(last) if self.is_after(present, last.start) => last.start,
+            _ => present,
+        }
+    }
+
+    /// The earliest output time of a run to an end: the present time, or the start of the last step where that may go beyond the end.
+    fn first_output(&self) -> f64;
+
     /// Checks that steps to `end` can be counted.
     fn check_count(&self, end: f64) -> Result<(), Error>;
 
@@ -70,6 +91,10 @@ where
 
     fn direction(&self) -> f64 {
         self.step_size()
+    }
+
+    fn first_output(&self) -> f64 {
+        self.state().time
     }
 
     fn check_count(&self, end: f64) -> Result<(), Error> {

@@ -16,6 +16,16 @@ impl Monitor for Shifted {
     }
 }
 
+/// σ = q² + least
+#[derive(Clone, Copy)]
+pub struct Parabola(pub f64);
+
+impl Monitor for Parabola {
+    fn value<T: Scalar>(&self, q: &[T]) -> T {
+        q[0] * q[0] + T::from_f64(self.0)
+    }
+}
+
 #[test]
 fn bad_epsilons() {
     for epsilon in [0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
