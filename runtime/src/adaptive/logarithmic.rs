@@ -100,7 +100,8 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::NoEnergy`]; [`Error::LogarithmicMasses`] where the velocity is not `M⁻¹p`
+    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::OtherClass`] where the system has constraints or friction,
+    /// [`Error::NoEnergy`]; [`Error::LogarithmicMasses`] where the velocity is not `M⁻¹p`
     /// with a constant M; [`Error::LogarithmicDomain`] where `U ≥ 0`; [`Error::Length`] where the vectors do not have one component
     /// more.
     pub fn extend<W: Vector<Scalar = f64>>(

@@ -95,7 +95,8 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::NoEnergy`], [`Error::Monitor`]; [`Error::Length`] where the vectors do not
+    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::OtherClass`] where the system has constraints or friction,
+    /// [`Error::NoEnergy`], [`Error::Monitor`]; [`Error::Length`] where the vectors do not
     /// have one component more.
     pub fn extend<V: Vector<Scalar = f64>>(
         &self,
