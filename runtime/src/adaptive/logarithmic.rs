@@ -243,11 +243,14 @@ where
     /// K, which is zero along the motion.
     fn energy(&self, _time: f64, q: &W, p: &W) -> Option<f64> {
         let ((q, time), (p, b)) = (parted(q), parted(p));
+        let fault = self.fault.get();
         let found = self.in_room(q.len(), |room| {
             let sum = self.kinetic(room, p, b)?;
             let (depth, _) = self.potential(room, q, time)?;
             Some(Scalar::ln(sum / depth))
         });
+        // It is no evaluation of a step.
+        self.fault.set(fault);
         Some(found.flatten().unwrap_or(f64::NAN))
     }
 

@@ -208,10 +208,13 @@ where
     /// K, which is zero along the motion.
     fn energy(&self, _time: f64, q: &V, p: &V) -> Option<f64> {
         let ((q, time), (p, momentum)) = (parted(q), parted(p));
+        let fault = self.fault.get();
         let found = self.at_state((q, p), |monitor, room| {
             let energy = room.of_system.energy(&self.system, time);
             monitor * (energy.value + momentum)
         });
+        // It is no evaluation of a step.
+        self.fault.set(fault);
         Some(found.unwrap_or(f64::NAN))
     }
 
