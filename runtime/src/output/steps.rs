@@ -31,11 +31,7 @@ where
 
     /// Whether `time` comes after `other` in the direction of the steps.
     fn is_after(&self, time: f64, other: f64) -> bool {
-        if self.direction() > 0.0 {
-            time > other
-        } else {
-            time < other
-        }
+        is_after(self.direction(), time, other)
     }
 
     /// The start of the last step, or the present time where there is none, or where the last step went the other way.
@@ -121,5 +117,14 @@ where
 
     fn keep_last_event(&mut self, event: Option<LastEvent>) {
         self.set_last_event(event);
+    }
+}
+
+/// Whether `time` comes after `other` in a direction.
+pub(crate) fn is_after(direction: f64, time: f64, other: f64) -> bool {
+    if direction > 0.0 {
+        time > other
+    } else {
+        time < other
     }
 }

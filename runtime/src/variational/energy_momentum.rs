@@ -33,7 +33,8 @@ use crate::state::State;
 /// at least half as long, so that another root of the equations is not taken for it. For a Lagrangian without time, steps of one size
 /// ([`VariationalIntegrator`](super::VariationalIntegrator)) go on where these end, as Marsden & West (4.9.3) advise.
 ///
-/// The condition of the equations grows as `h⁻²`: E is conserved to rounding times that.
+/// The condition of the equations grows as `h⁻²`: E is conserved to rounding times that. Newton's iteration ends where the equations hold
+/// to the rounding of q1; a free particle, which conserves its energy by steps of every size, keeps its step size.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
