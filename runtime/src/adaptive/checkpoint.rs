@@ -1,7 +1,7 @@
 //! Runs with steps of variable size that are interrupted and go on with the same bits.
 
 use super::integrator::{Adaptive, Controller};
-use super::monitor::Monitor;
+use super::monitor::{Monitor, Slopes};
 use crate::integrator::{Checkpoint, CheckpointError};
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
@@ -31,9 +31,9 @@ where
             unfinished,
             time_low,
         } = self.controller;
-        let value = self.monitor.value(self.state().q.as_slice());
-        self.integrator
-            .checkpoint_with(KIND, &[epsilon, density, unfinished, time_low, value])
+        let [value, slope] = evaluated(&self.monitor, &self.slopes, &self.state().q);
+        let beside = [epsilon, density, unfinished, time_low, value, slope];
+        self.integrator.checkpoint_with(KIND, &beside)
     }
 
     /// Goes on from a checkpoint of a run that was made in the same way, with the same monitor.
@@ -42,14 +42,15 @@ where
     ///
     /// [`CheckpointError`], with [`OtherSystem`](CheckpointError::OtherSystem) for another monitor too; the run is then as it was.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
-        let mut found = [0.0; 5];
-        let monitor = &self.monitor;
+        let mut found = [0.0; 6];
+        let (monitor, slopes) = (&self.monitor, &self.slopes);
         let mine = |q: &V, words: &[f64]| {
-            monitor.value::<f64>(q.as_slice()).to_bits() == words[4].to_bits()
+            let known = evaluated(monitor, slopes, q).map(f64::to_bits);
+            words[4..].iter().map(|word| word.to_bits()).eq(known)
         };
         self.integrator
             .restore_with(KIND, checkpoint, &mut found, mine)?;
-        let [epsilon, density, unfinished, time_low, _] = found;
+        let [epsilon, density, unfinished, time_low, ..] = found;
         self.controller = Controller {
             epsilon,
             density,
@@ -58,4 +59,14 @@ where
         };
         Ok(())
     }
+}
+
+/// A monitor at a position, and its slope away from the origin: they tell monitors with other parameters.
+fn evaluated<W: Monitor, V: Vector<Scalar = f64>>(
+    monitor: &W,
+    slopes: &Slopes<V>,
+    q: &V,
+) -> [f64; 2] {
+    let slope = slopes.clone().along(monitor, q, q);
+    [monitor.value(q.as_slice()), slope]
 }

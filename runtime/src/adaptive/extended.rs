@@ -6,6 +6,7 @@ use num_traits::Zero;
 
 use crate::error::Error;
 use crate::integrator::validation::check_state;
+use crate::method::{check_no_constraints, check_no_friction};
 use crate::number::hyper_dual::HyperDual;
 use crate::number::{Scalar, Vector};
 use crate::state::State;
@@ -102,12 +103,14 @@ impl<S: Hamiltonian> Room<S> {
     }
 }
 
-/// The energy of a sound state, for a system that gives it.
+/// The energy of a sound state, for a system that gives it and is all that its class says.
 pub(super) fn energy_of<S: Hamiltonian>(
     system: &S,
     state: &State<S::Vector<f64>>,
 ) -> Result<f64, Error> {
     let State { time, q, p } = state;
     check_state(*time, q, p, q.dimension())?;
+    check_no_constraints::<S::Vector<f64>, S>(system)?;
+    check_no_friction(system, q)?;
     Hamiltonian::energy(system, *time, q, p).ok_or(Error::NoEnergy)
 }

@@ -30,7 +30,7 @@ use crate::system::System;
 /// does where a step size is taken from the state before the step. The map is not symplectic: for a system that is not
 /// reversible there is no such promise; take [`Poincare`](super::Poincare) or [`Logarithmic`](super::Logarithmic).
 ///
-/// The order in ε is that of the method, as t counts the steps that were taken. Steps are explicit if those of the method are; a step
+/// The order in ε is that of the method: t is the sum of the step sizes that were taken. Steps are explicit if those of the method are; a step
 /// costs one slope of the [`Monitor`] more, and one velocity unless it [is the momentum](System::UNIT_MASSES).
 ///
 /// # Back to the start
@@ -88,7 +88,7 @@ pub struct Adaptive<
 > {
     pub(super) integrator: Integrator<M, S, V, R, N>,
     pub(super) monitor: W,
-    slopes: Slopes<V>,
+    pub(super) slopes: Slopes<V>,
     velocity: V,
     pub(super) controller: Controller,
 }

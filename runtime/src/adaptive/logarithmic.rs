@@ -100,7 +100,8 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::NoEnergy`]; [`Error::LogarithmicMasses`] where the velocity is not `M⁻¹p`
+    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::OtherClass`] where the system has constraints or friction,
+    /// [`Error::NoEnergy`]; [`Error::LogarithmicMasses`] where the velocity is not `M⁻¹p`
     /// with a constant M; [`Error::LogarithmicDomain`] where `U ≥ 0`; [`Error::Length`] where the vectors do not have one component
     /// more.
     pub fn extend<W: Vector<Scalar = f64>>(
@@ -242,11 +243,14 @@ where
     /// K, which is zero along the motion.
     fn energy(&self, _time: f64, q: &W, p: &W) -> Option<f64> {
         let ((q, time), (p, b)) = (parted(q), parted(p));
+        let fault = self.fault.get();
         let found = self.in_room(q.len(), |room| {
             let sum = self.kinetic(room, p, b)?;
             let (depth, _) = self.potential(room, q, time)?;
             Some(Scalar::ln(sum / depth))
         });
+        // It is no evaluation of a step.
+        self.fault.set(fault);
         Some(found.flatten().unwrap_or(f64::NAN))
     }
 

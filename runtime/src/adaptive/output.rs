@@ -50,11 +50,7 @@ where
         end: f64,
         mut observe: F,
     ) -> Result<State<V>, Error> {
-        let present = self.state().time;
-        let before = match self.integrator.last_step() {
-            Some(last) if self.is_after(present, last.start) => last.start,
-            _ => present,
-        };
+        let before = self.start_of_last_step();
         if !end.is_finite() || self.is_after(before, end) {
             return Err(Error::OutputTime { time: end, before });
         }
@@ -104,11 +100,13 @@ where
 
     /// Takes steps until `end` is reached or behind, and shows `observe` the state at every event: see
     /// [`Integrator::integrate_with_events`]. Events in the last step are shown even behind `end`, so that a run that goes on misses
-    /// none.
+    /// none. The search starts from the present state, which [`integrate_to`](Self::integrate_to) and
+    /// [`integrate_at`](Self::integrate_at) may have left behind their end.
     ///
     /// # Errors
     ///
-    /// Those of [`Integrator::integrate_with_events`] and of [`step`](Self::step).
+    /// Those of [`Integrator::integrate_with_events`] and of [`step`](Self::step); [`Error::OutputTime`] where `end` is before the last
+    /// step, in the direction of the steps.
     pub fn integrate_with_events<G, B, F>(
         &mut self,
         end: f64,
@@ -157,11 +155,13 @@ where
     }
 
     /// Takes steps until `end` is reached or behind, and shows `handle` the states at output times and at the events of a list: see
-    /// [`Integrator::integrate_through`]. Where a handler changes the state, and at a wall, the step density starts again as 1/σ.
+    /// [`Integrator::integrate_through`]. The first output times may lie in the last step already. Where a handler changes the state, and
+    /// at a wall, the step density starts again as 1/σ.
     ///
     /// # Errors
     ///
-    /// Those of [`Integrator::integrate_through`] and of [`step`](Self::step).
+    /// Those of [`Integrator::integrate_through`] and of [`step`](Self::step); [`Error::OutputTime`] where `end` is before the last step,
+    /// in the direction of the steps.
     pub fn integrate_through<E, B, F>(
         &mut self,
         end: f64,
@@ -177,15 +177,6 @@ where
             return Err(Error::EndTime { value: end });
         }
         integrate_through(self, end, times, events, &mut handle)
-    }
-
-    /// Whether `time` comes after `other` in the direction of the steps.
-    fn is_after(&self, time: f64, other: f64) -> bool {
-        if self.epsilon() > 0.0 {
-            time > other
-        } else {
-            time < other
-        }
     }
 }
 
@@ -209,6 +200,10 @@ where
 
     fn direction(&self) -> f64 {
         self.epsilon()
+    }
+
+    fn first_output(&self) -> f64 {
+        self.start_of_last_step()
     }
 
     /// Their number is not known before.

@@ -95,7 +95,8 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::NoEnergy`], [`Error::Monitor`]; [`Error::Length`] where the vectors do not
+    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::OtherClass`] where the system has constraints or friction,
+    /// [`Error::NoEnergy`], [`Error::Monitor`]; [`Error::Length`] where the vectors do not
     /// have one component more.
     pub fn extend<V: Vector<Scalar = f64>>(
         &self,
@@ -207,10 +208,13 @@ where
     /// K, which is zero along the motion.
     fn energy(&self, _time: f64, q: &V, p: &V) -> Option<f64> {
         let ((q, time), (p, momentum)) = (parted(q), parted(p));
+        let fault = self.fault.get();
         let found = self.at_state((q, p), |monitor, room| {
             let energy = room.of_system.energy(&self.system, time);
             monitor * (energy.value + momentum)
         });
+        // It is no evaluation of a step.
+        self.fault.set(fault);
         Some(found.unwrap_or(f64::NAN))
     }
 

@@ -5,7 +5,7 @@ use crate::integrator::Integrator;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::output::dense::Ends;
-use crate::output::steps::Steps;
+use crate::output::steps::{Steps, is_after};
 use crate::state::State;
 use crate::system::System;
 
@@ -63,12 +63,7 @@ where
     N: Solver<V, S>,
 {
     let direction = steps.direction();
-    let present = steps.integrator().state().time;
-    // The last step may have gone the other way.
-    let before = match steps.integrator().last_step() {
-        Some(last) if is_after(direction, present, last.start) => last.start,
-        _ => present,
-    };
+    let before = steps.start_of_last_step();
     steps.check_count(check_times(direction, times, before)?)?;
     let mut rest = times;
     let mut output = Output {
@@ -81,15 +76,6 @@ where
         steps.step_in_sight(|integrator| output.show(integrator, &mut rest, observe))?;
     }
     Ok(())
-}
-
-/// Whether `time` comes after `other` in a direction.
-fn is_after(direction: f64, time: f64, other: f64) -> bool {
-    if direction > 0.0 {
-        time > other
-    } else {
-        time < other
-    }
 }
 
 /// The last of the times, which come one after the other from `before` on.

@@ -29,6 +29,23 @@ where
     /// The sign of the step size.
     fn direction(&self) -> f64;
 
+    /// Whether `time` comes after `other` in the direction of the steps.
+    fn is_after(&self, time: f64, other: f64) -> bool {
+        is_after(self.direction(), time, other)
+    }
+
+    /// The start of the last step, or the present time where there is none, or where the last step went the other way.
+    fn start_of_last_step(&self) -> f64 {
+        let present = self.integrator().state().time;
+        match self.integrator().last_step() {
+            Some(last) if self.is_after(present, last.start) => last.start,
+            _ => present,
+        }
+    }
+
+    /// The earliest output time of a run to an end: the present time, or the start of the last step where that may go beyond the end.
+    fn first_output(&self) -> f64;
+
     /// Checks that steps to `end` can be counted.
     fn check_count(&self, end: f64) -> Result<(), Error>;
 
@@ -72,6 +89,10 @@ where
         self.step_size()
     }
 
+    fn first_output(&self) -> f64 {
+        self.state().time
+    }
+
     fn check_count(&self, end: f64) -> Result<(), Error> {
         check_count(self.state().time, end, self.step_size())
     }
@@ -96,5 +117,14 @@ where
 
     fn keep_last_event(&mut self, event: Option<LastEvent>) {
         self.set_last_event(event);
+    }
+}
+
+/// Whether `time` comes after `other` in a direction.
+pub(crate) fn is_after(direction: f64, time: f64, other: f64) -> bool {
+    if direction > 0.0 {
+        time > other
+    } else {
+        time < other
     }
 }

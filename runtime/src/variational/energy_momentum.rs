@@ -33,7 +33,8 @@ use crate::state::State;
 /// at least half as long, so that another root of the equations is not taken for it. For a Lagrangian without time, steps of one size
 /// ([`VariationalIntegrator`](super::VariationalIntegrator)) go on where these end, as Marsden & West (4.9.3) advise.
 ///
-/// The condition of the equations grows as `h⁻²`: E is conserved to rounding times that.
+/// The condition of the equations grows as `h⁻²`: E is conserved to rounding times that. Newton's iteration ends where the equations hold
+/// to the rounding of q1; a free particle, which conserves its energy by steps of every size, keeps its step size.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -85,6 +86,9 @@ const MAX_ITERATIONS: u32 = 40;
 
 /// The relative change of an iterate after which the next iterate is exact up to rounding.
 const LAST_CHANGE: f64 = 1e-9;
+
+/// What q1 is known to, relative to itself.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The most by which a step is longer or shorter than the step before.
 const MOST_CHANGE: f64 = 2.0;
@@ -217,14 +221,22 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
             if !(self.derivatives.is_finite() && found.is_finite()) {
                 return Err(Failure::NonFinite { stage: None });
             }
-            let matrix = &mut self.matrix;
             let missing = energy.map(|energy| found - energy);
             if missing.is_none() {
                 // The last equation is that the size stays.
-                matrix[n * (n + 1)..].fill(0.0);
-                matrix[n * (n + 1) + n] = 1.0;
+                self.matrix[n * (n + 1)..].fill(0.0);
+                self.matrix[n * (n + 1) + n] = 1.0;
             }
-            self.factors.factor(matrix).map_err(Failure::Singular)?;
+            let holds = self.holds(missing.unwrap_or(0.0));
+            if holds && energy.is_some() {
+                return Ok(size);
+            }
+            self.factors
+                .factor(&self.matrix)
+                .map_err(Failure::Singular)?;
+            if holds {
+                return Ok(size);
+            }
             let pairs = self.state.p.as_slice().iter().zip(&self.derivatives.start);
             let right = pairs.map(|(p, start)| -(p + start));
             let changes = self.factors.solve(right.chain([missing.unwrap_or(0.0)]));
@@ -255,6 +267,19 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
             residual,
             iterations: MAX_ITERATIONS,
         })
+    }
+
+    /// Whether the equations hold as far as q1 is known, to its rounding: where the discrete energy lacks `missing`.
+    fn holds(&self, missing: f64) -> bool {
+        let q1 = self.q1.as_slice();
+        let rounding = |row: &[f64]| {
+            let terms = row.iter().zip(q1).map(|(slope, q)| Float::abs(slope * q));
+            ROUNDING * terms.fold(0.0, |sum, term| sum + term)
+        };
+        let momenta = self.state.p.as_slice().iter().zip(&self.derivatives.start);
+        let mut rows = self.matrix.chunks(q1.len() + 1).zip(momenta);
+        rows.all(|(row, (p, start))| Float::abs(p + start) <= rounding(row))
+            && Float::abs(missing) <= rounding(&self.last_row)
     }
 
     /// Evaluates all derivatives for a step of this size, and returns `E_d = −∂Ld/∂h`.

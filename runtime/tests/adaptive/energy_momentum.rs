@@ -151,6 +151,63 @@ fn a_run_ends_where_no_step_conserves_the_energy() -> Result<(), Error> {
     Ok(())
 }
 
+/// Kepler's problem about a centre at (x, 0).
+struct About(f64);
+
+impl DiscreteLagrangian for About {
+    type Vector<T: Scalar> = Plane<T>;
+
+    fn value<T: Scalar>(&self, time: T, h: T, q0: &Plane<T>, q1: &Plane<T>) -> T {
+        let centre = Plane::from([T::from_f64(self.0), T::zero()]);
+        Midpoint(Attraction).value(time, h, &(q0 - centre), &(q1 - centre))
+    }
+}
+
+#[test]
+fn rounding_of_the_positions_ends_no_run() -> Result<(), Error> {
+    // The same orbit far from the origin, and in steps that are short beside the distance.
+    for (x, size) in [(1e4, 0.01), (1e6, 0.01), (0.0, 1e-5), (0.0, 1e-7)] {
+        let mut start = pericentre(0.5);
+        let mut near = EnergyMomentumIntegrator::new(About(0.0), start.clone(), 0.01)?;
+        start.q[0] += x;
+        let mut run = EnergyMomentumIntegrator::new(About(x), start, size)?;
+        for _ in 0..50 {
+            run.step()?;
+            near.step()?;
+        }
+        let (found, expected) = match x {
+            0.0 => (run.state().q, position(0.5, run.state().time)),
+            _ => (run.state().q - Vector2::new(x, 0.0), near.state().q),
+        };
+        // The rounding of the position, 10⁻¹⁰ where x is 10⁶, times the condition h⁻².
+        assert!(
+            (found - expected).norm() < 1e-4,
+            "{x} {size}: {found} {expected}"
+        );
+    }
+    Ok(())
+}
+
+struct Free;
+
+impl Potential for Free {
+    fn value<T: Scalar>(&self, _: T) -> T {
+        T::zero()
+    }
+}
+
+#[test]
+fn a_free_particle_conserves_the_energy_by_every_step() -> Result<(), Error> {
+    let start = State::from_arrays(0.0, [0.25, 0.0], [1.0, 0.5]);
+    let mut run = EnergyMomentumIntegrator::new(Midpoint(Free), start, 0.125)?;
+    for _ in 0..8 {
+        run.step()?;
+    }
+    assert!((run.state().q - Vector2::new(1.25, 0.5)).norm() < 1e-15);
+    assert_eq!(run.step_size(), 0.125);
+    Ok(())
+}
+
 #[test]
 fn bad_input() {
     let start = || pericentre(0.5);

@@ -1,8 +1,8 @@
 //! Bad input, and steps that cannot be taken.
 
-use symplectic::adaptive::{DistancePower, Monitor};
-use symplectic::nalgebra::Vector1;
-use symplectic::{Error, Integrator, Scalar, State, acceleration};
+use symplectic::adaptive::{DistancePower, Logarithmic, Monitor, Poincare};
+use symplectic::nalgebra::{SVector, Vector1, Vector2};
+use symplectic::{Error, Hamiltonian, Integrator, Scalar, Separable, State, acceleration};
 
 use super::kepler::{Kepler, VelocityVerlet, pericentre};
 
@@ -13,6 +13,16 @@ pub struct Shifted(pub f64);
 impl Monitor for Shifted {
     fn value<T: Scalar>(&self, q: &[T]) -> T {
         q[0] + T::from_f64(self.0)
+    }
+}
+
+/// σ = q² + least
+#[derive(Clone, Copy)]
+pub struct Parabola(pub f64);
+
+impl Monitor for Parabola {
+    fn value<T: Scalar>(&self, q: &[T]) -> T {
+        q[0] * q[0] + T::from_f64(self.0)
     }
 }
 
@@ -113,6 +123,74 @@ fn a_step_that_fails_leaves_the_density_alone() -> Result<(), Error> {
     };
     assert!(matches!(failed, Error::NonFinite { .. }), "{failed}");
     Ok(())
+}
+
+/// Free motion with a constraint or friction that its class does not say.
+struct Unsaid {
+    constraints: usize,
+    friction: f64,
+}
+
+impl Hamiltonian for Unsaid {
+    type Class = Separable;
+    type Vector<T: Scalar> = SVector<T, 1>;
+
+    fn velocity<T: Scalar>(
+        &self,
+        _: T,
+        _: &SVector<T, 1>,
+        p: &SVector<T, 1>,
+        velocity: &mut SVector<T, 1>,
+    ) {
+        *velocity = *p;
+    }
+
+    fn force<T: Scalar>(
+        &self,
+        _: T,
+        _: &SVector<T, 1>,
+        _: &SVector<T, 1>,
+        force: &mut SVector<T, 1>,
+    ) {
+        force[0] = T::zero();
+    }
+
+    fn energy<T: Scalar>(&self, _: T, _: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
+        Some(p[0] * p[0] * T::from_f64(0.5) - T::one())
+    }
+
+    fn constraints(&self) -> usize {
+        self.constraints
+    }
+
+    fn friction(&self, _: usize) -> f64 {
+        self.friction
+    }
+}
+
+#[test]
+fn a_transformed_hamiltonian_hides_no_constraint_and_no_friction() {
+    let start = State::from_arrays(0.0, [1.0], [0.5]);
+    for (constraints, friction, sound) in [(0, 0.0, true), (1, 0.0, false), (0, 0.5, false)] {
+        let system = || Unsaid {
+            constraints,
+            friction,
+        };
+        let logarithmic: Result<State<Vector2<f64>>, _> = Logarithmic::new(system()).extend(&start);
+        let poincare: Result<State<Vector2<f64>>, _> =
+            Poincare::new(system(), Shifted(0.0)).extend(&start);
+        for extended in [logarithmic, poincare] {
+            match extended {
+                Ok(_) => assert!(sound),
+                Err(error) => {
+                    assert!(
+                        !sound && matches!(error, Error::OtherClass { .. }),
+                        "{error}"
+                    );
+                }
+            }
+        }
+    }
 }
 
 #[test]

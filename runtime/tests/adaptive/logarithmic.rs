@@ -2,7 +2,9 @@
 
 use symplectic::adaptive::Logarithmic;
 use symplectic::nalgebra::{DVector, SVector, Vector2, Vector3};
-use symplectic::{Error, Event, Hamiltonian, Integrator, Method, ProvedFor, Separable, State};
+use symplectic::{
+    Error, Event, Hamiltonian, Integrator, Method, ProvedFor, Separable, State, System,
+};
 
 use super::kepler::{
     ForestRuth, Gauss5, Kepler, McLachlanAtela, PositionJump, PositionVerlet, Pulsating,
@@ -186,5 +188,25 @@ fn the_domain_is_kept_to() -> Result<(), Error> {
         refused,
         Err(Error::LogarithmicMasses { component: 0, .. })
     ));
+    Ok(())
+}
+
+#[test]
+fn an_energy_outside_the_domain_is_not_the_fault_of_a_step() -> Result<(), Error> {
+    let logarithmic = Logarithmic::new(Kepler);
+    let start: State<Vector3<f64>> = logarithmic.extend(&pericentre(0.9))?;
+    let mut run = Integrator::new(PositionVerlet, logarithmic, start, 0.05)?;
+    // T + B is negative.
+    let (q, p) = (Vector3::new(0.1, 0.0, 0.0), Vector3::new(0.0, 1.0, -9.0));
+    let energy = System::energy(run.system(), 0.0, &q, &p);
+    assert!(energy.is_some_and(f64::is_nan));
+    // The force overflows, and T + B is positive.
+    run.set_state(State::from_arrays(
+        0.0,
+        [1e-200, 0.0, 0.0],
+        [0.0, 1.0, 1e300],
+    ))?;
+    let error = run.step().err();
+    assert!(matches!(error, Some(Error::NonFinite { .. })), "{error:?}");
     Ok(())
 }

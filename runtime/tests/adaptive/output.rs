@@ -151,3 +151,75 @@ fn times_before_the_last_step_are_refused() -> Result<(), Error> {
     assert_eq!(*run.state(), present);
     Ok(())
 }
+
+#[test]
+fn a_run_in_pieces_shows_all_output_times() -> Result<(), Error> {
+    for sign in [1.0, -1.0] {
+        let monitor = DistancePower(1.5);
+        let mut run = Integrator::adaptive(Gauss5, Kepler, monitor, pericentre(0.9), sign * 0.1)?;
+        let mut found = Vec::new();
+        for piece in 0..20 {
+            // Steps are longer than 0.1 near the apocentre: a time lies in the last step of the piece before.
+            let times = [0.02, 0.1, 0.2].map(|time| sign * (0.2 * f64::from(piece) + time));
+            run.integrate_through(times[2], &times, &(), |moment| {
+                if let Moment::Output(state) = moment {
+                    let expected = position(0.9, state.time.abs());
+                    let expected = Vector2::new(expected[0], sign * expected[1]);
+                    assert!((state.q - expected).norm() < 1e-6);
+                    found.push(state.time);
+                }
+                ControlFlow::<()>::Continue(())
+            })?;
+        }
+        assert_eq!(found.len(), 60);
+    }
+    Ok(())
+}
+
+#[test]
+fn an_end_behind_the_steps_is_refused() -> Result<(), Error> {
+    let mut run = gauss()?;
+    let apocentre = Event::falling(|state: &Orbit| state.q.dot(&state.p));
+    let refused = Err(Error::OutputTime {
+        time: -5.0,
+        before: 0.0,
+    });
+    assert_eq!(run.find_event(-5.0, &apocentre), refused);
+    let through = run.integrate_through(-5.0, &[-1.0], &(), |_| {
+        ControlFlow::<Option<Orbit>>::Continue(())
+    });
+    assert_eq!(through.map(Option::flatten), refused);
+    // In the last step there is nothing left to do.
+    run.integrate_to(3.0)?;
+    let present = run.state().clone();
+    assert_eq!(run.find_event(3.0, &apocentre)?, None);
+    assert_eq!(*run.state(), present);
+    Ok(())
+}
+
+#[test]
+fn a_search_goes_on_from_a_kick_where_steps_are_short() -> Result<(), Error> {
+    // Steps are shorter by a factor of a million at 0 than at the start, and the zeros of the function lie close together there.
+    const W: f64 = 1e-6;
+    let free = acceleration(|_, _: &Vector1<f64>, acceleration| acceleration[0] = 0.0);
+    let start = State::from_arrays(0.0, [-1.0], [1.0]);
+    let monitor = super::errors::Parabola(W);
+    let mut run = Integrator::adaptive(VelocityVerlet, free, monitor, start, 0.02)?;
+    let cubic = Event::crossing(|state: &State<Vector1<f64>>| {
+        let x = state.q[0] / W;
+        x - x.powi(3)
+    });
+    let mut found = Vec::new();
+    run.integrate_through(1.0 + 3.0 * W, &[], &cubic, |moment| {
+        if let Moment::Event { state, .. } = moment {
+            found.push(state.q[0] / W);
+            state.p[0] *= 1.0001;
+        }
+        ControlFlow::<()>::Continue(())
+    })?;
+    assert_eq!(found.len(), 3, "{found:?}");
+    for (found, expected) in found.into_iter().zip([-1.0, 0.0, 1.0]) {
+        assert!((found - expected).abs() < 1e-6, "{found}");
+    }
+    Ok(())
+}

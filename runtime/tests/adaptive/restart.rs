@@ -35,6 +35,22 @@ fn a_run_goes_on_with_the_same_bits() -> Result<(), Box<dyn std::error::Error>> 
 }
 
 #[test]
+fn another_monitor_of_the_same_value_is_refused() -> Result<(), Error> {
+    // |q| = 1 all along.
+    let circle = |exponent: f64| {
+        let monitor = DistancePower(exponent);
+        Integrator::adaptive(VelocityVerlet, Kepler, monitor, pericentre(0.0), 0.1)
+    };
+    let checkpoint = circle(1.5)?.checkpoint().expect("a checkpoint");
+    assert_eq!(
+        circle(1.0)?.restore(&checkpoint),
+        Err(CheckpointError::OtherSystem)
+    );
+    assert_eq!(circle(1.5)?.restore(&checkpoint), Ok(()));
+    Ok(())
+}
+
+#[test]
 fn checkpoints_of_other_runs_are_refused() -> Result<(), Error> {
     let monitor = DistancePower(1.5);
     let mut adaptive = Integrator::adaptive(VelocityVerlet, Kepler, monitor, pericentre(0.9), 0.1)?;

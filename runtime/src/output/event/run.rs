@@ -139,9 +139,9 @@ where
 {
     let run = steps.integrator();
     let present = run.state().time;
-    check_times(times, present, end)?;
     let step = steps.size_to(end);
     let forward = step.is_sign_positive();
+    check_times(times, steps.first_output(), end, step.signum())?;
     let mut search = Search::new(events, times, run.state(), run.last_event(), forward);
     search.start(run, step)?;
     let mut ended = search.show_output(run, present, handle)?;
@@ -167,22 +167,26 @@ where
         match stop {
             Stop::Broken(value, _) => return Ok(Some(value)),
             Stop::Failed(error) => return Err(error),
-            Stop::Reset => search.start(steps.integrator(), step)?,
+            Stop::Reset => {
+                let step = steps.size_to(end).copysign(step);
+                search.start(steps.integrator(), step)?;
+            }
         }
         ended = ControlFlow::Continue(());
     }
 }
 
-/// Checks that output times come one after the other from the start to the end.
-fn check_times(times: &[f64], start: f64, end: f64) -> Result<(), Error> {
-    let mut before = start;
+/// Checks that output times come one after the other from `before` to the end, in a direction.
+fn check_times(times: &[f64], mut before: f64, end: f64, direction: f64) -> Result<(), Error> {
+    let is_after = |time: f64, other: f64| (time - other) * direction > 0.0;
+    if is_after(before, end) {
+        return Err(Error::OutputTime { time: end, before });
+    }
     for &time in times {
-        // 0 for the same time twice.
-        let way = (time - before) * (end - start).signum();
-        if !time.is_finite() || way < 0.0 {
+        if !time.is_finite() || is_after(before, time) {
             return Err(Error::OutputTime { time, before });
         }
-        if (time - end) * (end - start).signum() > 0.0 || (start == end && time != end) {
+        if is_after(time, end) {
             return Err(Error::OutputAfterEnd { time, end });
         }
         before = time;
