@@ -50,7 +50,7 @@ pub enum FlowError {
         body: usize,
     },
 
-    /// A Kepler orbit over so many periods that less than half of the digits of its phase are left.
+    /// A Kepler orbit that was followed for too many periods: less than half of the digits of its phase are left.
     #[error(
         "the flow takes body {body} through {periods:e} periods of its orbit, and the phase at the end is known to less than half of \
          its digits; take a smaller step"

@@ -86,7 +86,7 @@ fn end(flow: impl Flow<V>, steps: u32) -> State<V> {
     run.integrate_to(END).expect("steps").clone()
 }
 
-/// The order that the errors with one and with twice so many steps show.
+/// The slope of the error when the number of steps is doubled.
 fn slope(flow: impl Flow<V> + Copy, exact: &State<V>, steps: u32) -> f64 {
     let [coarse, fine] = [steps, 2 * steps].map(|steps| distance(&end(flow, steps), exact));
     assert!(fine > 1e-13, "{fine}");

@@ -28,7 +28,7 @@ pub(super) fn comment(lines: &[String]) -> String {
 }
 
 /// A constant array.
-pub(super) fn array(name: &str, entries: &[Entry]) -> String {
+fn array(name: &str, entries: &[Entry]) -> String {
     let (length, numbers) = (entries.len(), numbers("    ", entries));
     format!("\nstatic const double {name}[{length}] = {{\n{numbers}}};\n")
 }

@@ -135,23 +135,20 @@ fn rendered(expression: &Expression, around: u8) -> Option<String> {
             }
         }
         ExpressionKind::Negate(inner) => (format!("-{}", rendered(inner, 2)?), 1),
-        // The sign stands before the fraction.
-        ExpressionKind::Binary {
-            operator: Operator::Divide,
-            left,
-            right,
-        } if matches!(left.kind, ExpressionKind::Negate(_)) => {
-            let ExpressionKind::Negate(inner) = &left.kind else {
-                return None;
-            };
-            let (left, right) = (rendered(inner, 0)?, rendered(right, 0)?);
-            (format!("-\\frac{{{left}}}{{{right}}}"), 1)
-        }
         ExpressionKind::Binary {
             operator,
             left,
             right,
         } => {
+            if let (Operator::Divide, ExpressionKind::Negate(inner)) = (operator, &left.kind) {
+                // The sign stands before the fraction, which is a sum of one term then.
+                let (above, below) = (rendered(inner, 0)?, rendered(right, 0)?);
+                return Some(parenthesised(
+                    format!("-\\frac{{{above}}}{{{below}}}"),
+                    1,
+                    around,
+                ));
+            }
             let own = strength(*operator);
             let (left, right) = match operator {
                 Operator::Divide => (rendered(left, 0)?, rendered(right, 0)?),
@@ -172,11 +169,16 @@ fn rendered(expression: &Expression, around: u8) -> Option<String> {
             (text, own)
         }
     };
-    Some(if own < around {
+    Some(parenthesised(text, own, around))
+}
+
+/// A text in parentheses, where what is around it binds tighter than its own operator.
+fn parenthesised(text: String, own: u8, around: u8) -> String {
+    if own < around {
         format!("\\left({text}\\right)")
     } else {
         text
-    })
+    }
 }
 
 #[cfg(test)]

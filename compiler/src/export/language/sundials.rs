@@ -1,6 +1,6 @@
 //! C for ARKODE of SUNDIALS.
 
-use super::c::{comment, hexadecimal, numbers};
+use super::c::{comment, numbers};
 use super::not_expressible;
 use super::table::{Entry, Table};
 use crate::error::Error;
@@ -59,13 +59,6 @@ fn splitting(table: &Table<'_>, drifts: &[Entry], kicks: &[Entry]) -> String {
 
 /// A constant array. The functions take pointers to numbers that are not constant in some versions.
 fn array(name: &str, entries: &[Entry]) -> String {
-    let lines = entries.iter().map(|entry| {
-        let (number, remark) = (hexadecimal(entry.double), entry.remark());
-        format!("    {number}, /* {remark} */\n")
-    });
-    let lines: String = lines.collect();
-    format!(
-        "  static sunrealtype {name}[{}] = {{\n{lines}  }};\n",
-        entries.len()
-    )
+    let (length, numbers) = (entries.len(), numbers("    ", entries));
+    format!("  static sunrealtype {name}[{length}] = {{\n{numbers}  }};\n")
 }

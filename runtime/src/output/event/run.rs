@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
-use crate::output::steps::Steps;
+use crate::output::steps::{Steps, is_after};
 use crate::state::State;
 use crate::system::System;
 
@@ -141,7 +141,7 @@ where
     let present = run.state().time;
     let step = steps.size_to(end);
     let forward = step.is_sign_positive();
-    check_times(times, steps.first_output(), end, step.signum())?;
+    check_times(times, steps.first_output(), end, step)?;
     let mut search = Search::new(events, times, run.state(), run.last_event(), forward);
     search.start(run, step)?;
     let mut ended = search.show_output(run, present, handle)?;
@@ -178,15 +178,14 @@ where
 
 /// Checks that output times come one after the other from `before` to the end, in a direction.
 fn check_times(times: &[f64], mut before: f64, end: f64, direction: f64) -> Result<(), Error> {
-    let is_after = |time: f64, other: f64| (time - other) * direction > 0.0;
-    if is_after(before, end) {
+    if is_after(direction, before, end) {
         return Err(Error::OutputTime { time: end, before });
     }
     for &time in times {
-        if !time.is_finite() || is_after(before, time) {
+        if !time.is_finite() || is_after(direction, before, time) {
             return Err(Error::OutputTime { time, before });
         }
-        if is_after(time, end) {
+        if is_after(direction, time, end) {
             return Err(Error::OutputAfterEnd { time, end });
         }
         before = time;
