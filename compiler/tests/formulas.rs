@@ -548,7 +548,7 @@ fn derivatives_are_right(formula: &str, values: [f64; 4]) -> Result<(), TestCase
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 500, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
 
     #[test]
     fn derivatives_of_random_formulas(formula in formulas(5), values in prop::array::uniform4(-1.5..1.5_f64)) {

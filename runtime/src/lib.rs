@@ -144,6 +144,7 @@ pub mod emitted {
     pub use crate::method::*;
     pub use crate::number::*;
     pub use crate::solver::*;
+    pub use crate::system::chain::{Bonds, Chain};
     pub use crate::system::*;
     pub use crate::{chain_system, if_alloc};
 }

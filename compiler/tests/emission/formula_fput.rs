@@ -41,7 +41,7 @@ const _: () = {
     #[allow(unused_imports, clippy::all)]
     use ::symplectic::emitted::{One as _, Scalar, Zero as _};
     #[allow(unused_variables, non_snake_case, clippy::all)]
-    impl ::symplectic::system::Bonds for Fput {
+    impl ::symplectic::emitted::Bonds for Fput {
         #[inline(always)]
         fn tension<T: Scalar>(&self, time: T, stretch: T) -> T {
             let value = stretch

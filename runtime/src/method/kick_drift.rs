@@ -357,7 +357,8 @@ fn velocity<'a, V: Vector, S: System<V>>(
 mod tests {
     use super::*;
     use crate::number::Plain;
-    use crate::system::{Bonds, Chain, acceleration, separable};
+    use crate::system::chain::{Bonds, Chain};
+    use crate::system::{acceleration, separable};
     use nalgebra::SVector;
 
     /// Long enough for rows.

@@ -116,7 +116,7 @@ pub trait Scalar:
     #[doc(hidden)]
     fn as_words(&mut self, _visit: &mut Visit<'_>) {}
 
-    /// The numbers, where they are doubles: those have rows, see [`Chain`](crate::system::Chain).
+    /// The numbers, where they are doubles: those have rows, see [`Chain`](crate::emitted::Chain).
     #[doc(hidden)]
     #[inline(always)]
     fn doubles(_numbers: &[Self]) -> Option<&[f64]> {

@@ -2,7 +2,7 @@
 
 use crate::number::F64x8;
 
-/// The components of a [`Chain`](crate::system::Chain), whose force is local: positions are made where they are asked for, and need not be
+/// The components of a [`Chain`](crate::emitted::Chain), whose force is local: positions are made where they are asked for, and need not be
 /// in memory. The force on every component has to be set, once.
 pub trait Components<T> {
     /// How many there are.

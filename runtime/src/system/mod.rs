@@ -17,7 +17,6 @@ pub(crate) mod local_force;
 pub(crate) mod over_vectors;
 pub(crate) mod strands;
 
-pub use chain::{Bonds, Chain};
 pub use class::{
     Class, Conservative, Damped, FreePositions, General, Holonomic, Separable, Unconstrained,
 };

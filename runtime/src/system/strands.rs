@@ -10,7 +10,7 @@ use crate::number::Vector;
 /// 0 1 2 3 4 5 6 7 8 9     in two strands of four from the second one on:     0 1 5 2 6 3 7 4 8 9
 /// ```
 ///
-/// A system whose components feel their neighbours, as a [`Chain`](crate::system::Chain) is one, has the neighbours of a whole row of
+/// A system whose components feel their neighbours, as a [`Chain`](crate::emitted::Chain) is one, has the neighbours of a whole row of
 /// strands in the rows before and after it: nothing is moved from one lane of the processor to another. Rows may begin at another
 /// place in the momenta than in the positions, for each to lie well; the components that are in no strand keep their order.
 ///

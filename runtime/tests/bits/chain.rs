@@ -6,10 +6,11 @@ use crate::common::methods::{
     AdjointEuler, Gauss2, PositionJump, StoermerVerlet, SymplecticEuler, TripleJump,
 };
 use symplectic::emitted::copy;
+use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::DVector;
 use symplectic::simd::{F64x4, Lanes};
 use symplectic::solver::FixedPoint;
-use symplectic::system::{Bonds, Chain, Layout};
+use symplectic::system::Layout;
 use symplectic::{
     Compensated, Error, Integrator, Method, Scalar, Separable, State, System, Vector, acceleration,
 };

@@ -3,9 +3,10 @@
 use std::cell::Cell;
 
 use crate::common::methods::{Gauss2, Gauss3, Gauss5, Gauss7, Gauss8, Gauss10, Lobatto3};
+use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::DVector;
 use symplectic::solver::Automatic;
-use symplectic::system::{Bonds, Chain, Components, OverEveryScalar, StageRows};
+use symplectic::system::{Components, OverEveryScalar, StageRows};
 use symplectic::{
     Compensated, Error, Integrator, Method, Plain, Scalar, Separable, State, Statistics, Summation,
     System, Vector,

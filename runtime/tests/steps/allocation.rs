@@ -11,8 +11,8 @@ use crate::common::systems::Pendulum;
 
 use crate::common::methods::{Midpoint, StoermerVerlet};
 use symplectic::adaptive::{DistancePower, Logarithmic, Poincare};
+use symplectic::emitted::{Bonds, Chain};
 use symplectic::flow::{Drift, FlowIntegrator, Kick, Splitting, Substeps};
-use symplectic::system::{Bonds, Chain};
 use symplectic::variational::{DiscreteLagrangian, Newmark, VariationalIntegrator};
 use symplectic::{
     Error, Event, Integrator, Method, Moment, Scalar, SeparableHamiltonian, State, Vector,

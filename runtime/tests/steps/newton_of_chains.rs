@@ -1,9 +1,10 @@
 //! Newton's iteration on chains of the runtime.
 
 use crate::common::methods::Gauss3;
+use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::DVector;
 use symplectic::solver::{Derivatives, Differences};
-use symplectic::system::{Bonds, Chain, Jacobian};
+use symplectic::system::Jacobian;
 use symplectic::{Error, Integrator, Scalar, State, System};
 
 fn start() -> State<DVector<f64>> {

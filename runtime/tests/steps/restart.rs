@@ -3,9 +3,9 @@
 
 use crate::common::methods::{Gauss3, Gauss8, Lobatto3, StoermerVerlet};
 use crate::common::systems::Kepler;
+use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::{DVector, SVector};
 use symplectic::solver::{Banded, Differences, Newton, Solver};
-use symplectic::system::{Bonds, Chain};
 use symplectic::{
     Checkpoint, CheckpointError, Error, Integrator, Method, ProvedFor, Retry, Scalar, Separable,
     SeparableHamiltonian, State, Summation, System, Vector,

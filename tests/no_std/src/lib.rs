@@ -8,7 +8,6 @@
 use core::ops::ControlFlow;
 
 use symplectic::nalgebra::{SVector, Vector1};
-use symplectic::system::{Bonds, Chain};
 use symplectic::{Error, Event, Integrator, Method, Moment, Scalar, SeparableHamiltonian, State};
 
 symplectic::tableau! {
@@ -86,14 +85,12 @@ pub fn impacts(angle: f64) -> Result<u32, Error> {
     Ok(count)
 }
 
-/// Toda's bonds: `V(d) = exp(d) − d`.
-#[derive(Clone, Copy, Debug)]
-pub struct Toda;
-
-impl Bonds for Toda {
-    fn tension<T: Scalar>(&self, _time: T, stretch: T) -> T {
-        stretch.exp() - T::one()
-    }
+symplectic::hamiltonian! {
+    /// Toda's ring.
+    pub Toda<N>
+    q: [N], p: [N]; bonds: ring;
+    H = sum(i: p[i]^2/2) + sum(bonds d: exp(d) - d)
+    require: [chain]
 }
 
 /// The momentum of a ring of 100 particles after some steps, of which it keeps all.
@@ -103,6 +100,6 @@ impl Bonds for Toda {
 pub fn momentum_of_a_ring(steps: u64) -> Result<f64, Error> {
     let pushed = SVector::<f64, 100>::from_fn(|i, _| if i == 50 { 1.0 } else { 0.0 });
     let start = State::new(0.0, SVector::zeros(), pushed);
-    let mut ring = Integrator::plain(StoermerVerlet, Chain::ring(Toda), start, 0.05)?;
+    let mut ring = Integrator::plain(StoermerVerlet, Toda::<100>, start, 0.05)?;
     Ok(ring.take_steps(steps)?.p.sum())
 }

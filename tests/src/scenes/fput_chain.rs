@@ -7,8 +7,8 @@
 //! at the start are our choice.
 //! *Reference:* recorded for few particles, [`recorded`]; for many a finer run.
 
+use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::DVector;
-use symplectic::system::{Bonds, Chain};
 use symplectic::{Scalar, State};
 
 use super::Needs;

@@ -7,8 +7,8 @@
 //! Anal. 34 (1997); the start is a breather of the equation `q_tt = q_xx − sin q` as it goes through zero.
 //! *Reference:* recorded, [`recorded`].
 
+use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::SVector;
-use symplectic::system::{Bonds, Chain};
 use symplectic::{Scalar, State};
 
 use super::Needs;

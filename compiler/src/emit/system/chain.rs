@@ -95,7 +95,7 @@ impl Emitter<'_> {
         });
         quote! {
             #[allow(unused_variables, non_snake_case, clippy::all)]
-            impl #generics ::symplectic::system::Bonds for #name #arguments {
+            impl #generics ::symplectic::emitted::Bonds for #name #arguments {
                 #[inline(always)]
                 fn tension<#scalar: Scalar>(&self, time: #scalar, stretch: #scalar) -> #scalar {
                     #tension

@@ -34,7 +34,7 @@ use crate::system::{Class, System, SystemInLanes, SystemLanes};
 /// iterated, with the coefficients of a [`SecondOrderTableau`]. Methods that have no such coefficients, and systems that are not
 /// separable, are taken as by [`SimdFixedPoint`].
 ///
-/// A [`Chain`](crate::system::Chain) on the heap, with up to eight stages at different times, is gone through once in a sweep, as long
+/// A [`Chain`](crate::emitted::Chain) on the heap, with up to eight stages at different times, is gone through once in a sweep, as long
 /// as a step goes on from the one before and settles in its first sweeps: the positions of the stages are made, and used, component by
 /// component. A tolerance is then compared with a bound on how far the next positions can be from those of the sweep, up to rounding.
 /// The first sweeps of a step are not measured: all but three of as many as the step before took. So a step takes at most two sweeps

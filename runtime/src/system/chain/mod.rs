@@ -110,7 +110,7 @@ enum Ends {
 /// ```
 /// use symplectic::nalgebra::DVector;
 /// use symplectic::{Error, Integrator, Scalar, State};
-/// use symplectic::system::{Bonds, Chain};
+/// use symplectic::emitted::{Bonds, Chain};
 ///
 /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
 ///

@@ -14,26 +14,26 @@ macro_rules! chain_system {
 
             #[inline(always)]
             fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
-                $crate::System::velocity(&$crate::system::Chain::$ends($bonds(self)), time, q, p, velocity);
+                $crate::System::velocity(&$crate::emitted::Chain::$ends($bonds(self)), time, q, p, velocity);
             }
 
             #[inline(always)]
             fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
-                $crate::System::force(&$crate::system::Chain::$ends($bonds(self)), time, q, p, force);
+                $crate::System::force(&$crate::emitted::Chain::$ends($bonds(self)), time, q, p, force);
             }
 
             const LOCAL_FORCE: bool = true;
 
             #[inline(always)]
             fn local_force(&self, time: V::Scalar, components: &mut impl $crate::emitted::Components<V::Scalar>) {
-                $crate::System::<V>::local_force(&$crate::system::Chain::$ends($bonds(self)), time, components);
+                $crate::System::<V>::local_force(&$crate::emitted::Chain::$ends($bonds(self)), time, components);
             }
 
             const ROW_FORCES: bool = true;
 
             #[inline(always)]
             fn row_forces(&self, rows: &mut impl $crate::emitted::StageRows) {
-                $crate::System::<V>::row_forces(&$crate::system::Chain::$ends($bonds(self)), rows);
+                $crate::System::<V>::row_forces(&$crate::emitted::Chain::$ends($bonds(self)), rows);
             }
 
             #[inline]
@@ -45,16 +45,16 @@ macro_rules! chain_system {
                 kicks: &[V::Scalar],
                 drift: V::Scalar,
             ) -> bool {
-                $crate::System::<V>::kick_and_drift(&$crate::system::Chain::$ends($bonds(self)), time, state, layout, kicks, drift)
+                $crate::System::<V>::kick_and_drift(&$crate::emitted::Chain::$ends($bonds(self)), time, state, layout, kicks, drift)
             }
 
             #[inline]
             fn layout(&self, q: &[V::Scalar], p: &[V::Scalar]) -> $crate::emitted::Layout {
-                $crate::System::<V>::layout(&$crate::system::Chain::$ends($bonds(self)), q, p)
+                $crate::System::<V>::layout(&$crate::emitted::Chain::$ends($bonds(self)), q, p)
             }
 
             fn energy(&self, time: V::Scalar, q: &V, p: &V) -> ::core::option::Option<V::Scalar> {
-                $crate::System::energy(&$crate::system::Chain::$ends($bonds(self)), time, q, p)
+                $crate::System::energy(&$crate::emitted::Chain::$ends($bonds(self)), time, q, p)
             }
 
             $crate::if_alloc! {
@@ -65,12 +65,12 @@ macro_rules! chain_system {
                     p: &V,
                     jacobian: &mut $crate::system::Jacobian<V::Scalar>,
                 ) -> bool {
-                    $crate::System::second_derivatives(&$crate::system::Chain::$ends($bonds(self)), time, q, p, jacobian)
+                    $crate::System::second_derivatives(&$crate::emitted::Chain::$ends($bonds(self)), time, q, p, jacobian)
                 }
             }
 
             fn half_bandwidth(&self) -> usize {
-                $crate::System::<V>::half_bandwidth(&$crate::system::Chain::$ends($bonds(self)))
+                $crate::System::<V>::half_bandwidth(&$crate::emitted::Chain::$ends($bonds(self)))
             }
         }
 
