@@ -28,6 +28,6 @@ pub use crate::method::Symmetry;
 pub use integrator::Adaptive;
 #[cfg(feature = "alloc")]
 pub use logarithmic::Logarithmic;
-pub use monitor::{DistancePower, Monitor, PairDistances};
+pub use monitor::{DistancePower, ForcePower, Monitor, PairDistances};
 #[cfg(feature = "alloc")]
 pub use poincare::Poincare;

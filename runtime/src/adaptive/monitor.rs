@@ -2,6 +2,7 @@
 
 use crate::number::hyper_dual::HyperDual;
 use crate::number::{Scalar, Vector};
+use crate::system::{Hamiltonian, Separable};
 
 /// A monitor σ(q) > 0: steps are as long as `σ(q)` says, in units of the ε that a run is given.
 ///
@@ -26,7 +27,7 @@ use crate::number::{Scalar, Vector};
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a monitor of step sizes",
-    note = "take `DistancePower` or `PairDistances`, or implement `Monitor` with `fn value<T: Scalar>(&self, q: &[T]) -> T`"
+    note = "take `DistancePower`, `PairDistances` or `ForcePower`, or implement `Monitor` with `fn value<T: Scalar>(&self, q: &[T]) -> T`"
 )]
 pub trait Monitor {
     /// σ(q). It must be finite and positive wherever the motion goes.
@@ -146,6 +147,49 @@ impl Monitor for PairDistances {
             *component *= self.exponent / sum;
         }
         true
+    }
+}
+
+/// Short steps where the force is strong, for systems of which no distance is known:
+///
+/// ```text
+/// σ = (F_0² + |∂H/∂q|²)^{−α/2}
+/// ```
+///
+/// With `α = 3/4` and `F_0 = 0` it is `|q|^{3/2}` in the Kepler problem. Where the force has zeros, a floor `F_0` above zero keeps σ
+/// finite. The force is taken at the time 0 and without momenta. Each value of σ is an evaluation of the force, and each derivative one
+/// with dual numbers; with dynamic vectors they allocate.
+///
+/// ```
+/// use symplectic::adaptive::{ForcePower, Monitor};
+///
+/// symplectic::hamiltonian! { Kepler q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 - 1/sqrt(x^2 + y^2) }
+///
+/// let monitor = ForcePower { system: Kepler, exponent: 0.75, floor: 0.0 };
+/// assert!((monitor.value(&[0.0, 4.0_f64]) - 8.0).abs() < 1e-14);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForcePower<S> {
+    /// Whose force it is.
+    pub system: S,
+    /// α
+    pub exponent: f64,
+    /// `F_0`
+    pub floor: f64,
+}
+
+impl<S: Hamiltonian<Class = Separable>> Monitor for ForcePower<S> {
+    fn value<T: Scalar>(&self, q: &[T]) -> T {
+        let Ok(q) = S::Vector::from_slice(q) else {
+            return T::from_f64(f64::NAN);
+        };
+        let mut force = q.zeros_like();
+        self.system.force(T::zero(), &q, &q, &mut force);
+        let floor = T::from_f64(self.floor);
+        power(
+            floor * floor + square(force.as_slice()),
+            -0.5 * self.exponent,
+        )
     }
 }
 

@@ -8,6 +8,7 @@
 //! | [`Palindrome`] | `A(h/2) B(h) A(h/2)`; `B` may be a palindrome again, for three parts and more | 2 |
 //! | [`Composed`] | the steps `γ_i h` of a composition, each a step of a palindrome | `M::ORDERS.general` |
 //! | [`Substeps`] | `n` steps of size `h/n`, for fast parts | that of the step |
+//! | `Asynchronous` | each of many potentials in steps of its own | 2 |
 //!
 //! Flows of parts:
 //!
@@ -50,6 +51,8 @@
 //! # }
 //! ```
 
+#[cfg(feature = "alloc")]
+mod asynchronous;
 mod composed;
 mod damping;
 mod drift;
@@ -66,6 +69,8 @@ mod philox;
 mod splitting;
 mod substeps;
 
+#[cfg(feature = "alloc")]
+pub use asynchronous::{Asynchronous, Elements};
 pub use composed::Composed;
 pub use damping::Damping;
 pub use drift::Drift;

@@ -1,6 +1,6 @@
 //! Monitors and their derivatives.
 
-use symplectic::adaptive::{DistancePower, Monitor, PairDistances};
+use symplectic::adaptive::{DistancePower, ForcePower, Monitor, PairDistances};
 use symplectic::nalgebra::{Vector2, Vector6};
 use symplectic::{Error, Integrator, Scalar, State, acceleration};
 
@@ -115,5 +115,43 @@ fn dual_numbers_give_the_same_steps() -> Result<(), Error> {
         duals.step()?;
         assert!((own.step_size() / duals.step_size() - 1.0).abs() < 1e-10);
     }
+    Ok(())
+}
+
+symplectic::hamiltonian! {
+    /// Kepler's problem, from its formula.
+    FromFormula
+    q: [x, y], p: [px, py];
+    H = (px^2 + py^2)/2 - 1/sqrt(x^2 + y^2)
+}
+
+/// |F|^{-3/4} = |q|^{3/2}: the same steps.
+#[test]
+fn the_force_tells_the_distance_of_a_kepler_orbit() -> Result<(), Error> {
+    let by_force = ForcePower {
+        system: FromFormula,
+        exponent: 0.75,
+        floor: 0.0,
+    };
+    let start = || pericentre(0.8);
+    let mut distance =
+        Integrator::adaptive(VelocityVerlet, Kepler, DistancePower(1.5), start(), 0.02)?;
+    let mut force = Integrator::adaptive(VelocityVerlet, FromFormula, by_force, start(), 0.02)?;
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for _ in 0..500 {
+        distance.step()?;
+        force.step()?;
+        let size = force.step_size();
+        assert!((size / distance.step_size() - 1.0).abs() < 1e-10);
+        (least, most) = (least.min(size), most.max(size));
+    }
+    assert!(most > 10.0 * least, "{least} {most}");
+    // A floor bounds the steps where the force is weak, and a state of another size has none.
+    let floor = ForcePower {
+        floor: 2.0,
+        ..by_force
+    };
+    assert!(floor.value(&[1e9, 0.0_f64]) <= 2.0_f64.powf(-0.75));
+    assert!(by_force.value(&[1.0_f64; 3]).is_nan());
     Ok(())
 }

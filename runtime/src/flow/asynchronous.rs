@@ -1,0 +1,316 @@
+//! Potentials with steps of their own.
+
+use alloc::collections::BinaryHeap;
+use alloc::collections::binary_heap::PeekMut;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::cmp::Ordering;
+
+use super::{Flow, FlowError, Span, check_count, check_dimension, check_parameter};
+use crate::error::{Error, Quantity};
+use crate::number::Vector;
+
+/// A system `H = Σ p_i²/(2m_i) + Σ_K V_K(t, q)`, whose elements K are each felt by a few components of the position: bonds, springs, the
+/// cells of a mesh. For [`Asynchronous`].
+pub trait Elements {
+    /// The number of elements.
+    fn count(&self) -> usize;
+
+    /// The components of the position on which `V_K` depends, each once.
+    fn components(&self, element: usize) -> &[usize];
+
+    /// Writes the force `−∂V_K/∂q` on the components of an element, in their order; `q` are their positions.
+    fn force(&self, element: usize, time: f64, q: &[f64], force: &mut [f64]);
+
+    /// The longest step of an element: well below the shortest period of its own oscillations.
+    fn step_size(&self, element: usize) -> f64;
+
+    /// `1/m_i` of a component of the position.
+    fn inverse_mass(&self, _component: usize) -> f64 {
+        1.0
+    }
+}
+
+/// The step of an asynchronous variational integrator (Lew, Marsden, Ortiz & West 2003): each element kicks in steps of its own.
+///
+/// A step of size h has `n_K = ⌈h/h_K⌉` equal steps of element K, with the [step size](Elements::step_size) `h_K`. At the times
+/// `k h/n_K` the components of the element drift from where they were last, and get the kick
+///
+/// ```text
+/// p ← p − (h/n_K) ∂V_K/∂q,   half of it for k = 0 and k = n_K.
+/// ```
+///
+/// $$ p \leftarrow p - \frac{h}{n_K} \frac{\partial V_K}{\partial q} $$
+///
+/// So a stiff bond is evaluated often, and a soft one seldom, with no common substep: the numbers `n_K` need no common divisor. The step is
+/// symplectic, symmetric and of order 2. It conserves the total momentum, to rounding, where the forces of each element add up to zero. It is
+/// all of the system, to be stepped by a [`FlowIntegrator`](super::FlowIntegrator), or a part beside other flows. Within
+/// [`Substeps`](super::Substeps) the half kicks between two steps are one evaluation.
+///
+/// Kicks of fast elements can resonate with the oscillations of slow ones, as in every method with several step sizes; keep h below half
+/// of the shortest period of the elements that have one step, or look at the energy for several step sizes. Sums are plain.
+///
+/// ```
+/// use symplectic::State;
+/// use symplectic::flow::{Asynchronous, Elements, FlowIntegrator};
+/// use symplectic::nalgebra::SVector;
+///
+/// /// Bonds of a chain: every other one is stiff.
+/// struct Bonds([[usize; 2]; 3]);
+///
+/// impl Bonds {
+///     fn stiffness(bond: usize) -> f64 {
+///         if bond % 2 == 0 { 100.0 } else { 1.0 }
+///     }
+/// }
+///
+/// impl Elements for Bonds {
+///     fn count(&self) -> usize {
+///         self.0.len()
+///     }
+///     fn components(&self, bond: usize) -> &[usize] {
+///         &self.0[bond]
+///     }
+///     fn force(&self, bond: usize, _time: f64, q: &[f64], force: &mut [f64]) {
+///         let tension = Self::stiffness(bond) * (q[1] - q[0]);
+///         force.copy_from_slice(&[tension, -tension]);
+///     }
+///     fn step_size(&self, bond: usize) -> f64 {
+///         0.1 / Self::stiffness(bond).sqrt()
+///     }
+/// }
+///
+/// # fn main() -> Result<(), symplectic::Error> {
+/// let step = Asynchronous::new(Bonds([[0, 1], [1, 2], [2, 3]]), 4)?;
+/// let start = State::new(0.0, SVector::from([0.0, 0.1, 0.0, 0.0]), SVector::from([0.0, 0.0, 0.0, 0.5]));
+/// let mut run = FlowIntegrator::new(step, start, 0.1)?;
+/// run.integrate_to(100.0)?;
+/// assert!((run.state().p.sum() - 0.5).abs() < 1e-12);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Asynchronous<E> {
+    elements: E,
+    drifts: Drifts,
+    /// Where the forces of each element begin, and where those of the last one end.
+    begins: Vec<usize>,
+    /// The forces of all elements at their last kicks.
+    forces: Vec<f64>,
+    /// Room for the positions of one element.
+    positions: Vec<f64>,
+    /// The next kick of each element.
+    queue: BinaryHeap<Kick>,
+}
+
+/// How the components of the position have drifted within a step.
+#[derive(Clone, Debug)]
+struct Drifts {
+    inverse_masses: Vec<f64>,
+    /// To which part of the step.
+    reached: Vec<f64>,
+}
+
+impl Drifts {
+    /// Takes a component to a part of a step of this size.
+    fn take(&mut self, component: usize, part: f64, size: f64, q: &mut [f64], p: &[f64]) {
+        let way = part - self.reached[component];
+        q[component] += size * way * self.inverse_masses[component] * p[component];
+        self.reached[component] = part;
+    }
+}
+
+/// The kick `number` of `count` that an element has in a step.
+#[derive(Clone, Copy, Debug)]
+struct Kick {
+    element: usize,
+    number: u32,
+    count: u32,
+}
+
+impl Kick {
+    /// When it is, as a part of the step.
+    fn part(self) -> f64 {
+        f64::from(self.number) / f64::from(self.count)
+    }
+}
+
+/// The greatest one is the next; of several at one time, that of the first element.
+impl Ord for Kick {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let by_time = other.part().total_cmp(&self.part());
+        by_time.then(other.element.cmp(&self.element))
+    }
+}
+
+impl PartialOrd for Kick {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Kick {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Kick {}
+
+impl<E: Elements> Asynchronous<E> {
+    /// The step of these elements, for positions of so many components.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::FlowParameter`] for a step size of an element that is not finite and positive, an inverse mass that is not finite or
+    /// negative, a component that there is not, or that an element has twice.
+    pub fn new(elements: E, dimension: usize) -> Result<Self, Error> {
+        let (mut begins, mut longest) = (vec![0], 0);
+        let mut seen_by = vec![None; dimension];
+        for element in 0..elements.count() {
+            check_parameter(
+                "step size of an element",
+                element,
+                elements.step_size(element),
+                false,
+            )?;
+            let components = elements.components(element);
+            for &component in components {
+                let what = "component of an element";
+                let range = "below the number of components of the position";
+                check_count(what, component, component < dimension, range)?;
+                let first = seen_by[component].replace(element) != Some(element);
+                check_count(what, component, first, "there once")?;
+            }
+            longest = longest.max(components.len());
+            begins.push(begins[element] + components.len());
+        }
+        let inverse_masses: Vec<f64> = (0..dimension).map(|i| elements.inverse_mass(i)).collect();
+        for (component, &inverse_mass) in inverse_masses.iter().enumerate() {
+            check_parameter("inverse mass", component, inverse_mass, true)?;
+        }
+        Ok(Self {
+            forces: vec![0.0; begins[elements.count()]],
+            positions: vec![0.0; longest],
+            drifts: Drifts {
+                inverse_masses,
+                reached: vec![0.0; dimension],
+            },
+            queue: BinaryHeap::with_capacity(elements.count()),
+            begins,
+            elements,
+        })
+    }
+
+    /// The elements.
+    pub const fn elements(&self) -> &E {
+        &self.elements
+    }
+
+    /// One step; the forces at its start are known if it follows another one.
+    fn step(
+        &mut self,
+        span: Span,
+        forces_known: bool,
+        q: &mut [f64],
+        p: &mut [f64],
+    ) -> Result<(), FlowError> {
+        self.queue.clear();
+        self.drifts.reached.fill(0.0);
+        for element in 0..self.elements.count() {
+            let count = steps(span.size, self.elements.step_size(element))?;
+            let kick = Kick {
+                element,
+                number: 0,
+                count,
+            };
+            if !forces_known {
+                self.evaluate(kick, span, q)?;
+            }
+            self.kick(kick, span, p);
+            self.queue.push(Kick { number: 1, ..kick });
+        }
+        while let Some(&kick) = self.queue.peek() {
+            for &component in self.elements.components(kick.element) {
+                self.drifts.take(component, kick.part(), span.size, q, p);
+            }
+            self.evaluate(kick, span, q)?;
+            self.kick(kick, span, p);
+            if let Some(mut next) = self.queue.peek_mut() {
+                if kick.number == kick.count {
+                    PeekMut::pop(next);
+                } else {
+                    next.number += 1;
+                }
+            }
+        }
+        (0..q.len()).for_each(|component| self.drifts.take(component, 1.0, span.size, q, p));
+        Ok(())
+    }
+
+    /// Writes the forces of an element at a kick.
+    fn evaluate(&mut self, kick: Kick, span: Span, q: &[f64]) -> Result<(), FlowError> {
+        let components = self.elements.components(kick.element);
+        let positions = &mut self.positions[..components.len()];
+        for (position, &component) in positions.iter_mut().zip(components) {
+            *position = q[component];
+        }
+        let forces = &mut self.forces[self.begins[kick.element]..self.begins[kick.element + 1]];
+        let time = span.time + span.size * kick.part();
+        self.elements.force(kick.element, time, positions, forces);
+        match forces.iter().all(|force| force.is_finite()) {
+            true => Ok(()),
+            false => Err(FlowError::NonFinite {
+                what: Quantity::Force,
+            }),
+        }
+    }
+
+    /// Adds the kick of an element by its forces.
+    fn kick(&self, kick: Kick, span: Span, p: &mut [f64]) {
+        let Kick {
+            element,
+            number,
+            count,
+        } = kick;
+        let at_an_end = number == 0 || number == count;
+        let weight = span.size / f64::from(count) * if at_an_end { 0.5 } else { 1.0 };
+        let components = self.elements.components(element);
+        for (&component, force) in components.iter().zip(&self.forces[self.begins[element]..]) {
+            p[component] += weight * force;
+        }
+    }
+}
+
+/// The smallest number of equal steps that are no longer than `longest`, but for rounding.
+fn steps(size: f64, longest: f64) -> Result<u32, FlowError> {
+    let ratio = size.abs() / longest * (1.0 - 4.0 * f64::EPSILON);
+    if ratio < f64::from(u32::MAX) {
+        return Ok(libm::ceil(ratio).max(1.0) as u32);
+    }
+    Err(FlowError::Other {
+        reason: "an element has more than 2^32 steps in one step; take shorter steps, or longer ones of the elements",
+    })
+}
+
+impl<V: Vector<Scalar = f64>, E: Elements> Flow<V> for Asynchronous<E> {
+    fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
+        self.flow_through(core::iter::once(span), q, p)
+    }
+
+    fn flow_through(
+        &mut self,
+        spans: impl Iterator<Item = Span>,
+        q: &mut V,
+        p: &mut V,
+    ) -> Result<(), FlowError> {
+        let dimension = self.drifts.reached.len();
+        check_dimension(dimension, q)?;
+        check_dimension(dimension, p)?;
+        let (q, p) = (q.as_mut_slice(), p.as_mut_slice());
+        for (number, span) in spans.enumerate() {
+            self.step(span, number > 0, q, p)?;
+        }
+        Ok(())
+    }
+}
