@@ -242,3 +242,88 @@ fn friction_from_a_formula() -> Result<(), Error> {
     assert!((x - exact).abs() < 1e-6, "{x} {exact}");
     Ok(())
 }
+
+/// Where a formula is singular and its limit is not, and far from the numbers that are usual.
+mod far_and_singular {
+    use symplectic::nalgebra::{SVector, Vector1, Vector3};
+    use symplectic::{Error, Hamiltonian, Integrator, Quantity, State};
+
+    symplectic::tableau! { Verlet { base: velocity-verlet } }
+
+    symplectic::hamiltonian! {
+        /// Powers of a distance that are smooth where it is zero.
+        Powers
+        q: [3], p: [3];
+        H = |p|^2/2 + |q|^3 + |q|^4 + |q|^(5/2)
+    }
+
+    symplectic::hamiltonian! {
+        /// The limit at zero is 1, and the quotient has none.
+        Quotient
+        q: [x], p: [px];
+        H = px^2/2 + sin(x)/x
+    }
+
+    symplectic::hamiltonian! {
+        /// Functions that are bounded, or underflow.
+        Bounded
+        q: [x], p: [px];
+        H = px^2/2 + tanh(x) + atan(x) + exp(-x^2) + 1/(1 + x^2)
+    }
+
+    fn force<S, const N: usize>(system: &S, q: [f64; N]) -> SVector<f64, N>
+    where
+        S: Hamiltonian<Vector<f64> = SVector<f64, N>>,
+    {
+        let (q, mut force) = (SVector::from(q), SVector::zeros());
+        system.force(0.0, &q, &SVector::zeros(), &mut force);
+        force
+    }
+
+    #[test]
+    fn powers_of_a_distance_are_smooth_at_zero() {
+        assert_eq!(force(&Powers, [0.0; 3]), Vector3::zeros());
+        // Where |q|² underflows the force does.
+        assert_eq!(force(&Powers, [1e-200, 0.0, 0.0]), Vector3::zeros());
+        for x in [1e-150, 1e-20, 1e-3, 1.0, 1e20, 1e70] {
+            let found = force(&Powers, [0.0, -x, 0.0])[1];
+            let exact = 3.0 * x.powi(2) + 4.0 * x.powi(3) + 2.5 * x * x.sqrt();
+            assert!((found / exact - 1.0).abs() < 1e-14, "{x}: {found}");
+        }
+    }
+
+    #[test]
+    fn bounded_functions_have_forces_everywhere() {
+        for x in [1e-300, 1e-9, 0.5, 30.0, 1e3, 1e150] {
+            let exact = |x: f64| {
+                let tanh = x.cosh().recip().powi(2);
+                let gauss = -2.0 * x * (-x * x).exp();
+                tanh + 1.0 / (1.0 + x * x) + gauss - 2.0 * x / (1.0 + x * x) / (1.0 + x * x)
+            };
+            for x in [x, -x] {
+                let found = force(&Bounded, [x])[0];
+                let error = (found + exact(x)).abs();
+                assert!(error < 1e-14, "{x}: {found} {}", exact(x));
+            }
+        }
+    }
+
+    #[test]
+    fn a_quotient_of_zeros_is_an_error_of_the_step() -> Result<(), Error> {
+        let near = force(&Quotient, [1e-3])[0];
+        assert!((near - 1e-3 / 3.0).abs() < 1e-9, "{near}");
+        let start = State::new(0.0, Vector1::new(0.0), Vector1::new(1.0));
+        let mut run = Integrator::new(Verlet, Quotient, start.clone(), 0.1)?;
+        let error = run.step().err();
+        let is_that = matches!(
+            error,
+            Some(Error::NonFinite {
+                what: Quantity::Force,
+                ..
+            })
+        );
+        assert!(is_that, "{error:?}");
+        assert_eq!(run.state(), &start);
+        Ok(())
+    }
+}
