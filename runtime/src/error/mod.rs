@@ -1,10 +1,15 @@
 //! What can go wrong.
 
+mod constraint_name;
 mod flow;
+mod phrases;
+mod quantity;
 
+pub use constraint_name::ConstraintName;
 pub use flow::FlowError;
+pub use quantity::Quantity;
 
-use core::fmt;
+use phrases::{AtStage, Divergence, Named, Undetermined};
 
 /// Why a step was not taken, or an integration not begun. The state of the integrator is the last good one.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -710,55 +715,6 @@ pub enum Error {
     },
 }
 
-/// The quantity that an [`Error`] is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Quantity {
-    /// Time t.
-    Time,
-    /// Position q.
-    Position,
-    /// Momentum p.
-    Momentum,
-    /// ∂H/∂p.
-    Velocity,
-    /// −∂H/∂q.
-    Force,
-    /// A derivative of the velocity or the force.
-    Derivative,
-    /// H.
-    Energy,
-    /// A constraint: φ, or a row of w.
-    Constraint,
-    /// The attitude R of a rigid body.
-    Attitude,
-    /// A torque on a rigid body.
-    Torque,
-    /// A discrete Lagrangian, its derivatives or its forces.
-    DiscreteLagrangian,
-    /// A Lagrangian, its derivatives or its force.
-    Lagrangian,
-}
-
-impl fmt::Display for Quantity {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(match self {
-            Self::Time => "time",
-            Self::Position => "position",
-            Self::Momentum => "momentum",
-            Self::Velocity => "velocity",
-            Self::Force => "force",
-            Self::Derivative => "derivative of the velocity or the force",
-            Self::Energy => "energy",
-            Self::Constraint => "constraint",
-            Self::Attitude => "attitude",
-            Self::Torque => "torque",
-            Self::DiscreteLagrangian => "discrete Lagrangian",
-            Self::Lagrangian => "Lagrangian",
-        })
-    }
-}
-
 impl Error {
     /// [`Error::Monitor`] at a time, for a value.
     pub(crate) const fn monitor_at(time: f64) -> impl Fn(f64) -> Self {
@@ -783,79 +739,5 @@ impl Error {
             *name = of(*constraint);
         }
         self
-    }
-}
-
-/// What a constraint is called: `rod`, or `rods[3]` in a family.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ConstraintName {
-    /// The name of it, or of its family.
-    pub name: &'static str,
-    /// The number in the family, from 0.
-    pub member: Option<usize>,
-}
-
-impl fmt::Display for ConstraintName {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.name)?;
-        self.member
-            .map_or(Ok(()), |member| write!(formatter, "[{member}]"))
-    }
-}
-
-/// " (`name`)", or nothing.
-struct Named(Option<ConstraintName>);
-
-impl fmt::Display for Named {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0
-            .map_or(Ok(()), |name| write!(formatter, " (`{name}`)"))
-    }
-}
-
-/// The component that is not determined, or nothing.
-struct Undetermined(Option<usize>);
-
-impl fmt::Display for Undetermined {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.map_or(Ok(()), |component| {
-            write!(
-                formatter,
-                ": ∂L/∂v does not determine component {component}"
-            )
-        })
-    }
-}
-
-/// " at stage i", or nothing.
-struct AtStage(Option<usize>);
-
-impl fmt::Display for AtStage {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0
-            .map_or(Ok(()), |stage| write!(formatter, " at stage {stage}"))
-    }
-}
-
-/// What an iteration did instead of converging.
-struct Divergence {
-    residual: f64,
-    iterations: u32,
-}
-
-impl fmt::Display for Divergence {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            residual,
-            iterations,
-        } = *self;
-        if residual.is_finite() {
-            write!(
-                formatter,
-                "did not converge in {iterations} iterations (relative change {residual:e} in the last one)"
-            )
-        } else {
-            write!(formatter, "are not finite after {iterations} iterations")
-        }
     }
 }
