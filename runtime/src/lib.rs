@@ -80,6 +80,8 @@ mod error;
 mod state;
 
 pub mod adaptive;
+#[cfg(feature = "alloc")]
+pub mod ensemble;
 pub mod flow;
 mod integrator;
 mod method;
