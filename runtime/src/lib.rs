@@ -29,6 +29,7 @@
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`RunTimeTableau`] |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
 //! | What is seen of a run | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
+//! | Many trajectories, in lanes and on all cores | [`ensemble`] |
 //! | How coupled stages are found | [`solver`] |
 //! | Which method to take | the package `symplectic-report` |
 //!
@@ -65,6 +66,8 @@
 //! * `alloc`: dynamic vectors, [`nalgebra::DVector`], Newton's iteration, generating functions and tableaux at run time.
 //! * `serde`: a [`Checkpoint`] can be written and read in any format; implies `alloc`.
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and Newton's iteration takes derivatives by dual numbers; implies `std`.
+//! * `parallel`: the trajectories of an [`ensemble`] are shared among threads; implies `std`.
+//! * `npz`: ensembles are written to files for NumPy; implies `std`.
 //! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, the functions named under `std` from `libm`.
 
 #![no_std]
@@ -75,6 +78,9 @@ extern crate self as symplectic;
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
+
+#[cfg(feature = "npz")]
+extern crate std;
 
 mod error;
 mod state;

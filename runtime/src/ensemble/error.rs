@@ -36,6 +36,19 @@ pub enum EnsembleError {
     #[error(transparent)]
     All(Error),
 
+    /// Bins that hold nothing.
+    #[error(
+        "a histogram of {bins} bins from {low} to {high}: there must be one at least, and both ends finite, in their order"
+    )]
+    Histogram {
+        /// The lower end.
+        low: f64,
+        /// The upper end.
+        high: f64,
+        /// The number of bins.
+        bins: usize,
+    },
+
     /// There is no such part.
     #[error(
         "there is no part {part} of {count}: parts are numbered from 0, and there must be one at least"

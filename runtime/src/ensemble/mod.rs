@@ -8,7 +8,8 @@
 //! | Final states, states at given times | [`Ensemble::integrate_to`], [`Ensemble::take_steps`], [`Ensemble::integrate_at`] |
 //! | Events, and everything else that an integrator can do | [`Ensemble::each`] |
 //! | What comes of a trajectory, with its error if it failed | [`Row`] |
-//! | Several machines, and runs that are interrupted | [`Ensemble::shard`] |
+//! | Mean, variance, histogram over the trajectories | [`Moments`], [`Histogram`] |
+//! | Several machines, and runs that are interrupted | [`Ensemble::shard`], [`Ensemble::checkpoint`] |
 //!
 //! # Lanes
 //!
@@ -25,13 +26,25 @@
 //! With the feature `parallel` the trajectories are shared among the threads of `rayon`. Without it there is one thread, and the same
 //! bits.
 
+#[cfg(feature = "serde")]
+mod as_bits;
+mod checkpoint;
 mod error;
 mod group;
+mod histogram;
+mod moments;
+#[cfg(feature = "npz")]
+mod npz;
 mod pool;
 mod row;
 mod run;
 
+pub use checkpoint::EnsembleCheckpoint;
 pub use error::EnsembleError;
+pub use histogram::Histogram;
+pub use moments::Moments;
+#[cfg(feature = "npz")]
+pub use npz::Npz;
 pub use row::Row;
 
 use alloc::boxed::Box;

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 #[cfg(feature = "parallel")]
 pub(super) fn map<T: Send, U: Send>(items: Vec<T>, work: impl Fn(T) -> U + Sync) -> Vec<U> {
     use rayon::iter::{IntoParallelIterator, ParallelIterator};
-    items.into_par_iter().map(work).collect()
+    items.into_par_iter().map(&work).collect()
 }
 
 /// `work` of each item, in their order.

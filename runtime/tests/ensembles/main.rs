@@ -7,4 +7,5 @@ mod bits;
 mod errors;
 mod failures;
 mod outputs;
+mod restart;
 mod systems;
