@@ -199,6 +199,8 @@ mod book {
     struct Speed;
     #[doc = include_str!("../../docs/src/guide/restart.md")]
     struct Restart;
+    #[doc = include_str!("../../docs/src/guide/ensembles.md")]
+    struct Ensembles;
     #[doc = include_str!("../../docs/src/reference/errors.md")]
     struct Errors;
 }

@@ -189,7 +189,7 @@ where
         let Some(zeros) = same::<_, W>(&like) else {
             return Attempt::Refused;
         };
-        let mut lanes: InLanes<M, S, W, R> = first.in_all_lanes(zeros);
+        let mut lanes: InLanes<M, S, W, R> = first.over_lanes(zeros);
         let mut live: Vec<usize> = (0..self.group.members.len()).collect();
         self.put_in_lanes(&mut lanes, &live);
         let alike = |&place: &usize| lanes.evaluates_like(place, &self.group.members[place].run);

@@ -4,12 +4,14 @@
 //! doubles to one over lanes and back, at any step.
 
 use alloc::vec::Vec;
+use core::marker::PhantomData;
 
 use super::{Integrator, MemoryOf, PlanOf, StepMemory};
 use crate::error::Error;
+use crate::integrator::Retry;
 use crate::integrator::clock::{Clock, uniform};
-use crate::method::{Method, Plan, Solver};
-use crate::number::{Lanes, Scalar, Summation, Vector};
+use crate::method::{Method, Plan, Solver, StageStorage};
+use crate::number::{Lanes, Scalar, Summation, Vector, vector_words};
 use crate::state::State;
 use crate::system::System;
 
@@ -103,8 +105,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         (self.course, self.clock) = (mark.course, mark.clock);
     }
 
-    /// The same run in every lane of vectors like `zeros`.
-    pub(crate) fn in_all_lanes<W>(
+    /// An integrator for such runs, in the lanes of vectors like `zeros`; every lane is still to be [set](Self::set_lane).
+    pub(crate) fn over_lanes<W>(
         &self,
         zeros: &W,
     ) -> Integrator<M, S, W, R, <S as System<W>>::Solver>
@@ -113,21 +115,17 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         S: System<W> + Clone,
     {
         let blank = State::new(self.course.state.time, zeros.clone(), zeros.clone());
-        let mut lanes = Integrator {
+        Integrator {
             system: self.system.clone(),
             course: StepMemory::new(false, blank),
             clock: self.clock,
             step_size: self.step_size,
             stopping: self.stopping,
             // A step that fails is taken again by the trajectory whose it is.
-            retry: super::Retry::Never,
+            retry: Retry::Never,
             last_event: self.last_event,
-            method: core::marker::PhantomData,
-        };
-        for lane in 0..<W::Scalar as Lanes>::WIDTH {
-            lanes.set_lane(lane, self);
+            method: PhantomData,
         }
-        lanes
     }
 }
 
@@ -194,9 +192,7 @@ where
 }
 
 /// The words of all scalars of a run.
-fn words_of<V: Vector, T: crate::method::StageStorage<V>>(
-    course: &mut StepMemory<V, T>,
-) -> Vec<u64> {
+fn words_of<V: Vector, T: StageStorage<V>>(course: &mut StepMemory<V, T>) -> Vec<u64> {
     let mut words = Vec::new();
     course.scalar_words(&mut |word| words.push(*word));
     words
@@ -210,6 +206,6 @@ fn evaluations<V: Vector, S: System<V>>(system: &S, State { time, q, p }: &State
     system.velocity(time, q, p, velocity);
     system.force(time, q, p, force);
     let mut words = Vec::new();
-    crate::number::vector_words(&mut found, &mut |word| words.push(*word));
+    vector_words(&mut found, &mut |word| words.push(*word));
     words
 }
