@@ -60,6 +60,9 @@ use crate::number::{Compensated, F64x8, Lanes, Plain, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
 
+/// What an ensemble is of: none of it is in it, so that threads may share it.
+type Kind<M, R, N, L> = fn() -> (M, R, N, L);
+
 /// Many trajectories of one method and one step size.
 ///
 /// The starts are kept, and the trajectories are made from them when they are asked for, a few at a time: an ensemble takes the memory of
@@ -104,7 +107,7 @@ where
     retry: Retry,
     in_lanes: bool,
     stop: Option<Box<dyn Fn() -> bool + Send + Sync>>,
-    kind: PhantomData<fn() -> (M, R, N, L)>,
+    kind: PhantomData<Kind<M, R, N, L>>,
 }
 
 impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {
