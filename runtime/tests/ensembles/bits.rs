@@ -135,6 +135,33 @@ fn systems_that_are_not_separable() {
     check_sums(Weighted.accept_lower_order(), Product, &starts, 0.05);
 }
 
+symplectic::hamiltonian! {
+    Damped { gamma: 0.1 }
+    q: [x, y], p: [px, py];
+    H = (px^2 + py^2)/2 + x^2 y^2 + cos(x)
+    friction: gamma
+}
+
+symplectic::hamiltonian! {
+    Rod
+    q: [x, y], p: [px, py];
+    H = (px^2 + py^2)/2 + y
+    constraints: { rod = x^2 + y^2 - 1 }
+}
+
+#[test]
+fn friction_and_constraints() {
+    let start = |k: usize| State::from_arrays(0.0, [0.1 * k as f64, 0.7], [0.3, 0.1]);
+    let starts: Vec<_> = (0..11).map(start).collect();
+    check_sums(ForestRuth, Damped::default(), &starts, 0.1);
+    let start = |k: usize| {
+        let (sine, cosine) = (0.3 * k as f64).sin_cos();
+        State::from_arrays(0.0, [sine, -cosine], [0.0, 0.0])
+    };
+    let starts: Vec<_> = (0..5).map(start).collect();
+    check_sums(Lobatto3, Rod, &starts, 0.1);
+}
+
 #[test]
 fn dynamic_vectors_short_and_long() {
     for dimension in [3, 70] {
