@@ -29,6 +29,7 @@
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`RunTimeTableau`] |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
 //! | What is seen of a run | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
+//! | Many trajectories, in lanes and on all cores | [`ensemble`] |
 //! | How coupled stages are found | [`solver`] |
 //! | Which method to take | the package `symplectic-report` |
 //!
@@ -65,6 +66,8 @@
 //! * `alloc`: dynamic vectors, [`nalgebra::DVector`], Newton's iteration, generating functions and tableaux at run time.
 //! * `serde`: a [`Checkpoint`] can be written and read in any format; implies `alloc`.
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and Newton's iteration takes derivatives by dual numbers; implies `std`.
+//! * `parallel`: the trajectories of an [`ensemble`] are shared among threads; implies `std`.
+//! * `npz`: ensembles are written to files for NumPy; implies `std`.
 //! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, the functions named under `std` from `libm`.
 
 #![no_std]
@@ -76,10 +79,15 @@ extern crate self as symplectic;
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+#[cfg(feature = "npz")]
+extern crate std;
+
 mod error;
 mod state;
 
 pub mod adaptive;
+#[cfg(feature = "alloc")]
+pub mod ensemble;
 pub mod flow;
 mod integrator;
 mod method;
@@ -192,6 +200,8 @@ mod book {
     struct Speed;
     #[doc = include_str!("../../docs/src/guide/restart.md")]
     struct Restart;
+    #[doc = include_str!("../../docs/src/guide/ensembles.md")]
+    struct Ensembles;
     #[doc = include_str!("../../docs/src/reference/errors.md")]
     struct Errors;
 }

@@ -14,6 +14,7 @@ const ROOMS: &[&[&str]] = &[
     &["integrator"],
     &["flow", "output", "rotation", "variational"],
     &["adaptive"],
+    &["ensemble"],
 ];
 
 /// The imports that run up. A system chooses how it is stepped: its class the plan of a method, and its type the solver.

@@ -10,7 +10,7 @@ use crate::integrator::last_event::LastEvent;
 use crate::integrator::memory::StepMemory;
 use crate::integrator::{Integrator, Retry, Statistics};
 use crate::method::{Method, Solver, StageStorage, StepStatistics, Stopping, WarmStart};
-use crate::number::words::{Visit, Words, scalar_words, vector_words, words};
+use crate::number::words::{Visit, Words, vector_words, words};
 use crate::number::{Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
@@ -289,33 +289,17 @@ struct Run<V, T> {
 impl<V: Vector, T: StageStorage<V>> Run<V, T> {
     /// Shows `visit` every word, first those of the state.
     fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: self.course.state.time, self.step_size);
+        self.course.scalar_words(visit);
         let StepMemory {
-            state: State { time, q, p },
-            low,
-            next,
-            next_low,
             work,
-            memory,
             kept,
             last_size,
             last_time,
             statistics,
             linear_velocity,
+            ..
         } = &mut self.course;
-        words!(visit: *time, self.step_size);
-        for vector in [
-            q,
-            p,
-            &mut low.0,
-            &mut low.1,
-            &mut next.0,
-            &mut next.1,
-            &mut next_low.0,
-            &mut next_low.1,
-        ] {
-            scalar_words(vector.as_mut_slice(), visit);
-        }
-        memory.words(visit);
         let WarmStart {
             evaluation,
             stages,

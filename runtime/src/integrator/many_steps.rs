@@ -43,20 +43,43 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                     continue;
                 }
             }
-            // The last step is taken by itself: the state before it stays at hand.
-            let block = (left - 1).min(block(self.course.state.q.dimension()));
-            let ready = self.course.kept.evaluation && block > 0;
-            if ready && self.advance_in_place(block, size, clock) {
-                left -= block;
-                continue;
-            }
-            // One step to have an evaluation to go on from, or those of the block one by one.
-            for _ in 0..if ready { block } else { 1 } {
-                left -= 1;
-                let time = end.filter(|_| left == 0).unwrap_or_else(|| clock.next());
-                self.advance(size, time)?;
-                clock.tick();
-            }
+            let block = self.next_block(left);
+            self.advance_block(block, left, size, clock, end)?;
+            left -= block;
+        }
+        Ok(())
+    }
+
+    /// How many of the steps that are left are taken next: one to have an evaluation to go on from, or many in place.
+    #[inline]
+    pub(super) fn next_block(&self, left: u64) -> u64 {
+        // The last step is taken by itself: the state before it stays at hand.
+        let block = (left - 1).min(block(self.course.state.q.dimension()));
+        match self.course.kept.evaluation {
+            true => block.max(1),
+            false => 1,
+        }
+    }
+
+    /// Takes a [block](Self::next_block) of the steps that are left, in place or one by one.
+    #[inline]
+    pub(super) fn advance_block(
+        &mut self,
+        block: u64,
+        mut left: u64,
+        size: f64,
+        clock: &mut Clock,
+        end: Option<f64>,
+    ) -> Result<(), Error> {
+        let ready = self.course.kept.evaluation && left > 1;
+        if ready && self.advance_in_place(block, size, clock) {
+            return Ok(());
+        }
+        for _ in 0..block {
+            left -= 1;
+            let time = end.filter(|_| left == 0).unwrap_or_else(|| clock.next());
+            self.advance(size, time)?;
+            clock.tick();
         }
         Ok(())
     }

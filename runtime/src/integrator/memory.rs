@@ -9,6 +9,8 @@ use crate::method::{
 };
 use crate::number::vector::{SHORT, is_in_place};
 use crate::number::{Summation, Vector, copy};
+#[cfg(feature = "alloc")]
+use crate::number::{Visit, scalar_words};
 use crate::state::State;
 use crate::system::System;
 
@@ -53,6 +55,43 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
             linear_velocity,
             state,
         }
+    }
+
+    /// Shows `visit` the words of all scalars: of state, result and memory.
+    #[cfg(feature = "alloc")]
+    pub(super) fn scalar_words(&mut self, visit: &mut Visit<'_>) {
+        let Self {
+            state: State { q, p, .. },
+            low,
+            next,
+            next_low,
+            memory,
+            ..
+        } = self;
+        for vector in [
+            q,
+            p,
+            &mut low.0,
+            &mut low.1,
+            &mut next.0,
+            &mut next.1,
+            &mut next_low.0,
+            &mut next_low.1,
+        ] {
+            scalar_words(vector.as_mut_slice(), visit);
+        }
+        memory.words(visit);
+    }
+
+    /// Takes over from a run of other vectors all that is no scalar, except what it knows of the system.
+    #[cfg(feature = "alloc")]
+    pub(super) fn same_place<W, U>(&mut self, other: &StepMemory<W, U>) {
+        self.state.time = other.state.time;
+        self.work = other.work;
+        self.kept = other.kept;
+        self.last_size = other.last_size;
+        self.last_time = other.last_time;
+        self.statistics = other.statistics;
     }
 
     /// The same from here, with nothing left behind by steps.

@@ -38,6 +38,8 @@ mod one_step;
 mod retry_in_parts;
 #[cfg(feature = "alloc")]
 mod run_time;
+#[cfg(feature = "alloc")]
+pub(crate) mod side_by_side;
 mod solvers;
 pub(crate) mod validation;
 
@@ -223,18 +225,28 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
     /// An integrator of the method that the type says.
     fn made(system: S, state: State<V>, step_size: f64) -> Result<Self, Error> {
+        Self::check(&system, &state, step_size)?;
+        Ok(Self::unchecked(system, state, step_size))
+    }
+
+    /// Checks what an integrator is to be made of.
+    pub(crate) fn check(system: &S, state: &State<V>, step_size: f64) -> Result<(), Error> {
         check_step_size(step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
-        check_masses(&system, &state)?;
-        check_quadratic_kinetic::<M, V, S>(&system, &state)?;
-        <PlanOf<M, S, V> as Plan>::check(&system, state.time, &state.q, &state.p)?;
+        check_masses(system, state)?;
+        check_quadratic_kinetic::<M, V, S>(system, state)?;
+        <PlanOf<M, S, V> as Plan>::check(system, state.time, &state.q, &state.p)
+    }
+
+    /// An integrator of what has been [checked](Self::check).
+    pub(crate) fn unchecked(system: S, state: State<V>, step_size: f64) -> Self {
         let clock = Clock::new(state.time, step_size);
         let linear_velocity = has_linear_velocity::<V, S, N>(&system, &state);
         let mut course: StepMemory<V, MemoryOf<M, S, V, N>> =
             StepMemory::new(linear_velocity, state);
         let State { time, q, p } = &course.state;
         <PlanOf<M, S, V> as Plan>::prepare::<V, S, N>(&mut course.memory, &system, *time, q, p);
-        Ok(Self {
+        Self {
             course,
             system,
             clock,
@@ -243,7 +255,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             retry: Retry::default(),
             last_event: None,
             method: PhantomData,
-        })
+        }
     }
 
     /// Takes one step and returns the state after it.
@@ -502,6 +514,12 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         } else {
             max_iterations
         };
+    }
+
+    /// Sets when iterations stop, and what is done about a step that fails.
+    #[cfg(feature = "alloc")]
+    pub(crate) const fn configure(&mut self, stopping: Stopping, retry: Retry) {
+        (self.stopping, self.retry) = (stopping, retry);
     }
 
     /// Sets what is done about a step that fails; at first nothing, [`Retry::Never`].

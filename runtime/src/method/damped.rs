@@ -169,6 +169,8 @@ impl<M: Method> Plan for DampedPlan<M> {
     type Class = Damped;
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = DampedMemory<V>;
 
+    const LANEWISE: bool = true;
+
     fn check<V, S>(system: &S, _time: f64, _q: &V, _p: &V) -> Result<(), Error>
     where
         V: Vector,

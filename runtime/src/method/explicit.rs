@@ -17,6 +17,8 @@ impl<P: StagePlan> Plan for Explicit<P> {
     type Class = P::Class;
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = P::Stages<V>;
 
+    const LANEWISE: bool = true;
+
     #[inline(always)]
     fn take<R, V, S, N>(
         step: &Step<'_, V>,

@@ -142,6 +142,9 @@ pub trait Plan {
     /// The evaluations of a step that is [taken in place](Self::take_in_place); `None` where steps cannot be.
     const EVALUATIONS_IN_PLACE: Option<u32> = None;
 
+    /// Whether no value decides which way a step goes: in every lane of a vector of lanes it then has the bits of a step of doubles.
+    const LANEWISE: bool = false;
+
     /// Makes room in `memory` for what depends on the system.
     #[inline(always)]
     fn prepare<V, S, N>(

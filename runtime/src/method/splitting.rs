@@ -61,6 +61,8 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
 
     const EVALUATIONS_IN_PLACE: Option<u32> = Some(P::EVALUATIONS - P::CARRIED);
 
+    const LANEWISE: bool = true;
+
     #[inline(always)]
     fn take<R, V, S, N>(
         step: &Step<'_, V>,

@@ -62,9 +62,8 @@ where
     R: Summation,
     N: Solver<V, S>,
 {
+    check(steps, times)?;
     let direction = steps.direction();
-    let before = steps.start_of_last_step();
-    steps.check_count(check_times(direction, times, before)?)?;
     let mut rest = times;
     let mut output = Output {
         ends: Ends::new(),
@@ -76,6 +75,22 @@ where
         steps.step_in_sight(|integrator| output.show(integrator, &mut rest, observe))?;
     }
     Ok(())
+}
+
+/// Checks the times of [`integrate_at`].
+pub(crate) fn check<M, S, V, R, N>(
+    steps: &impl Steps<M, S, V, R, N>,
+    times: &[f64],
+) -> Result<(), Error>
+where
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    let before = steps.start_of_last_step();
+    steps.check_count(check_times(steps.direction(), times, before)?)
 }
 
 /// The last of the times, which come one after the other from `before` on.

@@ -32,6 +32,8 @@ pub use gradients::Gradients;
 pub(crate) use gradients::Terms;
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
 pub use hamiltonian_macro::hamiltonian;
+#[doc(hidden)]
+pub use in_lanes::LaneWork;
 pub use in_lanes::SystemLanes;
 #[cfg(feature = "alloc")]
 pub use jacobian::{BandMatrix, Jacobian};

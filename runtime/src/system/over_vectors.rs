@@ -4,9 +4,9 @@ use num_traits::Zero;
 
 use crate::error::{ConstraintName, Error};
 use crate::method::Solver;
-use crate::number::{F64x2, F64x4, F64x8, Vector};
+use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector};
 use crate::solver::Automatic;
-use crate::system::{Class, Components, Hamiltonian, Layout, StageRows};
+use crate::system::{Class, Components, Hamiltonian, LaneWork, Layout, StageRows};
 #[cfg(feature = "alloc")]
 use crate::system::{Gradients, Jacobian};
 
@@ -142,6 +142,13 @@ pub trait System<V: Vector>: Sized {
         error
     }
 
+    /// Does `work` over vectors of these lanes, where the system is known over them.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn over_lanes<L: Lanes, W: LaneWork<V, Self, L>>(_work: W) -> Option<W::Output> {
+        None
+    }
+
     // What follows is how a `Chain` is made fast, for no other system.
 
     /// Whether there is a [`local_force`](Self::local_force).
@@ -273,6 +280,11 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     #[inline(always)]
     fn nonholonomic_rows(&self, q: &V, rows: &mut Gradients<V::Scalar>) {
         Hamiltonian::nonholonomic_rows::<V::Scalar>(self, q, rows);
+    }
+
+    #[inline(always)]
+    fn over_lanes<L: Lanes, W: LaneWork<V, Self, L>>(work: W) -> Option<W::Output> {
+        Some(work.run::<H::Vector<L>>())
     }
 }
 

@@ -1,0 +1,173 @@
+//! Ensembles that are interrupted and go on with the same rows.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+
+use super::Ensemble;
+use crate::integrator::{Checkpoint, CheckpointError};
+use crate::method::{Method, Solver};
+use crate::number::{Lanes, Scalar, Summation, Vector, scalar_words};
+use crate::state::State;
+use crate::system::System;
+
+/// How far the rows of an ensemble have come.
+///
+/// It holds no trajectory: those without a row are run again from their starts, and give the same bits. What was made of the rows
+/// before is kept beside it, [`Moments`](super::Moments) say. With the feature `serde` it can be written in any format.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct EnsembleCheckpoint {
+    /// Of the first trajectory at its start, if there is one: method, sums, solver, step size and tolerance.
+    run: Option<Checkpoint>,
+    /// Starts, velocities and forces in brief.
+    starts: String,
+    /// The first trajectory, and the one after the last.
+    range: [usize; 2],
+    /// The first trajectory without a row.
+    next: usize,
+    /// Of all that is before it, except the run.
+    checksum: String,
+}
+
+impl EnsembleCheckpoint {
+    fn sum(&self) -> String {
+        let numbers = [self.range[0], self.range[1], self.next].map(|number| number as u64);
+        let letters = self.starts.bytes().map(u64::from);
+        format!("{:016x}", brief(letters.chain(numbers)))
+    }
+}
+
+/// FNV-1a by words.
+fn brief(words: impl Iterator<Item = u64>) -> u64 {
+    words.fold(0xcbf2_9ce4_8422_2325, |hash, word| {
+        (hash ^ word).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+impl<M, S, V, R, N, L> Ensemble<M, S, V, R, N, L>
+where
+    M: Method,
+    S: System<V> + Clone + Send + Sync,
+    V: Vector + Send + Sync,
+    R: Summation,
+    N: Solver<V, S>,
+    L: Lanes,
+{
+    /// What a run needs to [go on](Self::restore) at the trajectory `next`: the number after that of the last row that was shown.
+    ///
+    /// It evaluates the system at every start, to know it again; make one now and then, not after every row.
+    ///
+    /// # Errors
+    ///
+    /// [`CheckpointError::Scalar`]
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use symplectic::State;
+    /// use symplectic::ensemble::{Ensemble, EnsembleError};
+    ///
+    /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+    /// symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let make = || {
+    ///     let starts = (0..100).map(|k| State::from_arrays(0.0, [0.03 * f64::from(k)], [0.0])).collect();
+    ///     Ensemble::new(VelocityVerlet, Pendulum, starts, 0.01)
+    /// };
+    /// let (ensemble, mut rows) = (make()?, Vec::new());
+    /// let next = ensemble.integrate_to(1.0, |row| {
+    ///     rows.push(row);
+    ///     // It is interrupted.
+    ///     if rows.len() < 30 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    /// });
+    /// let checkpoint = ensemble.checkpoint(next)?;
+    ///
+    /// // In another process, say.
+    /// let mut resumed = make()?;
+    /// resumed.restore(&checkpoint)?;
+    /// resumed.integrate_to(1.0, |row| {
+    ///     rows.push(row);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// assert!(rows.iter().map(|row| row.trajectory).eq(0..100));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn checkpoint(&self, next: usize) -> Result<EnsembleCheckpoint, CheckpointError> {
+        let range = [self.offset, self.offset + self.starts.len()];
+        let mut checkpoint = EnsembleCheckpoint {
+            run: match self.starts.is_empty() {
+                true => None,
+                false => Some(self.integrator(0).1.checkpoint()?),
+            },
+            starts: self.starts_in_brief(),
+            range,
+            next: next.clamp(range[0], range[1]),
+            checksum: String::new(),
+        };
+        checkpoint.checksum = checkpoint.sum();
+        Ok(checkpoint)
+    }
+
+    /// Goes on from a checkpoint of an ensemble that was made in the same way: runs then begin at the first trajectory without a row.
+    ///
+    /// # Errors
+    ///
+    /// [`CheckpointError`]; the ensemble is then as it was.
+    pub fn restore(&mut self, checkpoint: &EnsembleCheckpoint) -> Result<(), CheckpointError> {
+        if checkpoint.checksum != checkpoint.sum() {
+            return Err(CheckpointError::Damaged {
+                reason: "its checksum is that of other contents",
+            });
+        }
+        let own = self.checkpoint(checkpoint.next)?;
+        let same = |what, found: String, expected: String| match found == expected {
+            true => Ok(()),
+            false => Err(CheckpointError::OtherRun {
+                what,
+                found,
+                expected,
+            }),
+        };
+        let range = |[first, end]: [usize; 2]| format!("{first}..{end}");
+        same("trajectories", range(checkpoint.range), range(own.range))?;
+        if let Some(run) = &checkpoint.run {
+            let mut mine = self.integrator(0).1;
+            mine.restore(run)?;
+            let size = |size: f64| size.to_string();
+            same("step size", size(mine.step_size()), size(self.step_size))?;
+        }
+        same("starts", checkpoint.starts.clone(), own.starts.clone())?;
+        if checkpoint.run != own.run {
+            return Err(CheckpointError::OtherRun {
+                what: "tolerance, bound on the sweeps or retry",
+                found: "other".to_string(),
+                expected: "this".to_string(),
+            });
+        }
+        self.first = own.next - self.offset;
+        Ok(())
+    }
+
+    /// All starts, and velocity and force at each.
+    fn starts_in_brief(&self) -> String {
+        let mut hash = 0;
+        let mut place = 0;
+        for (system, end) in &self.systems {
+            for State { time, q, p } in &self.starts[place..*end] {
+                let at = V::Scalar::from_f64(*time);
+                let (mut velocity, mut force) = (q.zeros_like(), q.zeros_like());
+                system.velocity(at, q, p, &mut velocity);
+                system.force(at, q, p, &mut force);
+                let mut add = |word: &mut u64| hash = brief([hash, *word].into_iter());
+                add(&mut time.to_bits());
+                for vector in [&mut q.clone(), &mut p.clone(), &mut velocity, &mut force] {
+                    scalar_words(vector.as_mut_slice(), &mut add);
+                }
+            }
+            place = place.max(*end);
+        }
+        format!("{hash:016x}")
+    }
+}

@@ -1,0 +1,62 @@
+//! What can be wrong with an ensemble.
+
+use crate::error::Error;
+
+/// Why an ensemble was not made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum EnsembleError {
+    /// There are no starts.
+    #[error("there are no starts: an ensemble needs one at least")]
+    Empty,
+
+    /// A start has another dimension than the first.
+    #[error(
+        "trajectory {trajectory} starts with {found} components, and trajectory 0 with {expected}: all must have the same number"
+    )]
+    Dimension {
+        /// The number of the trajectory, from 0.
+        trajectory: usize,
+        /// Its dimension.
+        found: usize,
+        /// That of the first.
+        expected: usize,
+    },
+
+    /// A trajectory cannot start.
+    #[error("trajectory {trajectory}: {error}")]
+    Start {
+        /// The number of the trajectory, from 0.
+        trajectory: usize,
+        /// Why.
+        error: Error,
+    },
+
+    /// What concerns all trajectories.
+    #[error(transparent)]
+    All(Error),
+
+    /// Bins that hold nothing.
+    #[error(
+        "a histogram of {bins} bins from {low} to {high}: there must be one at least, and both ends finite, in their order"
+    )]
+    Histogram {
+        /// The lower end.
+        low: f64,
+        /// The upper end.
+        high: f64,
+        /// The number of bins.
+        bins: usize,
+    },
+
+    /// There is no such part.
+    #[error(
+        "there is no part {part} of {count}: parts are numbered from 0, and there must be one at least"
+    )]
+    Shard {
+        /// The part asked for.
+        part: usize,
+        /// The number of parts.
+        count: usize,
+    },
+}

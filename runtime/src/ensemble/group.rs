@@ -1,0 +1,387 @@
+//! Trajectories that are run by one thread, side by side where that can be.
+
+use alloc::vec::Vec;
+use core::ops::{ControlFlow, Range};
+
+use super::{Ensemble, Row};
+use crate::error::Error;
+use crate::integrator::Integrator;
+use crate::method::{Method, Solver};
+use crate::number::vector::same;
+use crate::number::{Lanes, Scalar, Summation, Vector};
+use crate::output::at_times;
+use crate::output::steps::is_after;
+use crate::state::State;
+use crate::system::{LaneWork, System};
+
+/// What every trajectory does.
+pub(super) enum Task<'a> {
+    /// It goes to a time.
+    To(f64),
+    /// It takes steps.
+    Steps(u64),
+    /// It is seen at times.
+    At(&'a [f64]),
+}
+
+/// A few trajectories of an ensemble.
+pub(super) struct Group<'a, M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L, A>
+{
+    ensemble: &'a Ensemble<M, S, V, R, N, L>,
+    members: Vec<Member<M, S, V, R, N, A>>,
+}
+
+struct Member<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, A> {
+    trajectory: usize,
+    run: Integrator<M, S, V, R, N>,
+    output: A,
+    outcome: Result<(), Error>,
+}
+
+/// What came of an attempt to go side by side.
+enum Attempt {
+    /// All trajectories have ended.
+    Ended,
+    /// The ensemble was stopped.
+    Stopped,
+    /// Nothing has been done.
+    Refused,
+}
+
+impl<'a, M, S, V, R, N, L, A> Group<'a, M, S, V, R, N, L, A>
+where
+    M: Method,
+    S: System<V> + Clone + Send + Sync,
+    V: Vector + Send + Sync,
+    R: Summation,
+    N: Solver<V, S>,
+    L: Lanes,
+    A: Send,
+{
+    /// The trajectories from the starts in these places.
+    pub(super) fn new(
+        ensemble: &'a Ensemble<M, S, V, R, N, L>,
+        places: Range<usize>,
+        output: &impl Fn(usize) -> A,
+    ) -> Self {
+        let member = |place| {
+            let (trajectory, run) = ensemble.integrator(place);
+            Member {
+                trajectory,
+                run,
+                output: output(trajectory),
+                outcome: Ok(()),
+            }
+        };
+        Self {
+            ensemble,
+            members: places.map(member).collect(),
+        }
+    }
+
+    /// Lets `work` have every integrator.
+    pub(super) fn each(
+        &mut self,
+        work: &impl Fn(&mut A, &mut Integrator<M, S, V, R, N>) -> Result<(), Error>,
+    ) {
+        for member in &mut self.members {
+            member.outcome = work(&mut member.output, &mut member.run);
+        }
+    }
+
+    /// Runs all trajectories; breaks if the ensemble was stopped.
+    pub(super) fn run(
+        &mut self,
+        task: &Task<'_>,
+        see: &impl Fn(&mut A, &State<V>),
+    ) -> ControlFlow<()> {
+        let tried = match self.members.len() > 1 && self.ensemble.goes_in_lanes() {
+            true => S::over_lanes::<L, _>(SideBySide {
+                group: self,
+                task,
+                see,
+            }),
+            false => None,
+        };
+        match tried {
+            Some(Attempt::Ended) => ControlFlow::Continue(()),
+            Some(Attempt::Stopped) => ControlFlow::Break(()),
+            Some(Attempt::Refused) | None => {
+                for member in &mut self.members {
+                    if self.ensemble.is_stopped() {
+                        return ControlFlow::Break(());
+                    }
+                    member.run_alone(task, see);
+                }
+                ControlFlow::Continue(())
+            }
+        }
+    }
+
+    /// What came of all trajectories.
+    pub(super) fn rows(self) -> Vec<Row<V, A>> {
+        let row = |member: Member<M, S, V, R, N, A>| Row {
+            trajectory: member.trajectory,
+            outcome: member.outcome,
+            statistics: *member.run.statistics(),
+            state: member.run.into_state(),
+            output: member.output,
+        };
+        self.members.into_iter().map(row).collect()
+    }
+}
+
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, A>
+    Member<M, S, V, R, N, A>
+{
+    fn run_alone(&mut self, task: &Task<'_>, see: &impl Fn(&mut A, &State<V>)) {
+        let Self { run, output, .. } = self;
+        let outcome = match *task {
+            Task::To(end) => run.integrate_to(end),
+            Task::Steps(count) => run.take_steps(count),
+            Task::At(times) => run.integrate_at(times, |state| see(output, state)),
+        };
+        self.outcome = outcome.map(|_| ());
+    }
+}
+
+/// The trajectories of a group, side by side in lanes.
+struct SideBySide<
+    'g,
+    'a,
+    't,
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+    L,
+    A,
+    F,
+> {
+    group: &'g mut Group<'a, M, S, V, R, N, L, A>,
+    task: &'g Task<'t>,
+    see: &'g F,
+}
+
+/// The integrator in whose lanes trajectories are.
+type InLanes<M, S, W, R> = Integrator<M, S, W, R, <S as System<W>>::Solver>;
+
+impl<M, S, V, R, N, L, A, F> LaneWork<V, S, L> for SideBySide<'_, '_, '_, M, S, V, R, N, L, A, F>
+where
+    M: Method,
+    S: System<V> + Clone + Send + Sync,
+    V: Vector + Send + Sync,
+    R: Summation,
+    N: Solver<V, S>,
+    L: Lanes,
+    A: Send,
+    F: Fn(&mut A, &State<V>),
+{
+    type Output = Attempt;
+
+    fn run<W: Vector<Scalar = L>>(mut self) -> Attempt
+    where
+        S: System<W, Class = <S as System<V>>::Class>,
+    {
+        let first = &self.group.members[0].run;
+        let like = first.state().q.zeros_with::<L>();
+        let Some(zeros) = same::<_, W>(&like) else {
+            return Attempt::Refused;
+        };
+        let mut lanes: InLanes<M, S, W, R> = first.over_lanes(zeros);
+        let mut live: Vec<usize> = (0..self.group.members.len()).collect();
+        self.put_in_lanes(&mut lanes, &live);
+        let alike = |&place: &usize| lanes.evaluates_like(place, &self.group.members[place].run);
+        if !live.iter().all(alike) {
+            return Attempt::Refused;
+        }
+        match *self.task {
+            Task::To(_) | Task::Steps(_) => self.take_leg(&mut lanes, &mut live),
+            Task::At(times) => self.see_at(times, &mut lanes, &live),
+        }
+    }
+}
+
+impl<M, S, V, R, N, L, A, F> SideBySide<'_, '_, '_, M, S, V, R, N, L, A, F>
+where
+    M: Method,
+    S: System<V> + Clone + Send + Sync,
+    V: Vector + Send + Sync,
+    R: Summation,
+    N: Solver<V, S>,
+    L: Lanes,
+    F: Fn(&mut A, &State<V>),
+{
+    /// Puts the living trajectories into the lanes in turn: no lane is empty.
+    fn put_in_lanes<W>(&self, lanes: &mut InLanes<M, S, W, R>, live: &[usize])
+    where
+        W: Vector<Scalar = L>,
+        S: System<W>,
+    {
+        for (lane, &place) in (0..L::WIDTH).zip(live.iter().cycle()) {
+            lanes.set_lane(lane, &self.group.members[place].run);
+        }
+    }
+
+    /// Gives the living trajectories what is in their lanes.
+    fn take_from_lanes<W>(&mut self, lanes: &InLanes<M, S, W, R>, live: &[usize])
+    where
+        W: Vector<Scalar = L>,
+        S: System<W>,
+    {
+        for (lane, &place) in live.iter().enumerate() {
+            lanes.get_lane(lane, &mut self.group.members[place].run);
+        }
+    }
+
+    /// Takes the steps of a leg. Where one fails in a lane, the block of steps in which it is is taken once more by the trajectories one
+    /// by one, and those that came through go on side by side.
+    fn take_leg<W>(&mut self, lanes: &mut InLanes<M, S, W, R>, live: &mut Vec<usize>) -> Attempt
+    where
+        W: Vector<Scalar = L>,
+        S: System<W>,
+    {
+        let leg = match *self.task {
+            Task::To(end) => lanes.leg_to(end),
+            Task::Steps(count) => Ok(lanes.leg_of(count)),
+            Task::At(_) => return Attempt::Refused,
+        };
+        let Ok(mut leg) = leg else {
+            return Attempt::Refused;
+        };
+        while !leg.is_done() {
+            if self.group.ensemble.is_stopped() {
+                return Attempt::Stopped;
+            }
+            let (mark, begun) = (lanes.mark(), leg);
+            let block = lanes.block_of(&leg);
+            if lanes.take_block(block, &mut leg).is_ok() {
+                continue;
+            }
+            lanes.go_back(mark);
+            self.take_from_lanes(lanes, live);
+            live.retain(|&place| {
+                let member = &mut self.group.members[place];
+                let mut own = begun;
+                member.outcome = member.run.take_block(block, &mut own);
+                if member.outcome.is_ok() && member.run.statistics().rejected > 0 {
+                    // Its steps are no longer those of the others.
+                    member.outcome = member.run.take_leg(&mut own);
+                    return false;
+                }
+                if member.outcome.is_ok() {
+                    leg = own;
+                }
+                member.outcome.is_ok()
+            });
+            if live.is_empty() {
+                return Attempt::Ended;
+            }
+            self.put_in_lanes(lanes, live);
+        }
+        self.take_from_lanes(lanes, live);
+        Attempt::Ended
+    }
+
+    /// Shows the trajectories at times. Where something fails in a lane, all go on one by one from the last time that was seen.
+    fn see_at<W>(
+        &mut self,
+        times: &[f64],
+        lanes: &mut InLanes<M, S, W, R>,
+        live: &[usize],
+    ) -> Attempt
+    where
+        W: Vector<Scalar = L>,
+        S: System<W>,
+    {
+        if at_times::check(lanes, times).is_err() {
+            return Attempt::Refused;
+        }
+        let present = lanes.state().time;
+        let direction = lanes.step_size();
+        let seen = times
+            .iter()
+            .take_while(|&&time| !is_after(direction, time, present));
+        let mut rest = &times[seen.count()..];
+        for member in &mut self.group.members {
+            for _ in rest.len()..times.len() {
+                (self.see)(&mut member.output, member.run.state());
+            }
+        }
+        let mut shown = self.group.members[0].run.state().clone();
+        while !rest.is_empty() {
+            if self.group.ensemble.is_stopped() {
+                return Attempt::Stopped;
+            }
+            let mark = lanes.mark();
+            let Ok(seen) = self.see_next(rest, lanes, live, &mut shown) else {
+                lanes.go_back(mark);
+                self.take_from_lanes(lanes, live);
+                for &place in live {
+                    self.group.members[place].run_alone(&Task::At(rest), self.see);
+                }
+                return Attempt::Ended;
+            };
+            rest = &rest[seen..];
+        }
+        self.take_from_lanes(lanes, live);
+        Attempt::Ended
+    }
+
+    /// Takes steps until the first of the times is behind, and shows the states at all times in the last of them: so many.
+    fn see_next<W>(
+        &mut self,
+        times: &[f64],
+        lanes: &mut InLanes<M, S, W, R>,
+        live: &[usize],
+        shown: &mut State<V>,
+    ) -> Result<usize, Error>
+    where
+        W: Vector<Scalar = L>,
+        S: System<W>,
+    {
+        let direction = lanes.step_size();
+        while is_after(direction, times[0], lanes.state().time) {
+            lanes.step()?;
+        }
+        let present = lanes.state();
+        let dense = match times[0] == present.time {
+            true => None,
+            false => Some(lanes.dense()?),
+        };
+        let mut inside = present.clone();
+        let mut count = 0;
+        for &time in times {
+            if is_after(direction, time, present.time) {
+                break;
+            }
+            let state = match &dense {
+                Some(dense) if time != present.time => {
+                    dense.write(time, &mut inside.q, &mut inside.p)?;
+                    &inside
+                }
+                _ => present,
+            };
+            shown.time = if time == present.time {
+                present.time
+            } else {
+                time
+            };
+            for (lane, &place) in live.iter().enumerate() {
+                copy_lane(lane, &state.q, &mut shown.q);
+                copy_lane(lane, &state.p, &mut shown.p);
+                (self.see)(&mut self.group.members[place].output, shown);
+            }
+            count += 1;
+        }
+        Ok(count)
+    }
+}
+
+/// The vector in a lane.
+fn copy_lane<V: Vector, W: Vector<Scalar: Lanes>>(lane: usize, from: &W, to: &mut V) {
+    for (to, from) in to.as_mut_slice().iter_mut().zip(from.as_slice()) {
+        *to = V::Scalar::from_f64(from.to_array().as_ref()[lane]);
+    }
+}

@@ -1,0 +1,98 @@
+//! Numbers of trajectories in bins.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::EnsembleError;
+
+/// How many numbers are in each of a few bins of one width.
+///
+/// Bin `k` holds `low + k w ≤ x < low + (k + 1) w` with `w = (high − low)/bins`.
+///
+/// ```
+/// use symplectic::ensemble::{EnsembleError, Histogram};
+///
+/// # fn main() -> Result<(), EnsembleError> {
+/// let mut histogram = Histogram::new(0.0, 1.0, 4)?;
+/// for x in [0.0, 0.1, 0.3, 0.999, 1.0, -5.0, f64::NAN] {
+///     histogram.add(x);
+/// }
+/// assert_eq!(histogram.counts(), [2, 1, 0, 1]);
+/// assert_eq!((histogram.below(), histogram.above(), histogram.nan()), (1, 1, 1));
+/// assert_eq!(histogram.edge(1), 0.25);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Histogram {
+    /// Low and high.
+    #[cfg_attr(feature = "serde", serde(with = "super::as_bits"))]
+    range: Vec<f64>,
+    counts: Vec<u64>,
+    /// Below, above, not a number.
+    outside: [u64; 3],
+}
+
+impl Histogram {
+    /// Empty bins from `low` to `high`.
+    ///
+    /// # Errors
+    ///
+    /// [`EnsembleError::Histogram`] if there is no bin, or if `low` is not below `high` or one of them not finite.
+    pub fn new(low: f64, high: f64, bins: usize) -> Result<Self, EnsembleError> {
+        if bins == 0 || !(low < high && (high - low).is_finite()) {
+            return Err(EnsembleError::Histogram { low, high, bins });
+        }
+        Ok(Self {
+            range: vec![low, high],
+            counts: vec![0; bins],
+            outside: [0; 3],
+        })
+    }
+
+    /// Counts a number.
+    pub fn add(&mut self, x: f64) {
+        let [below, above, nan] = &mut self.outside;
+        let (low, high) = (self.range[0], self.range[1]);
+        *if x.is_nan() {
+            nan
+        } else if x < low {
+            below
+        } else if x >= high {
+            above
+        } else {
+            let last = self.counts.len() - 1;
+            let bin = (x - low) / (high - low) * self.counts.len() as f64;
+            // Rounding may lift the largest numbers to the edge.
+            &mut self.counts[(bin as usize).min(last)]
+        } += 1;
+    }
+
+    /// The counts of the bins.
+    pub fn counts(&self) -> &[u64] {
+        &self.counts
+    }
+
+    /// The lower edge of a bin, from 0; with the number of bins the upper edge of the last one.
+    pub fn edge(&self, bin: usize) -> f64 {
+        let part = bin as f64 / self.counts.len() as f64;
+        self.range[0] + part * (self.range[1] - self.range[0])
+    }
+
+    /// How many numbers were below the first bin.
+    pub const fn below(&self) -> u64 {
+        self.outside[0]
+    }
+
+    /// How many numbers were above the last bin, or at its upper edge.
+    pub const fn above(&self) -> u64 {
+        self.outside[1]
+    }
+
+    /// How many were NaN.
+    pub const fn nan(&self) -> u64 {
+        self.outside[2]
+    }
+}

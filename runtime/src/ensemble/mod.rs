@@ -1,0 +1,430 @@
+//! Many trajectories at once: side by side in lanes, and on all cores.
+//!
+//! An [`Ensemble`] takes a method, a system and many starts. Every trajectory has the bits that it has alone in an
+//! [`Integrator`] with the same call, whatever the number of lanes and threads, and wherever the ensemble is split or resumed.
+//!
+//! | What | Where |
+//! |---|---|
+//! | Final states, states at given times | [`Ensemble::integrate_to`], [`Ensemble::take_steps`], [`Ensemble::integrate_at`] |
+//! | Events, and everything else that an integrator can do | [`Ensemble::each`] |
+//! | What comes of a trajectory, with its error if it failed | [`Row`] |
+//! | Mean, variance, histogram over the trajectories | [`Moments`], [`Histogram`] |
+//! | Several machines, and runs that are interrupted | [`Ensemble::shard`], [`Ensemble::checkpoint`] |
+//!
+//! # Lanes
+//!
+//! Explicit methods take as many trajectories at once as there are [lanes](Ensemble::in_lanes), if the system is written for every
+//! [`Scalar`](crate::Scalar). Trajectories side by side have one system and one time at the start, and follow one another.
+//!
+//! All others are taken one by one: those of implicit methods, the stages of which are in lanes already; of closures; and each that
+//! has a [system](Ensemble::of_families) of its own. A system can have other bits in lanes only where it asks for the type of its
+//! numbers, as products of large matrices in nalgebra do: velocity and force are compared at every start, and where they differ the
+//! trajectories are taken one by one.
+//!
+//! # Threads
+//!
+//! With the feature `parallel` the trajectories are shared among the threads of `rayon`. Without it there is one thread, and the same
+//! bits.
+
+#[cfg(feature = "serde")]
+mod as_bits;
+mod checkpoint;
+mod error;
+mod group;
+mod histogram;
+mod moments;
+#[cfg(feature = "npz")]
+mod npz;
+mod pool;
+mod row;
+mod run;
+
+pub use checkpoint::EnsembleCheckpoint;
+pub use error::EnsembleError;
+pub use histogram::Histogram;
+pub use moments::Moments;
+#[cfg(feature = "npz")]
+pub use npz::Npz;
+pub use row::Row;
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::fmt;
+use core::marker::PhantomData;
+
+use crate::error::Error;
+use crate::integrator::validation::check_step_size;
+use crate::integrator::{Integrator, Retry};
+use crate::method::{Method, ProvedFor, Solver, Stopping};
+use crate::number::{Compensated, F64x8, Lanes, Plain, Summation, Vector};
+use crate::state::State;
+use crate::system::System;
+
+/// What an ensemble is of: none of it is in it, so that threads may share it.
+type Kind<M, R, N, L> = fn() -> (M, R, N, L);
+
+/// Many trajectories of one method and one step size.
+///
+/// The starts are kept, and the trajectories are made from them when they are asked for, a few at a time: an ensemble takes the memory of
+/// its starts, whatever the number of steps.
+///
+/// ```
+/// use core::ops::ControlFlow;
+/// use symplectic::State;
+/// use symplectic::ensemble::{Ensemble, EnsembleError};
+///
+/// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+/// symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
+///
+/// # fn main() -> Result<(), EnsembleError> {
+/// let starts = (0..100).map(|k| State::from_arrays(0.0, [0.03 * f64::from(k)], [0.0])).collect();
+/// let ensemble = Ensemble::new(VelocityVerlet, Pendulum, starts, 0.01)?;
+/// let mut largest: f64 = 0.0;
+/// ensemble.integrate_to(10.0, |row| {
+///     assert_eq!((row.outcome, row.state.time), (Ok(()), 10.0));
+///     largest = largest.max(row.state.q[0].abs());
+///     ControlFlow::Continue(())
+/// });
+/// // None of them goes over the top.
+/// assert!(largest < 3.0);
+/// # Ok(())
+/// # }
+/// ```
+pub struct Ensemble<M, S, V, R = Compensated, N = <S as System<V>>::Solver, L = F64x8>
+where
+    V: Vector,
+    S: System<V>,
+{
+    /// Each with the place of the first start that is no longer its.
+    systems: Vec<(S, usize)>,
+    starts: Vec<State<V>>,
+    step_size: f64,
+    /// The number of the first start.
+    offset: usize,
+    /// The place of the first start that is run.
+    first: usize,
+    stopping: Stopping,
+    retry: Retry,
+    in_lanes: bool,
+    stop: Option<Box<dyn Fn() -> bool + Send + Sync>>,
+    kind: PhantomData<Kind<M, R, N, L>>,
+}
+
+impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {
+    /// The trajectories of a system from these starts, with steps of size `step_size`, negative to go backward, and with [`Compensated`] sums.
+    /// The trajectories are numbered as the starts are, from 0.
+    ///
+    /// # Errors
+    ///
+    /// [`EnsembleError::Empty`], [`EnsembleError::All`] for a step size that is zero or not finite, [`EnsembleError::Dimension`] for a start
+    /// of another dimension than the first, [`EnsembleError::Start`] for one that [`Integrator::new`] refuses.
+    ///
+    /// ```
+    /// use symplectic::ensemble::{Ensemble, EnsembleError};
+    /// use symplectic::{Error, State};
+    ///
+    /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+    /// symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
+    ///
+    /// let starts = [0.1, f64::NAN].map(|a| State::from_arrays(0.0, [a], [0.0]));
+    /// let error = Ensemble::new(VelocityVerlet, Pendulum, starts.to_vec(), 0.01).unwrap_err();
+    /// assert!(matches!(error, EnsembleError::Start { trajectory: 1, error: Error::NonFiniteState { .. } }));
+    /// ```
+    pub fn new(
+        method: M,
+        system: S,
+        starts: Vec<State<V>>,
+        step_size: f64,
+    ) -> Result<Self, EnsembleError>
+    where
+        M: ProvedFor<S::Class>,
+    {
+        Self::of_families(method, [(system, starts)], step_size)
+    }
+
+    /// [`new`](Self::new) for several systems, one with other parameters say, each with its starts. The trajectories are numbered through.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Self::new).
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use symplectic::State;
+    /// use symplectic::ensemble::{Ensemble, EnsembleError};
+    ///
+    /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+    /// symplectic::hamiltonian! { Oscillator { omega } q: [x], p: [px]; H = px^2/2 + (omega x)^2/2 }
+    ///
+    /// # fn main() -> Result<(), EnsembleError> {
+    /// let family = |omega: f64| (Oscillator { omega }, vec![State::from_arrays(0.0, [1.0], [0.0])]);
+    /// let ensemble = Ensemble::of_families(VelocityVerlet, [1.0, 2.0, 3.0].map(family), 1e-3)?;
+    /// ensemble.integrate_to(1.0, |row| {
+    ///     assert!((row.state.q[0] - f64::cos(row.trajectory as f64 + 1.0)).abs() < 1e-5);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn of_families(
+        method: M,
+        families: impl IntoIterator<Item = (S, Vec<State<V>>)>,
+        step_size: f64,
+    ) -> Result<Self, EnsembleError>
+    where
+        M: ProvedFor<S::Class>,
+    {
+        Self::with_summation(method, families, step_size)
+    }
+}
+
+impl<M: Method, S: System<V>, V: Vector, R: Summation> Ensemble<M, S, V, R> {
+    /// [`of_families`](Ensemble::of_families) with the sums that the type says.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Ensemble::new).
+    pub fn with_summation(
+        _method: M,
+        families: impl IntoIterator<Item = (S, Vec<State<V>>)>,
+        step_size: f64,
+    ) -> Result<Self, EnsembleError>
+    where
+        M: ProvedFor<S::Class>,
+    {
+        check_step_size(step_size).map_err(EnsembleError::All)?;
+        let mut systems: Vec<(S, usize)> = Vec::new();
+        let mut starts: Vec<State<V>> = Vec::new();
+        for (system, mut own) in families {
+            let before = starts.len();
+            starts.append(&mut own);
+            check_starts::<M, S, V, R>(&system, &starts, before, step_size)?;
+            systems.push((system, starts.len()));
+        }
+        if starts.is_empty() {
+            return Err(EnsembleError::Empty);
+        }
+        Ok(Self {
+            systems,
+            starts,
+            step_size,
+            offset: 0,
+            first: 0,
+            stopping: Stopping::DEFAULT,
+            retry: Retry::Never,
+            in_lanes: true,
+            stop: None,
+            kind: PhantomData,
+        })
+    }
+}
+
+/// Checks the starts from `first` on, all of one system.
+fn check_starts<M: Method, S: System<V>, V: Vector, R: Summation>(
+    system: &S,
+    starts: &[State<V>],
+    first: usize,
+    step_size: f64,
+) -> Result<(), EnsembleError> {
+    for (trajectory, start) in starts.iter().enumerate().skip(first) {
+        let (found, expected) = (start.q.dimension(), starts[0].q.dimension());
+        if found != expected {
+            return Err(EnsembleError::Dimension {
+                trajectory,
+                found,
+                expected,
+            });
+        }
+        Integrator::<M, S, V, R>::check(system, start, step_size)
+            .map_err(|error| EnsembleError::Start { trajectory, error })?;
+    }
+    Ok(())
+}
+
+impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>, L: Lanes> Ensemble<M, S, V, Plain, N, L> {
+    /// The tolerance of every trajectory: see [`Integrator::set_tolerance`].
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Tolerance`]
+    pub const fn set_tolerance(&mut self, tolerance: f64) -> Result<(), Error> {
+        if !(tolerance >= 0.0 && tolerance.is_finite()) {
+            return Err(Error::Tolerance { value: tolerance });
+        }
+        self.stopping.tolerance = tolerance;
+        Ok(())
+    }
+}
+
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes>
+    Ensemble<M, S, V, R, N, L>
+{
+    /// The same ensemble with another [`Solver`] for coupled stages.
+    pub fn with_solver<O: Solver<V, S>>(self, _solver: O) -> Ensemble<M, S, V, R, O, L> {
+        self.of_kind()
+    }
+
+    /// The same ensemble with Newton's iteration: see [`Integrator::by_newton`].
+    pub fn by_newton(self) -> Ensemble<M, S, V, R, crate::solver::Newton, L> {
+        self.of_kind()
+    }
+
+    /// The same ensemble with other lanes than [`F64x8`], [`F64x4`](crate::simd::F64x4) say. No bit depends on it.
+    ///
+    /// Eight lanes are the fastest also where registers are narrower: the steps of several registers do not wait for one another.
+    ///
+    /// ```
+    /// # use symplectic::State;
+    /// # use symplectic::ensemble::{Ensemble, EnsembleError};
+    /// use symplectic::simd::F64x4;
+    ///
+    /// # symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+    /// # symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
+    /// # let starts = vec![State::from_arrays(0.0, [0.5], [0.0])];
+    /// let ensemble = Ensemble::new(VelocityVerlet, Pendulum, starts, 0.01)?.in_lanes::<F64x4>();
+    /// # Ok::<(), EnsembleError>(())
+    /// ```
+    pub fn in_lanes<K: Lanes>(self) -> Ensemble<M, S, V, R, N, K> {
+        Ensemble {
+            in_lanes: true,
+            ..self.of_kind()
+        }
+    }
+
+    /// The same ensemble with its trajectories one by one. No bit depends on it.
+    #[must_use]
+    pub fn one_by_one(self) -> Self {
+        Self {
+            in_lanes: false,
+            ..self
+        }
+    }
+
+    fn of_kind<O, K>(self) -> Ensemble<M, S, V, R, O, K> {
+        Ensemble {
+            systems: self.systems,
+            starts: self.starts,
+            step_size: self.step_size,
+            offset: self.offset,
+            first: self.first,
+            stopping: self.stopping,
+            retry: self.retry,
+            in_lanes: self.in_lanes,
+            stop: self.stop,
+            kind: PhantomData,
+        }
+    }
+
+    /// Part `part`, from 0, of `count` parts of about the same number of trajectories, which keep their numbers.
+    ///
+    /// The parts are consecutive: on several machines, `--array` of Slurm say, each runs one of them, and the rows of all parts one after
+    /// another are those of the whole ensemble.
+    ///
+    /// # Errors
+    ///
+    /// [`EnsembleError::Shard`] if there is no such part.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// # use symplectic::State;
+    /// # use symplectic::ensemble::{Ensemble, EnsembleError};
+    /// # symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+    /// # symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
+    /// # fn main() -> Result<(), EnsembleError> {
+    /// let whole = || {
+    ///     let starts = (0..10).map(|k| State::from_arrays(0.0, [0.1 * f64::from(k)], [0.0])).collect();
+    ///     Ensemble::new(VelocityVerlet, Pendulum, starts, 0.01)
+    /// };
+    /// let mut seen = Vec::new();
+    /// for part in 0..3 {
+    ///     whole()?.shard(part, 3)?.integrate_to(1.0, |row| {
+    ///         seen.push(row.trajectory);
+    ///         ControlFlow::Continue(())
+    ///     });
+    /// }
+    /// assert_eq!(seen, Vec::from_iter(0..10));
+    /// assert!(whole()?.shard(3, 3).is_err());
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn shard(mut self, part: usize, count: usize) -> Result<Self, EnsembleError> {
+        if part >= count {
+            return Err(EnsembleError::Shard { part, count });
+        }
+        let total = self.starts.len();
+        // The product may be larger than a word.
+        let bound = |part: usize| (part as u128 * total as u128 / count as u128) as usize;
+        let (from, to) = (bound(part), bound(part + 1));
+        self.starts.truncate(to);
+        self.starts.drain(..from);
+        for (_, end) in &mut self.systems {
+            *end = (*end).min(to).saturating_sub(from);
+        }
+        self.offset += from;
+        self.first = 0;
+        Ok(self)
+    }
+
+    /// What is done about a step that fails: see [`Integrator::set_retry`].
+    pub const fn set_retry(&mut self, retry: Retry) {
+        self.retry = retry;
+    }
+
+    /// The bound on the sweeps of one step: see [`Integrator::set_max_iterations`].
+    pub const fn set_max_iterations(&mut self, max_iterations: u32) {
+        self.stopping.max_iterations = if max_iterations == 0 {
+            1
+        } else {
+            max_iterations
+        };
+    }
+
+    /// Stops a run where `stop` says so. It is asked often, by all threads: let it read a flag.
+    ///
+    /// Trajectories that are not finished then have no row.
+    ///
+    /// ```
+    /// use std::sync::Arc;
+    /// use std::sync::atomic::{AtomicBool, Ordering};
+    /// # use core::ops::ControlFlow;
+    /// # use symplectic::State;
+    /// # use symplectic::ensemble::{Ensemble, EnsembleError};
+    /// # symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+    /// # symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
+    /// # fn main() -> Result<(), EnsembleError> {
+    /// # let starts = vec![State::from_arrays(0.0, [0.5], [0.0])];
+    /// let mut ensemble = Ensemble::new(VelocityVerlet, Pendulum, starts, 0.01)?;
+    /// let interrupted = Arc::new(AtomicBool::new(false));
+    /// let flag = Arc::clone(&interrupted);
+    /// ensemble.stop_if(move || flag.load(Ordering::Relaxed));
+    /// // By a handler of signals, say.
+    /// interrupted.store(true, Ordering::Relaxed);
+    /// assert_eq!(ensemble.integrate_to(10.0, |_row| ControlFlow::Continue(())), 0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn stop_if(&mut self, stop: impl Fn() -> bool + Send + Sync + 'static) {
+        self.stop = Some(Box::new(stop));
+    }
+
+    /// The starts, of this part if it is a [shard](Self::shard).
+    pub fn starts(&self) -> &[State<V>] {
+        &self.starts
+    }
+
+    /// The numbers of the trajectories: of this part if it is a [shard](Self::shard), and from where it was interrupted if it was.
+    pub const fn trajectories(&self) -> core::ops::Range<usize> {
+        self.offset + self.first..self.offset + self.starts.len()
+    }
+}
+
+impl<M: Method, S: System<V>, V: Vector, R, N, L> fmt::Debug for Ensemble<M, S, V, R, N, L> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("Ensemble")
+            .field("method", &M::NAME)
+            .field("trajectories", &self.starts.len())
+            .field("step_size", &self.step_size)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,94 @@
+//! Mean and variance over trajectories.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use crate::error::Error;
+
+/// Mean and variance of the components of vectors, one vector after another, by the recurrence of Welford (Technometrics 4, 1962,
+/// 419–420):
+///
+/// ```text
+/// m_k = m_{k−1} + (x_k − m_{k−1})/k      s_k = s_{k−1} + (x_k − m_{k−1})(x_k − m_k)      variance = s_n/(n − 1)
+/// ```
+///
+/// The rows of an ensemble come in one order, so that the sums have the same bits for any number of threads. With the feature `serde`
+/// it can be written, its numbers as bits, and goes on where a run was interrupted.
+///
+/// ```
+/// use symplectic::Error;
+/// use symplectic::ensemble::Moments;
+///
+/// # fn main() -> Result<(), Error> {
+/// let mut moments = Moments::new(2);
+/// for vector in [[1.0, 4.0], [2.0, 4.0], [3.0, 4.0]] {
+///     moments.add(&vector)?;
+/// }
+/// assert_eq!((moments.count(), moments.mean()), (3, &[2.0, 4.0][..]));
+/// assert_eq!(moments.variance(), [1.0, 0.0]);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Moments {
+    count: u64,
+    #[cfg_attr(feature = "serde", serde(with = "super::as_bits"))]
+    mean: Vec<f64>,
+    #[cfg_attr(feature = "serde", serde(with = "super::as_bits"))]
+    squares: Vec<f64>,
+}
+
+impl Moments {
+    /// Those of no vectors of this dimension.
+    pub fn new(dimension: usize) -> Self {
+        Self {
+            count: 0,
+            mean: vec![0.0; dimension],
+            squares: vec![0.0; dimension],
+        }
+    }
+
+    /// Takes one vector more.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] if it has another dimension.
+    pub fn add(&mut self, vector: &[f64]) -> Result<(), Error> {
+        let (expected, found) = (self.mean.len(), vector.len());
+        if expected != found {
+            return Err(Error::Length { expected, found });
+        }
+        self.count += 1;
+        let count = self.count as f64;
+        for ((mean, squares), &x) in self.mean.iter_mut().zip(&mut self.squares).zip(vector) {
+            let before = x - *mean;
+            *mean += before / count;
+            *squares += before * (x - *mean);
+        }
+        Ok(())
+    }
+
+    /// The number of vectors.
+    pub const fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// The mean of each component; 0 before the first vector.
+    pub fn mean(&self) -> &[f64] {
+        &self.mean
+    }
+
+    /// The variance of each component, from `n − 1` degrees of freedom; NaN before the second vector.
+    pub fn variance(&self) -> Vec<f64> {
+        let freedom = match self.count {
+            0 | 1 => f64::NAN,
+            count => (count - 1) as f64,
+        };
+        self.squares
+            .iter()
+            .map(|squares| squares / freedom)
+            .collect()
+    }
+}

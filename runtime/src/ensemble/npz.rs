@@ -1,0 +1,274 @@
+//! Files for NumPy: `.npz`.
+
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+use std::io::{self, Error, ErrorKind, Write};
+
+use super::{Ensemble, Row};
+use crate::method::Method;
+use crate::number::Vector;
+use crate::system::System;
+
+/// Writes a `.npz` file, which `numpy.load` reads: arrays with names, in a ZIP archive without compression.
+///
+/// An array is written as soon as it is given, and [`finish`](Self::finish) writes the directory of the archive. A file without its
+/// directory, of a run that was killed or a disk that is full, is not complete; `zip -FF` saves the arrays that are.
+///
+/// ```
+/// use symplectic::ensemble::Npz;
+///
+/// # fn main() -> std::io::Result<()> {
+/// let mut file = Npz::new(Vec::new());
+/// file.doubles("times", &[3], &[0.0, 0.5, 1.0])?;
+/// file.text("note", "three times")?;
+/// let bytes = file.finish()?;
+/// assert!(bytes.starts_with(b"PK"));
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Npz<W> {
+    out: W,
+    offset: u32,
+    directory: Vec<u8>,
+    entries: u16,
+}
+
+impl<W: Write> Npz<W> {
+    /// A file without arrays.
+    pub const fn new(out: W) -> Self {
+        Self {
+            out,
+            offset: 0,
+            directory: Vec::new(),
+            entries: 0,
+        }
+    }
+
+    /// Writes an array of doubles, its last index the fastest.
+    ///
+    /// # Errors
+    ///
+    /// Those of the output; [`ErrorKind::InvalidInput`] if the shape has another number of elements, and where the file would exceed
+    /// 4 GiB: write the [shards](Ensemble::shard) of the ensemble to files of their own.
+    pub fn doubles(&mut self, name: &str, shape: &[usize], values: &[f64]) -> io::Result<()> {
+        let bytes = values.iter().flat_map(|value| value.to_le_bytes());
+        self.array(name, "<f8", shape, values.len(), bytes)
+    }
+
+    /// Writes an array of whole numbers.
+    ///
+    /// # Errors
+    ///
+    /// As for [`doubles`](Self::doubles).
+    pub fn integers(&mut self, name: &str, shape: &[usize], values: &[u64]) -> io::Result<()> {
+        let bytes = values.iter().flat_map(|value| value.to_le_bytes());
+        self.array(name, "<u8", shape, values.len(), bytes)
+    }
+
+    /// Writes a text, an array without an index.
+    ///
+    /// # Errors
+    ///
+    /// As for [`doubles`](Self::doubles).
+    pub fn text(&mut self, name: &str, text: &str) -> io::Result<()> {
+        self.letters(name, &[], &[text])
+    }
+
+    /// Writes a list of texts.
+    ///
+    /// # Errors
+    ///
+    /// As for [`doubles`](Self::doubles).
+    pub fn texts(&mut self, name: &str, texts: &[&str]) -> io::Result<()> {
+        self.letters(name, &[texts.len()], texts)
+    }
+
+    /// Writes what is known of an ensemble: `method`, `definition`, `orders` (general, separable, with quadratic kinetic energy),
+    /// `step_size` and the `version` of this library.
+    ///
+    /// # Errors
+    ///
+    /// As for [`doubles`](Self::doubles).
+    pub fn facts<M, S, V, R, N, L>(
+        &mut self,
+        ensemble: &Ensemble<M, S, V, R, N, L>,
+    ) -> io::Result<()>
+    where
+        M: Method,
+        S: System<V>,
+        V: Vector,
+    {
+        self.text("method", M::NAME)?;
+        self.text("definition", M::DEFINITION)?;
+        let orders = M::ORDERS;
+        let orders = [orders.general, orders.separable, orders.nystrom].map(u64::from);
+        self.integers("orders", &[3], &orders)?;
+        self.doubles("step_size", &[], &[ensemble.step_size])?;
+        self.text("version", env!("CARGO_PKG_VERSION"))
+    }
+
+    /// Writes rows: `trajectory`, `time`, `q` and `p` with an index for the row and one for the component, `steps`, and `error`, which
+    /// is empty for a trajectory that came to its end.
+    ///
+    /// # Errors
+    ///
+    /// As for [`doubles`](Self::doubles); [`ErrorKind::InvalidInput`] also for rows of different dimensions.
+    pub fn rows<V: Vector<Scalar = f64>, A>(&mut self, rows: &[Row<V, A>]) -> io::Result<()> {
+        let count = rows.len();
+        let list = |of: fn(&Row<V, A>) -> u64| rows.iter().map(of).collect::<Vec<u64>>();
+        self.integers("trajectory", &[count], &list(|row| row.trajectory as u64))?;
+        let times: Vec<f64> = rows.iter().map(|row| row.state.time).collect();
+        self.doubles("time", &[count], &times)?;
+        let dimension = rows.first().map_or(0, |row| row.state.q.dimension());
+        let vectors = |of: fn(&Row<V, A>) -> &V| {
+            let components = rows.iter().flat_map(|row| of(row).as_slice());
+            components.copied().collect::<Vec<f64>>()
+        };
+        self.doubles("q", &[count, dimension], &vectors(|row| &row.state.q))?;
+        self.doubles("p", &[count, dimension], &vectors(|row| &row.state.p))?;
+        self.integers("steps", &[count], &list(|row| row.statistics.steps))?;
+        let error = |row: &Row<V, A>| match &row.outcome {
+            Ok(()) => String::new(),
+            Err(error) => format!("{error}"),
+        };
+        let errors: Vec<String> = rows.iter().map(error).collect();
+        let errors: Vec<&str> = errors.iter().map(String::as_str).collect();
+        self.texts("error", &errors)
+    }
+
+    /// Writes the directory, flushes, and returns what was written to.
+    ///
+    /// # Errors
+    ///
+    /// Those of the output.
+    pub fn finish(mut self) -> io::Result<W> {
+        let size = word(self.directory.len())?;
+        let mut end = b"PK\x05\x06\0\0\0\0".to_vec();
+        for _ in 0..2 {
+            end.extend(self.entries.to_le_bytes());
+        }
+        end.extend(size.to_le_bytes());
+        end.extend(self.offset.to_le_bytes());
+        end.extend([0, 0]);
+        self.out.write_all(&self.directory)?;
+        self.out.write_all(&end)?;
+        self.out.flush()?;
+        Ok(self.out)
+    }
+
+    /// Texts of one length in UTF-32, filled up by zeros.
+    fn letters(&mut self, name: &str, shape: &[usize], texts: &[&str]) -> io::Result<()> {
+        let lengths = texts.iter().map(|text| text.chars().count());
+        let longest = lengths.max().unwrap_or(0).max(1);
+        let padded = texts.iter().flat_map(|text| {
+            let letters = text.chars().map(u32::from);
+            letters.chain(core::iter::repeat(0)).take(longest)
+        });
+        let bytes = padded.flat_map(u32::to_le_bytes);
+        self.array(name, &format!("<U{longest}"), shape, texts.len(), bytes)
+    }
+
+    /// Writes an array in the format NPY 1.0.
+    fn array(
+        &mut self,
+        name: &str,
+        kind: &str,
+        shape: &[usize],
+        count: usize,
+        bytes: impl Iterator<Item = u8>,
+    ) -> io::Result<()> {
+        if shape.iter().product::<usize>() != count {
+            return Err(Error::new(
+                ErrorKind::InvalidInput,
+                format!("array `{name}`: {count} elements do not fill the shape {shape:?}"),
+            ));
+        }
+        let sides: String = shape.iter().map(|side| format!("{side}, ")).collect();
+        let mut header =
+            format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({sides}), }}");
+        // Ten bytes come before the header and a new line after it; together they fill lines of 64 bytes.
+        while (header.len() + 11) % 64 != 0 {
+            header.push(' ');
+        }
+        header.push('\n');
+        let mut file = b"\x93NUMPY\x01\0".to_vec();
+        file.extend((header.len() as u16).to_le_bytes());
+        file.extend(header.bytes());
+        file.extend(bytes);
+        self.entry(&format!("{name}.npy"), &file)
+    }
+
+    /// Writes a file of the archive (APPNOTE 6.3.10, 4.3.7 and 4.3.12), stored, of 1 January 1980.
+    fn entry(&mut self, name: &str, file: &[u8]) -> io::Result<()> {
+        let (length, letters) = (word(file.len())?, word(name.len())?);
+        let end = u64::from(self.offset) + 30 + u64::from(letters) + u64::from(length);
+        let (end, entries) = (word(end as usize)?, self.entries.checked_add(1));
+        let entries = entries.ok_or_else(too_large)?;
+        let mut common = [20, 0, 0, 0, 0, 0, 0, 0, 0x21, 0].to_vec();
+        common.extend(crc32(file).to_le_bytes());
+        common.extend(length.to_le_bytes());
+        common.extend(length.to_le_bytes());
+        common.extend((letters as u16).to_le_bytes());
+        common.extend([0, 0]);
+
+        self.out.write_all(b"PK\x03\x04")?;
+        self.out.write_all(&common)?;
+        self.out.write_all(name.as_bytes())?;
+        self.out.write_all(file)?;
+
+        self.directory.extend(b"PK\x01\x02\x14\0");
+        self.directory.extend(common);
+        self.directory.extend([0; 10]);
+        self.directory.extend(self.offset.to_le_bytes());
+        self.directory.extend(name.bytes());
+        (self.offset, self.entries) = (end, entries);
+        Ok(())
+    }
+}
+
+fn too_large() -> Error {
+    Error::new(
+        ErrorKind::InvalidInput,
+        "a .npz file of more than 4 GiB or 65535 arrays: write shards of the ensemble to files of their own",
+    )
+}
+
+/// A number of bytes as the archive has it.
+fn word(count: usize) -> io::Result<u32> {
+    u32::try_from(count).map_err(|_| too_large())
+}
+
+/// The checksum of ZIP: CRC-32 with the polynomial 0xEDB88320.
+fn crc32(bytes: &[u8]) -> u32 {
+    const TABLE: [u32; 256] = {
+        let mut table = [0; 256];
+        let mut byte = 0;
+        while byte < 256 {
+            let (mut rest, mut bit) = (byte as u32, 0);
+            while bit < 8 {
+                rest = (rest >> 1) ^ (0xEDB8_8320 * (rest & 1));
+                bit += 1;
+            }
+            table[byte] = rest;
+            byte += 1;
+        }
+        table
+    };
+    !bytes.iter().fold(!0, |sum, &byte| {
+        (sum >> 8) ^ TABLE[((sum ^ u32::from(byte)) & 0xff) as usize]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::crc32;
+
+    /// The check values of the catalogue of parametrised CRC algorithms (CRC-32/ISO-HDLC), and of the empty text.
+    #[test]
+    fn the_checksum_is_that_of_zip() {
+        assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
+        assert_eq!(crc32(b""), 0);
+    }
+}

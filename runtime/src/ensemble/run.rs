@@ -1,0 +1,220 @@
+//! Runs of an ensemble.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::{ControlFlow, Range};
+
+use super::group::{Group, Task};
+use super::{Ensemble, Row, pool};
+use crate::error::Error;
+use crate::integrator::Integrator;
+use crate::method::{Method, Solver};
+use crate::number::{Lanes, Scalar, Summation, Vector};
+use crate::state::State;
+use crate::system::System;
+
+/// Groups of trajectories that a thread takes, about, before rows are shown.
+const GROUPS: usize = 1 << 6;
+
+impl<M, S, V, R, N, L> Ensemble<M, S, V, R, N, L>
+where
+    M: Method,
+    S: System<V> + Clone + Send + Sync,
+    V: Vector + Send + Sync,
+    R: Summation,
+    N: Solver<V, S>,
+    L: Lanes,
+{
+    /// Takes every trajectory to the time `end`, as [`Integrator::integrate_to`] does.
+    ///
+    /// `show` is shown a [`Row`] for each trajectory, in their order, on this thread, also for one that failed. Where it breaks, the
+    /// run ends. Returns the number of the first trajectory that has no row: the number of all where the run was not stopped.
+    pub fn integrate_to(&self, end: f64, show: impl FnMut(Row<V>) -> ControlFlow<()>) -> usize {
+        self.run(&Task::To(end), |_| (), |(), _| (), show)
+    }
+
+    /// Takes so many steps of every trajectory, as [`Integrator::take_steps`] does. Else like [`integrate_to`](Self::integrate_to).
+    pub fn take_steps(&self, count: u64, show: impl FnMut(Row<V>) -> ControlFlow<()>) -> usize {
+        self.run(&Task::Steps(count), |_| (), |(), _| (), show)
+    }
+
+    /// Takes every trajectory until all `times` are behind, as [`Integrator::integrate_at`] does.
+    ///
+    /// `output` makes what is made of the trajectory with this number, and `see` is shown its state at each of the times; both on any
+    /// thread. It comes with the [`Row`]. Else like [`integrate_to`](Self::integrate_to).
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use symplectic::State;
+    /// use symplectic::ensemble::{Ensemble, EnsembleError};
+    /// use symplectic::nalgebra::Vector1;
+    ///
+    /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+    /// symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
+    ///
+    /// # fn main() -> Result<(), EnsembleError> {
+    /// let starts = (0..10).map(|k| State::from_arrays(0.0, [0.1 * f64::from(k)], [0.0])).collect();
+    /// let ensemble = Ensemble::new(VelocityVerlet, Pendulum, starts, 0.01)?;
+    /// let mut table = Vec::new();
+    /// let see = |angles: &mut Vec<f64>, state: &State<Vector1<f64>>| angles.push(state.q[0]);
+    /// ensemble.integrate_at(&[0.0, 1.0, 2.0], |_| Vec::new(), see, |row| {
+    ///     table.push(row.output);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// assert_eq!((table.len(), table[3].len(), table[3][0]), (10, 3, 0.1 * 3.0));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn integrate_at<A: Send>(
+        &self,
+        times: &[f64],
+        output: impl Fn(usize) -> A + Sync,
+        see: impl Fn(&mut A, &State<V>) + Sync,
+        show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
+    ) -> usize {
+        self.run(&Task::At(times), output, see, show)
+    }
+
+    /// Lets `work` do with the integrator of every trajectory what it wants: find events, look at invariants, take steps.
+    ///
+    /// The trajectories are taken one by one on every thread. The first argument of `work` is what `output` has made. Else like
+    /// [`integrate_at`](Self::integrate_at).
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use symplectic::ensemble::{Ensemble, EnsembleError};
+    /// use symplectic::nalgebra::Vector1;
+    /// use symplectic::{Event, State};
+    ///
+    /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+    /// symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
+    ///
+    /// # fn main() -> Result<(), EnsembleError> {
+    /// let starts = (1..10).map(|k| State::from_arrays(0.0, [0.3 * f64::from(k)], [0.0])).collect();
+    /// let ensemble = Ensemble::new(VelocityVerlet, Pendulum, starts, 0.01)?;
+    /// let mut swings = Vec::new();
+    /// ensemble.each(
+    ///     |_| 0,
+    ///     |count, integrator| {
+    ///         let lowest = Event::rising(|state: &State<Vector1<f64>>| state.q[0]);
+    ///         integrator.integrate_with_events(100.0, &lowest, |_| {
+    ///             *count += 1;
+    ///             ControlFlow::<()>::Continue(())
+    ///         })?;
+    ///         Ok(())
+    ///     },
+    ///     |row| {
+    ///         swings.push(row.output);
+    ///         ControlFlow::Continue(())
+    ///     },
+    /// );
+    /// // Wide swings are slower.
+    /// assert!(swings.is_sorted_by(|a, b| a >= b) && swings[0] == 16 && swings[8] < 10);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn each<A: Send>(
+        &self,
+        output: impl Fn(usize) -> A + Sync,
+        work: impl Fn(&mut A, &mut Integrator<M, S, V, R, N>) -> Result<(), Error> + Sync,
+        show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
+    ) -> usize {
+        let rows = |place: Range<usize>| {
+            let mut group = Group::new(self, place, &output);
+            group.each(&work);
+            group.rows()
+        };
+        self.show_all(1, rows, show)
+    }
+
+    fn run<A: Send>(
+        &self,
+        task: &Task<'_>,
+        output: impl Fn(usize) -> A + Sync,
+        see: impl Fn(&mut A, &State<V>) + Sync,
+        show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
+    ) -> usize {
+        let width = match self.goes_in_lanes() {
+            true => L::WIDTH,
+            false => 1,
+        };
+        let rows = |place: Range<usize>| {
+            let mut group = Group::new(self, place, &output);
+            match group.run(task, &see) {
+                ControlFlow::Continue(()) => group.rows(),
+                ControlFlow::Break(()) => Vec::new(),
+            }
+        };
+        self.show_all(width, rows, show)
+    }
+
+    /// Whether trajectories can be side by side.
+    pub(super) fn goes_in_lanes(&self) -> bool {
+        self.in_lanes && V::Scalar::IS_DOUBLE && Integrator::<M, S, V, R, N>::LANEWISE
+    }
+
+    /// Shows the rows of all groups of trajectories, at most `width` in each; a group that was stopped has none.
+    fn show_all<A: Send>(
+        &self,
+        width: usize,
+        rows: impl Fn(Range<usize>) -> Vec<Row<V, A>> + Sync,
+        mut show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
+    ) -> usize {
+        let mut next = self.first;
+        let mut shown = self.first;
+        let most = GROUPS * pool::threads();
+        'all: while next < self.starts.len() {
+            let mut groups = Vec::new();
+            while next < self.starts.len() && groups.len() < most {
+                let end = self.end_of_group(next, width);
+                groups.push(next..end);
+                next = end;
+            }
+            let rows = pool::map(groups, |group| match self.is_stopped() {
+                true => vec![],
+                false => rows(group),
+            });
+            for rows in rows {
+                if rows.is_empty() {
+                    break 'all;
+                }
+                for row in rows {
+                    shown += 1;
+                    if show(row).is_break() {
+                        break 'all;
+                    }
+                }
+            }
+        }
+        self.offset + shown
+    }
+
+    pub(super) fn is_stopped(&self) -> bool {
+        self.stop.as_ref().is_some_and(|stop| stop())
+    }
+
+    /// The end of a group of at most `width` trajectories with one system and one time.
+    fn end_of_group(&self, first: usize, width: usize) -> usize {
+        let systems_end = self.family_of(first).1;
+        let most = (first + width).min(systems_end);
+        let time = self.starts[first].time.to_bits();
+        let others = first + 1..most;
+        let other = others.take_while(|&place| self.starts[place].time.to_bits() == time);
+        first + 1 + other.count()
+    }
+
+    /// The system of a start, and where its starts end.
+    fn family_of(&self, place: usize) -> &(S, usize) {
+        let number = self.systems.partition_point(|(_, end)| *end <= place);
+        &self.systems[number]
+    }
+
+    /// The integrator of the trajectory from a start, and its number.
+    pub(super) fn integrator(&self, place: usize) -> (usize, Integrator<M, S, V, R, N>) {
+        let system = self.family_of(place).0.clone();
+        let start = self.starts[place].clone();
+        let mut run = Integrator::unchecked(system, start, self.step_size);
+        run.configure(self.stopping, self.retry);
+        (self.offset + place, run)
+    }
+}

@@ -1,0 +1,211 @@
+//! Trajectories side by side: an integrator over lanes in place of one for each of them.
+//!
+//! A step of a [lanewise](Plan::LANEWISE) plan has in every lane the bits of a step of doubles. So a run can go over from integrators of
+//! doubles to one over lanes and back, at any step.
+
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+
+use super::{Integrator, MemoryOf, PlanOf, StepMemory};
+use crate::error::Error;
+use crate::integrator::Retry;
+use crate::integrator::clock::{Clock, uniform};
+use crate::method::{Method, Plan, Solver, StageStorage};
+use crate::number::{Lanes, Scalar, Summation, Vector, vector_words};
+use crate::state::State;
+use crate::system::System;
+
+/// Steps of one size that are still to be taken.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Leg {
+    left: u64,
+    size: f64,
+    clock: Clock,
+    /// The time of the last one, if it is given.
+    end: Option<f64>,
+}
+
+impl Leg {
+    /// Whether all are taken.
+    pub(crate) const fn is_done(&self) -> bool {
+        self.left == 0
+    }
+}
+
+/// Where a run was.
+pub(crate) struct Mark<V, T> {
+    course: StepMemory<V, T>,
+    clock: Clock,
+}
+
+/// The mark of an integrator.
+pub(crate) type MarkOf<M, S, V, N> = Mark<V, MemoryOf<M, S, V, N>>;
+
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
+    /// Whether every lane of a step over lanes has the bits of a step of doubles.
+    pub(crate) const LANEWISE: bool = <PlanOf<M, S, V> as Plan>::LANEWISE;
+
+    /// The steps of [`take_steps`](Self::take_steps).
+    pub(crate) const fn leg_of(&self, count: u64) -> Leg {
+        Leg {
+            left: count,
+            size: self.step_size,
+            clock: self.clock,
+            end: None,
+        }
+    }
+
+    /// The steps of [`integrate_to`](Self::integrate_to).
+    pub(crate) fn leg_to(&self, end: f64) -> Result<Leg, Error> {
+        let start = self.course.state.time;
+        let (left, size) = uniform(start, end, self.step_size)?;
+        Ok(Leg {
+            left,
+            size,
+            clock: Clock::new(start, size),
+            end: Some(end),
+        })
+    }
+
+    /// How many steps of a leg are taken at once.
+    pub(crate) fn block_of(&self, leg: &Leg) -> u64 {
+        self.next_block(leg.left)
+    }
+
+    /// Takes the next [block](Self::block_of) of a leg, as those whose leg it is would.
+    pub(crate) fn take_block(&mut self, block: u64, leg: &mut Leg) -> Result<(), Error> {
+        let Leg {
+            left,
+            size,
+            clock,
+            end,
+        } = leg;
+        self.advance_block(block, *left, *size, clock, *end)?;
+        *left -= block;
+        Ok(())
+    }
+
+    /// Takes all steps of a leg.
+    pub(crate) fn take_leg(&mut self, leg: &mut Leg) -> Result<(), Error> {
+        self.advance_by(leg.left, leg.size, &mut leg.clock, leg.end)?;
+        leg.left = 0;
+        Ok(())
+    }
+
+    /// Where the run is.
+    pub(crate) fn mark(&self) -> MarkOf<M, S, V, N> {
+        Mark {
+            course: self.course.clone(),
+            clock: self.clock,
+        }
+    }
+
+    /// Goes back to where the run was.
+    pub(crate) fn go_back(&mut self, mark: MarkOf<M, S, V, N>) {
+        (self.course, self.clock) = (mark.course, mark.clock);
+    }
+
+    /// An integrator for such runs, in the lanes of vectors like `zeros`; every lane is still to be [set](Self::set_lane).
+    pub(crate) fn over_lanes<W>(
+        &self,
+        zeros: &W,
+    ) -> Integrator<M, S, W, R, <S as System<W>>::Solver>
+    where
+        W: Vector<Scalar: Lanes>,
+        S: System<W> + Clone,
+    {
+        let blank = State::new(self.course.state.time, zeros.clone(), zeros.clone());
+        Integrator {
+            system: self.system.clone(),
+            course: StepMemory::new(false, blank),
+            clock: self.clock,
+            step_size: self.step_size,
+            stopping: self.stopping,
+            // A step that fails is taken again by the trajectory whose it is.
+            retry: Retry::Never,
+            last_event: self.last_event,
+            method: PhantomData,
+        }
+    }
+}
+
+impl<M, S, W, R, N> Integrator<M, S, W, R, N>
+where
+    M: Method,
+    S: System<W>,
+    W: Vector<Scalar: Lanes>,
+    R: Summation,
+    N: Solver<W, S>,
+{
+    /// Puts a run into a lane. It is where the runs in the other lanes are.
+    pub(crate) fn set_lane<V: Vector, O: Solver<V, S>>(
+        &mut self,
+        lane: usize,
+        run: &Integrator<M, S, V, R, O>,
+    ) where
+        S: System<V>,
+    {
+        let words = words_of(&mut run.course.clone());
+        let mut number = 0;
+        self.course.scalar_words(&mut |word| {
+            if number % <W::Scalar as Lanes>::WIDTH == lane {
+                *word = words[number / <W::Scalar as Lanes>::WIDTH];
+            }
+            number += 1;
+        });
+        self.course.same_place(&run.course);
+        self.clock = run.clock;
+    }
+
+    /// Makes a run that of a lane.
+    pub(crate) fn get_lane<V: Vector, O: Solver<V, S>>(
+        &self,
+        lane: usize,
+        run: &mut Integrator<M, S, V, R, O>,
+    ) where
+        S: System<V>,
+    {
+        let words = words_of(&mut self.course.clone());
+        let mut number = lane;
+        run.course.scalar_words(&mut |word| {
+            *word = words[number];
+            number += <W::Scalar as Lanes>::WIDTH;
+        });
+        run.course.same_place(&self.course);
+        run.clock = self.clock;
+    }
+
+    /// Whether the system gives a run in a lane the bits that it gives the run of doubles.
+    pub(crate) fn evaluates_like<V: Vector<Scalar = T>, T: Scalar, O: Solver<V, S>>(
+        &self,
+        lane: usize,
+        run: &Integrator<M, S, V, R, O>,
+    ) -> bool
+    where
+        S: System<V>,
+    {
+        let lanes = evaluations(&self.system, &self.course.state);
+        let alone = evaluations(&run.system, &run.course.state);
+        let in_lane = lanes.iter().skip(lane).step_by(<W::Scalar as Lanes>::WIDTH);
+        in_lane.eq(&alone)
+    }
+}
+
+/// The words of all scalars of a run.
+fn words_of<V: Vector, T: StageStorage<V>>(course: &mut StepMemory<V, T>) -> Vec<u64> {
+    let mut words = Vec::new();
+    course.scalar_words(&mut |word| words.push(*word));
+    words
+}
+
+/// The words of velocity and force at a state.
+fn evaluations<V: Vector, S: System<V>>(system: &S, State { time, q, p }: &State<V>) -> Vec<u64> {
+    let time = V::Scalar::from_f64(*time);
+    let mut found = [q.zeros_like(), q.zeros_like()];
+    let [velocity, force] = &mut found;
+    system.velocity(time, q, p, velocity);
+    system.force(time, q, p, force);
+    let mut words = Vec::new();
+    vector_words(&mut found, &mut |word| words.push(*word));
+    words
+}

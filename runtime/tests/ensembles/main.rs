@@ -1,0 +1,11 @@
+//! Ensembles: every trajectory has the bits that it has alone, and what comes of many is right.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bits;
+mod errors;
+mod failures;
+mod outputs;
+mod restart;
+mod systems;

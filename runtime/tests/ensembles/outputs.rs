@@ -1,0 +1,223 @@
+//! What is made of many trajectories, against closed forms.
+
+use std::ops::ControlFlow;
+
+use symplectic::ensemble::{Ensemble, Histogram, Moments};
+use symplectic::nalgebra::Vector1;
+use symplectic::{Error, State};
+
+use crate::common::methods::Yoshida6;
+
+symplectic::hamiltonian! {
+    Oscillator { omega }
+    q: [x], p: [px];
+    H = px^2/2 + (omega x)^2/2
+}
+
+#[test]
+fn oscillators_are_where_they_should_be() {
+    let family = |k: u32| {
+        let omega = 1.0 + 0.1 * f64::from(k);
+        let starts = (1..=5).map(|a| State::from_arrays(0.0, [f64::from(a)], [0.0]));
+        (Oscillator { omega }, starts.collect())
+    };
+    let ensemble = Ensemble::of_families(Yoshida6, (0..3).map(family), 0.02).expect("starts");
+    let times = [0.5, 1.0, 2.75];
+    let see = |seen: &mut Vec<_>, state: &State<Vector1<f64>>| seen.push((state.time, state.q[0]));
+    let mut shown = 0;
+    ensemble.integrate_at(
+        &times,
+        |_| Vec::new(),
+        see,
+        |row| {
+            let (k, a) = (row.trajectory / 5, row.trajectory % 5 + 1);
+            let omega = 1.0 + 0.1 * k as f64;
+            assert_eq!(row.output.len(), times.len());
+            for ((time, q), expected) in row.output.into_iter().zip(times) {
+                assert_eq!(time, expected);
+                // A cubic between steps of 0.02: (h/2)⁴/4!·ω⁴ a < 5e-9 a.
+                assert!((q - a as f64 * (omega * time).cos()).abs() < 1e-8 * a as f64);
+            }
+            shown += 1;
+            ControlFlow::Continue(())
+        },
+    );
+    assert_eq!(shown, 15);
+}
+
+/// Two passes in whole numbers of sixteenths, exact: an independent formula.
+#[test]
+fn moments_of_numbers_that_are_exact() {
+    let numbers: Vec<f64> = (0..100).map(|k| f64::from((k * 37) % 64) / 16.0).collect();
+    let mut moments = Moments::new(2);
+    for x in &numbers {
+        // Far from zero sums of squares would lose the variance.
+        moments.add(&[*x, 1e9 + *x]).expect("two components");
+    }
+    let mean = numbers.iter().sum::<f64>() / 100.0;
+    let variance = numbers.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / 99.0;
+    assert!((moments.mean()[0] - mean).abs() < 1e-14);
+    assert!((moments.variance()[0] - variance).abs() < 1e-13);
+    // Roundings of 1e9, one each: 100 · 1e9 · 2⁻⁵³ in the mean.
+    assert!((moments.mean()[1] - 1e9 - mean).abs() < 1.2e-5);
+    assert!((moments.variance()[1] - variance).abs() < 1e-4);
+    let error = moments.add(&[1.0]).expect_err("one component");
+    assert!(matches!(
+        error,
+        Error::Length {
+            expected: 2,
+            found: 1
+        }
+    ));
+    assert_eq!(moments.count(), 100);
+    assert!(Moments::new(1).variance()[0].is_nan());
+}
+
+#[test]
+fn numbers_are_in_their_bins() {
+    let mut histogram = Histogram::new(-1.0, 2.0, 7).expect("bins");
+    for k in 0..7000 {
+        histogram.add(-1.0 + 3.0 * (f64::from(k) + 0.5) / 7000.0);
+    }
+    assert_eq!(histogram.counts(), [1000; 7]);
+    // Every edge is in the bin that it begins, but for its rounding, and what is next below 2 in the last.
+    let mut edges = Histogram::new(-1.0, 2.0, 7).expect("bins");
+    edges.add(-1.0);
+    edges.add(2.0_f64.next_down());
+    edges.add(2.0);
+    edges.add((-1.0_f64).next_down());
+    assert_eq!((edges.counts()[0], edges.counts()[6]), (1, 1));
+    assert_eq!((edges.below(), edges.above(), edges.nan()), (1, 1, 0));
+    assert_eq!((edges.edge(0), edges.edge(7)), (-1.0, 2.0));
+    for (low, high, bins) in [
+        (0.0, 1.0, 0),
+        (1.0, 1.0, 3),
+        (0.0, f64::NAN, 3),
+        (0.0, f64::INFINITY, 3),
+    ] {
+        assert!(Histogram::new(low, high, bins).is_err());
+    }
+}
+
+/// A gas without collisions: oscillators of one frequency from random starts have at time t the means x̄ cos ωt + p̄ sin ωt/ω, and
+/// such a variance.
+#[test]
+fn the_moments_of_an_ensemble_turn_as_a_state_does() {
+    let omega = 2.0;
+    let mut number = 1_u64;
+    let mut random = || {
+        number = number
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (number >> 11) as f64 / (1_u64 << 53) as f64 - 0.3
+    };
+    let starts: Vec<_> = (0..500)
+        .map(|_| State::from_arrays(0.0, [random()], [random()]))
+        .collect();
+    let mut before = Moments::new(2);
+    let (mut products, count) = (0.0, starts.len() as f64);
+    for start in &starts {
+        before
+            .add(&[start.q[0], start.p[0]])
+            .expect("two components");
+        products += start.q[0] * start.p[0];
+    }
+    let ensemble = Ensemble::new(Yoshida6, Oscillator { omega }, starts, 0.02).expect("starts");
+    let mut after = Moments::new(1);
+    ensemble.integrate_to(1.3, |row| {
+        after.add(row.state.q.as_slice()).expect("one component");
+        ControlFlow::Continue(())
+    });
+    let (sine, cosine) = (omega * 1.3_f64).sin_cos();
+    let (c, s) = (cosine, sine / omega);
+    let [x, p] = [before.mean()[0], before.mean()[1]];
+    let (variance, covariance) = (
+        before.variance(),
+        (products - count * x * p) / (count - 1.0),
+    );
+    let expected = c * c * variance[0] + s * s * variance[1] + 2.0 * c * s * covariance;
+    assert!((after.mean()[0] - (c * x + s * p)).abs() < 1e-8);
+    assert!((after.variance()[0] - expected).abs() < 1e-8);
+}
+
+/// The files of an archive: names and contents, by its directory.
+#[cfg(feature = "npz")]
+fn files(archive: &[u8]) -> Vec<(String, Vec<u8>)> {
+    let number = |at: usize, bytes: usize| {
+        let little = archive[at..at + bytes].iter().rev();
+        little.fold(0_usize, |sum, byte| sum << 8 | usize::from(*byte))
+    };
+    let end = archive.len() - 22;
+    assert_eq!(&archive[end..end + 4], b"PK\x05\x06");
+    let mut at = number(end + 16, 4);
+    assert_eq!(at + number(end + 12, 4), end);
+    let mut found = Vec::new();
+    for _ in 0..number(end + 10, 2) {
+        assert_eq!(&archive[at..at + 4], b"PK\x01\x02");
+        let (size, letters, local) = (number(at + 20, 4), number(at + 28, 2), number(at + 42, 4));
+        let name = String::from_utf8(archive[at + 46..at + 46 + letters].to_vec());
+        assert_eq!(&archive[local..local + 4], b"PK\x03\x04");
+        assert_eq!(archive[at + 16..at + 20], archive[local + 14..local + 18]);
+        let data = local + 30 + number(local + 26, 2);
+        found.push((name.expect("a name"), archive[data..data + size].to_vec()));
+        at += 46 + letters;
+    }
+    found
+}
+
+#[cfg(feature = "npz")]
+#[test]
+fn a_file_for_numpy() {
+    use symplectic::ensemble::Npz;
+
+    let starts = (0..3).map(|k| State::from_arrays(0.0, [f64::from(k)], [-0.5]));
+    let ensemble = Ensemble::new(Yoshida6, Oscillator { omega: 1.0 }, starts.collect(), 0.5);
+    let ensemble = ensemble.expect("starts");
+    let mut rows = Vec::new();
+    ensemble.take_steps(0, |row| {
+        rows.push(row);
+        ControlFlow::Continue(())
+    });
+    let mut file = Npz::new(Vec::new());
+    file.facts(&ensemble).expect("room");
+    file.rows(&rows).expect("room");
+    file.text("system", "ω").expect("room");
+    let wrong = file.doubles("wrong", &[2, 2], &[1.0]).expect_err("a shape");
+    assert_eq!(wrong.kind(), std::io::ErrorKind::InvalidInput);
+    let archive = file.finish().expect("room");
+    // By hand: python3 -m zipfile -t, numpy.load.
+    if let Some(path) = std::env::var_os("SYMPLECTIC_NPZ") {
+        std::fs::write(path, &archive).expect("a file");
+    }
+
+    let files = files(&archive);
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    let expected =
+        "method definition orders step_size version trajectory time q p steps error system";
+    let expected: Vec<String> = expected
+        .split(' ')
+        .map(|name| format!("{name}.npy"))
+        .collect();
+    assert_eq!(names, expected);
+    let array = |name: &str| {
+        let (_, file) = files.iter().find(|(found, _)| found == name).expect("it");
+        assert_eq!(&file[..8], b"\x93NUMPY\x01\0");
+        let header = usize::from(u16::from_le_bytes([file[8], file[9]]));
+        assert_eq!((10 + header) % 64, 0);
+        let text = String::from_utf8(file[10..10 + header].to_vec()).expect("text");
+        (text.trim_end().to_string(), file[10 + header..].to_vec())
+    };
+    let doubles: Vec<u8> = [0.0, 1.0, 2.0_f64]
+        .iter()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
+    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 1, ), }";
+    assert_eq!(array("q.npy"), (header.to_string(), doubles));
+    let header = "{'descr': '<U1', 'fortran_order': False, 'shape': (), }";
+    assert_eq!(
+        array("system.npy"),
+        (header.to_string(), 0x3c9_u32.to_le_bytes().to_vec())
+    );
+    let orders: Vec<u8> = [6_u64; 3].iter().flat_map(|x| x.to_le_bytes()).collect();
+    assert_eq!(array("orders.npy").1, orders);
+}
