@@ -6,6 +6,7 @@
 //! [proved](crate::certify) to be near them.
 
 mod numbers;
+mod parser;
 mod source;
 mod tokens;
 mod value;
