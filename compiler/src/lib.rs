@@ -23,6 +23,7 @@
 //! | the order of splittings for perturbed systems | [`Tableau::perturbed_order`] |
 //! | linear stability on the oscillator | [`stability`] |
 //! | what a user requires of a method | [`Requirement`], [`Tableau::require`], [`assert_order!`] |
+//! | tables of other libraries | [`import`], [`Library`]; what they claim and what is proved: [`audit`] |
 //! | text, JSON, TOML; reading and checking files | [`export`], [`check`] |
 //! | known methods | [`catalogue`] |
 //! | explicit methods from printed digits, with a proof that an exact method is near | [`certify`], [`refine()`] for files, [`refine_table()`] for Butcher arrays |
@@ -34,6 +35,7 @@
 
 pub mod algebra;
 pub mod arithmetic;
+pub mod audit;
 mod basis;
 pub mod catalogue;
 pub mod certify;
@@ -51,6 +53,8 @@ mod exact;
 pub mod export;
 pub mod expression;
 pub mod formula;
+mod import;
+mod library;
 mod limits;
 mod operations;
 pub mod order;
@@ -72,6 +76,8 @@ pub use derive::{derive, derive_from, derive_within};
 pub use error::{Error, ErrorKind, Place};
 pub use evidence::Evidence;
 pub use exact::Tier;
+pub use import::import;
+pub use library::{Library, Stepping};
 pub use limits::Limits;
 pub use properties::{Properties, Property, SeparableProperties};
 pub use quadrature::{FAMILIES, Family, Nodes, QuadratureRule};

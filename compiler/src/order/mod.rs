@@ -23,6 +23,8 @@
 //! the conditions of which take more than ten million products of a coefficient and a stage, or four where numbers are
 //! expressions, are not enumerated: what is then known of them is what the simplifying assumptions say.
 //!
+//! The order that is [seen](Tableau::observed_order) in a step of the pendulum does not use any of this.
+//!
 //! Splittings have an order for perturbed systems besides, a [`PerturbedOrder`], from words instead of trees.
 
 mod class;
@@ -31,6 +33,7 @@ mod error_constant;
 mod exponential_words;
 mod inherited;
 mod modified;
+mod observed;
 mod perturbed;
 mod plan;
 mod report;
@@ -45,6 +48,7 @@ pub use class::HamiltonianClass;
 pub use enumeration::{TreeRule, Trees};
 pub(crate) use inherited::GivenOrder;
 pub use modified::ModifiedTerm;
+pub use observed::Kinetic;
 pub(crate) use perturbed::listed;
 pub use perturbed::{PerturbedOrder, PowerOrder, ViolatedWord};
 pub(crate) use plan::Plan;
@@ -54,6 +58,7 @@ pub use symplecticity::{SymplecticityOrder, SymplecticityViolation};
 pub use tree::{BicolouredTree, Colour, TreeError};
 
 use num_rational::BigRational;
+use num_traits::Signed;
 
 use self::error_constant::Term;
 use self::modified::modified_equation;
@@ -317,6 +322,39 @@ fn class_order<A: StageAlgebra>(
         refuted_by: refuted_by_quadrature(pair, class, order + 1),
         error_constant: None,
     }
+}
+
+/// The order for a class up to a tolerance of the conditions, of numbers that are rounded, and the first condition that is violated
+/// by more; the order is at most [`OrderOptions::limit`].
+pub(crate) fn order_within<A: StageAlgebra>(
+    pair: &Pair<A>,
+    class: HamiltonianClass,
+    tolerance: &BigRational,
+) -> (usize, Option<ViolatedCondition>) {
+    let pair = pair.enclosed(BITS);
+    let symplecticity = Symplecticity::of(&pair);
+    let representatives = symplecticity.evidence(class) == Some(Evidence::Proved);
+    let mut weights = Weights::new(&pair, TreeRule::Class(class));
+    let limit = OrderOptions::default().limit;
+    for order in 1..=limit {
+        if !weights.affordable(order) {
+            return (order - 1, None);
+        }
+        let violated = weights
+            .conditions(order, representatives)
+            .into_iter()
+            .find(|&condition| {
+                let value = weights.value(condition).enclose(BITS).middle();
+                (value - weights.wanted(condition)).abs() > *tolerance
+            });
+        if let Some(condition) = violated {
+            let (tree, terms) = (weights.tree(condition), weights.terms(condition));
+            let value = weights.value(condition);
+            let violated = ViolatedCondition::new(&*pair.algebra, tree, &terms, &value);
+            return (order - 1, Some(violated));
+        }
+    }
+    (limit, None)
 }
 
 /// A tree of an order whose children are leaves, if its condition is refuted.

@@ -1,12 +1,15 @@
 //! The command line of the compiler: derive a tableau or the equations of a Hamiltonian, show and list known methods, check files,
-//! refine printed coefficients.
+//! refine printed coefficients, read tables of other libraries and hold their claims
+//! against proofs.
 //!
 //! Exit status: 0; 1 where a file's entries do not fit, or its digits are not those of a method as claimed; 2 for bad input.
 
+mod audit;
 mod check;
 mod choice;
 mod derive;
 mod derive_system;
+mod import;
 mod list;
 mod output;
 mod refine;
@@ -33,6 +36,8 @@ enum Command {
     Show(show::Arguments),
     Check(check::Arguments),
     Refine(refine::Arguments),
+    Import(import::Arguments),
+    Audit(audit::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -43,6 +48,8 @@ fn main() -> ExitCode {
         Command::Show(arguments) => show::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Refine(arguments) => refine::run(&arguments),
+        Command::Import(arguments) => import::run(&arguments),
+        Command::Audit(arguments) => audit::run(&arguments),
     };
     outcome.unwrap_or_else(|error| {
         report::to_stderr(&error);

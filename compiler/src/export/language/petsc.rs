@@ -2,14 +2,15 @@
 
 use super::c::{comment, hexadecimal, numbers};
 use super::not_expressible;
-use super::table::{Entry, Table};
+use super::table::{Stepped, Table};
 use crate::arithmetic::inverse;
 use crate::error::Error;
+use crate::library::Library;
 use crate::order::HamiltonianClass;
 
 pub(super) fn write(table: &Table<'_>) -> Result<String, Error> {
-    if let Some([drifts, kicks]) = table.drifts_and_kicks(true) {
-        return Ok(splitting(table, &drifts, &kicks));
+    if let Some(flows) = table.stepped_by(Library::Petsc) {
+        return Ok(splitting(table, &flows));
     }
     if !table.is_runge_kutta() {
         let reason = "TS has partitioned methods that are explicit only (TSBASICSYMPLECTIC), and this one is implicit";
@@ -29,18 +30,19 @@ pub(super) fn write(table: &Table<'_>) -> Result<String, Error> {
     Ok(implicit(table, &inverse))
 }
 
-/// A method of TSBASICSYMPLECTIC: stage i drifts by `c_i`, and then kicks by `d_i`.
-fn splitting(table: &Table<'_>, drifts: &[Entry], kicks: &[Entry]) -> String {
+/// A method of TSBASICSYMPLECTIC: a stage drifts, and then kicks.
+fn splitting(table: &Table<'_>, flows: &Stepped) -> String {
     let name = &table.name;
+    let (c, d) = (flows.stepping.drift, flows.stepping.kick);
     let orders =
         [HamiltonianClass::Separable, HamiltonianClass::Nystrom].map(|class| table.order(class));
     let order = orders[0].max(orders[1]);
     format!(
-        "{}#include <petscts.h>\n\n/* After it: TSSetType(ts, TSBASICSYMPLECTIC), TSBasicSymplecticSetType(ts, \"{name}\"). */\nstatic PetscErrorCode {name}_register(void)\n{{\n{}{}  PetscFunctionBegin;\n  PetscCall(TSBasicSymplecticRegister(\"{name}\", {order}, {}, c, d));\n  PetscFunctionReturn(PETSC_SUCCESS);\n}}\n",
+        "{}#include <petscts.h>\n\n/* After it: TSSetType(ts, TSBASICSYMPLECTIC), TSBasicSymplecticSetType(ts, \"{name}\"). */\nstatic PetscErrorCode {name}_register(void)\n{{\n{}{}  PetscFunctionBegin;\n  PetscCall(TSBasicSymplecticRegister(\"{name}\", {order}, {}, {c}, {d}));\n  PetscFunctionReturn(PETSC_SUCCESS);\n}}\n",
         comment(&table.description()),
-        array("c", &numbers("    ", drifts)),
-        array("d", &numbers("    ", kicks)),
-        drifts.len(),
+        array(c, &numbers("    ", &flows.drifts)),
+        array(d, &numbers("    ", &flows.kicks)),
+        flows.drifts.len(),
     )
 }
 

@@ -2,13 +2,14 @@
 
 use super::c::{comment, numbers};
 use super::not_expressible;
-use super::table::{Entry, Table};
+use super::table::{Entry, Stepped, Table};
 use crate::error::Error;
+use crate::library::Library;
 use crate::order::HamiltonianClass;
 
 pub(super) fn write(table: &Table<'_>) -> Result<String, Error> {
-    if let Some([drifts, kicks]) = table.drifts_and_kicks(false) {
-        return Ok(splitting(table, &drifts, &kicks));
+    if let Some(flows) = table.stepped_by(Library::Sundials) {
+        return Ok(splitting(table, &flows));
     }
     if !table.is_runge_kutta() {
         let reason = "ARKODE has partitioned methods that are explicit only (SPRKStep), and this one is implicit";
@@ -37,9 +38,10 @@ pub(super) fn write(table: &Table<'_>) -> Result<String, Error> {
     ))
 }
 
-/// A table of SPRKStep: stage i kicks by `ahat_i` with the first function, and then drifts by `a_i` with the second.
-fn splitting(table: &Table<'_>, drifts: &[Entry], kicks: &[Entry]) -> String {
-    let (stages, name) = (drifts.len(), &table.name);
+/// A table of SPRKStep: a stage kicks with the first function, and then drifts with the second.
+fn splitting(table: &Table<'_>, flows: &Stepped) -> String {
+    let (stages, name) = (flows.drifts.len(), &table.name);
+    let (a, ahat) = (flows.stepping.drift, flows.stepping.kick);
     let mut lines = table.description();
     let [separable, nystrom] =
         [HamiltonianClass::Separable, HamiltonianClass::Nystrom].map(|class| table.order(class));
@@ -49,10 +51,10 @@ fn splitting(table: &Table<'_>, drifts: &[Entry], kicks: &[Entry]) -> String {
         ));
     }
     format!(
-        "{}#include <arkode/arkode_sprk.h>\n\n/* For SPRKStepSetMethod: f1 is the force at q, f2 the velocity at p. */\nstatic ARKodeSPRKTable {name}(void) {{\n{}{}  return ARKodeSPRKTable_Create({stages}, {}, a, ahat);\n}}\n",
+        "{}#include <arkode/arkode_sprk.h>\n\n/* For SPRKStepSetMethod: f1 is the force at q, f2 the velocity at p. */\nstatic ARKodeSPRKTable {name}(void) {{\n{}{}  return ARKodeSPRKTable_Create({stages}, {}, {a}, {ahat});\n}}\n",
         comment(&lines),
-        array("a", drifts),
-        array("ahat", kicks),
+        array(a, &flows.drifts),
+        array(ahat, &flows.kicks),
         separable.max(nystrom),
     )
 }

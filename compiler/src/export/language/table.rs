@@ -3,6 +3,7 @@
 use crate::coefficients::Coefficients;
 use crate::export::facts::separable_only;
 use crate::export::written;
+use crate::library::{Library, Stepping};
 use crate::order::HamiltonianClass;
 use crate::pair::Staircase;
 use crate::schedule::{Class, Node, StepGraph};
@@ -36,6 +37,13 @@ pub(super) struct Entry {
 pub(super) struct Flow {
     is_drift: bool,
     weight: Entry,
+}
+
+/// Drifts and kicks in turn, as many of both, with a library's names for them.
+pub(super) struct Stepped {
+    pub stepping: Stepping,
+    pub drifts: Vec<Entry>,
+    pub kicks: Vec<Entry>,
 }
 
 impl Entry {
@@ -204,6 +212,17 @@ impl<'a> Table<'a> {
             matrices.push(("a_tilde", a_tilde));
         }
         matrices
+    }
+
+    /// The drifts and kicks as a library steps them.
+    pub fn stepped_by(&self, library: Library) -> Option<Stepped> {
+        let stepping = library.stepping()?;
+        let [drifts, kicks] = self.drifts_and_kicks(stepping.drifts_first)?;
+        Some(Stepped {
+            stepping,
+            drifts,
+            kicks,
+        })
     }
 
     /// Whether the first of the drifts and kicks is a drift.

@@ -1,0 +1,148 @@
+//! The page: one table a library, the differences above them.
+
+use super::{Audit, Row, Verdict};
+
+const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;max-width:78rem;margin:2rem auto;padding:0 1rem;color:#222}\
+table{border-collapse:collapse;width:100%;margin:0 0 2rem;font-size:13px}th,td{padding:.3rem .5rem;text-align:left;vertical-align:top;\
+border-bottom:1px solid #ddd}th{border-bottom:2px solid #888}.less{background:#fbe4e0}.more{background:#e4f0fb}\
+.unexplained{outline:2px solid #c00}code{font-size:12px}p.convention{color:#555;font-size:13px}";
+
+pub(super) fn page(audit: &Audit) -> String {
+    let differences: Vec<&Row> = audit.differences().collect();
+    let unexplained = audit.unexplained().count();
+    let mut body = format!(
+        "<h1>Claims and proofs of symplectic tables</h1>\n<p>{} tables, {} of which prove another order than they claim; {} unexplained. \
+         An order is proved by its order conditions in exact arithmetic, for the exact method near the decimals where the numbers are \
+         decimals. What is seen is the slope of the error of one step of the pendulum in 96 digits, with T = p²/2 and with T = √(1 + p²).</p>\n",
+        audit.rows.len(),
+        differences.len(),
+        unexplained
+    );
+    if !differences.is_empty() {
+        body.push_str("<h2>Differences</h2>\n<ul>\n");
+        for row in &differences {
+            body.push_str(&format!("<li>{}</li>\n", escape(&difference(row))));
+        }
+        body.push_str("</ul>\n");
+    }
+    let mut sources: Vec<(&str, &str)> = Vec::new();
+    for row in &audit.rows {
+        let source = (row.library.as_str(), row.source.as_str());
+        if !sources.contains(&source) {
+            sources.push(source);
+        }
+    }
+    for (library, source) in sources {
+        let rows: Vec<&Row> = audit
+            .rows
+            .iter()
+            .filter(|row| row.library == library && row.source == source)
+            .collect();
+        let Some(first) = rows.first() else { continue };
+        body.push_str(&format!(
+            "<h2>{}</h2>\n<p class=\"convention\">{}, <a href=\"{}\">{}</a>. Steps: {}.</p>\n",
+            escape(library),
+            escape(&first.version),
+            escape(source),
+            escape(source),
+            escape(&first.convention)
+        ));
+        body.push_str(
+            "<table>\n<tr><th>table</th><th>stages</th><th>claim</th><th>T(p) + U(q)</th><th>T quadratic</th><th>first violated condition</th>\
+             <th>seen: p²/2, √(1 + p²)</th><th></th><th>places of an exact method</th><th>stable hω</th></tr>\n",
+        );
+        rows.iter().for_each(|row| body.push_str(&line(row)));
+        body.push_str("</table>\n");
+    }
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>Claims and proofs of symplectic tables</title>\n\
+         <style>{STYLE}</style></head>\n<body>\n{body}</body>\n</html>\n"
+    )
+}
+
+/// A difference in words.
+fn difference(row: &Row) -> String {
+    let proved = row.proved();
+    let violated = match (&proved.violated, &proved.residual) {
+        (Some(tree), Some(residual)) => format!("; the condition of {tree} is off by {residual}"),
+        _ => String::new(),
+    };
+    format!(
+        "{} {}: claimed {} for {} H, proved {}{violated}. Orders for T(p) + U(q) and for quadratic T: {}, {}; seen {}.",
+        row.library,
+        row.name,
+        row.claim.order,
+        row.claim.class,
+        proved.order,
+        row.separable.order,
+        row.nystrom.order,
+        seen(row)
+    )
+}
+
+fn seen(row: &Row) -> String {
+    let shown = |seen: Option<f64>| seen.map_or("–".to_owned(), |seen| format!("{seen:.2}"));
+    format!(
+        "{}, {}",
+        shown(row.seen_quadratic),
+        shown(row.seen_relativistic)
+    )
+}
+
+fn line(row: &Row) -> String {
+    let mut class = match row.verdict {
+        Verdict::AsClaimed => String::new(),
+        Verdict::LessThanClaimed => "less".to_owned(),
+        Verdict::MoreThanClaimed => "more".to_owned(),
+    };
+    if !row.explained {
+        class.push_str(" unexplained");
+    }
+    let proved = row.proved();
+    let violated = match (&proved.violated, &proved.residual) {
+        (Some(tree), Some(residual)) => format!("{tree}: {residual}"),
+        _ => "–".to_owned(),
+    };
+    let kinds = [(row.symmetric, "symmetric"), (row.symplectic, "symplectic")];
+    let kinds: Vec<&str> = kinds
+        .into_iter()
+        .filter_map(|(holds, word)| holds.then_some(word))
+        .collect();
+    let places = match row.right_places {
+        Some((right, printed)) => format!("{right} of {printed}"),
+        None => row.numbers.clone(),
+    };
+    // Intervals far out are often very narrow; JSON has all of them.
+    let stable = match row.stable.split_once(" ∪ ") {
+        Some((first, _)) => format!("{first} ∪ …"),
+        None => row.stable.clone(),
+    };
+    let cells = [
+        row.name.clone(),
+        row.stages.to_string(),
+        format!("{} ({})", row.claim.order, row.claim.class),
+        format!("{}, {}", row.separable.order, row.separable.evidence),
+        format!("{}, {}", row.nystrom.order, row.nystrom.evidence),
+        violated,
+        seen(row),
+        kinds.join(", "),
+        places,
+        stable,
+    ];
+    let note = row
+        .note
+        .as_deref()
+        .map_or(String::new(), |note| format!(" title=\"{}\"", escape(note)));
+    let cells: String = cells
+        .iter()
+        .map(|cell| format!("<td>{}</td>", escape(cell)))
+        .collect();
+    format!("<tr class=\"{class}\"{note}>{cells}</tr>\n")
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}

@@ -1,0 +1,261 @@
+//! One table: what is claimed, what is proved, what is seen.
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+use serde::{Serialize, Serializer};
+
+use crate::error::Error;
+use crate::import::{Numbers, Origin};
+use crate::library::Library;
+use crate::limits::Limits;
+use crate::order::{ClassOrder, HamiltonianClass, Kinetic};
+use crate::stability::evidence_text;
+
+/// How far an order that is seen may be from the one that is proved.
+const TOLERANCE: f64 = 0.05;
+
+/// What the tables of a file have in common.
+pub(super) struct Source {
+    pub library: String,
+    pub version: String,
+    pub source: String,
+    pub convention: Library,
+}
+
+/// What a library claims of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Claim {
+    /// The order.
+    pub order: usize,
+    /// The Hamiltonians that it is for.
+    #[serde(serialize_with = "class_name")]
+    pub class: HamiltonianClass,
+}
+
+fn class_name<S: Serializer>(class: &HamiltonianClass, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(class.name())
+}
+
+/// Whether the proof gives what is claimed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// The same order.
+    AsClaimed,
+    /// A lower order.
+    LessThanClaimed,
+    /// A higher order.
+    MoreThanClaimed,
+}
+
+/// What is known of the order for a class.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct ProvedOrder {
+    /// The order.
+    pub order: usize,
+    /// How it is known: proved, certified for the exact method near the decimals, or verified to some binary places.
+    pub evidence: String,
+    /// The tree of the first condition that is violated.
+    pub violated: Option<String>,
+    /// Its weight less what it should be.
+    pub residual: Option<String>,
+}
+
+impl ProvedOrder {
+    fn new(found: &ClassOrder) -> Self {
+        let violated = found.refuted_by.as_ref();
+        ProvedOrder {
+            order: found.order,
+            evidence: evidence_text(found.evidence),
+            violated: violated.map(|violated| violated.tree.to_string()),
+            residual: violated.map(|violated| violated.residual.clone()),
+        }
+    }
+}
+
+/// A table of a library.
+#[derive(Debug, Clone, Serialize)]
+pub struct Row {
+    /// The library.
+    pub library: String,
+    /// Its version.
+    pub version: String,
+    /// Where the numbers are from.
+    pub source: String,
+    /// How the library steps them, and where it says so.
+    pub convention: String,
+    /// The name of the table there.
+    pub name: String,
+    /// What is claimed.
+    pub claim: Claim,
+    /// A remark of the file.
+    pub note: Option<String>,
+    /// The number of stages.
+    pub stages: usize,
+    /// What the numbers are: exact, decimals of an exact method, or decimals near which no exact method was found.
+    pub numbers: String,
+    /// For every Hamiltonian.
+    pub general: ProvedOrder,
+    /// For `H = T(p) + U(q)`.
+    pub separable: ProvedOrder,
+    /// For quadratic `T`.
+    pub nystrom: ProvedOrder,
+    /// Whether it is symmetric, for separable Hamiltonians at least.
+    pub symmetric: bool,
+    /// Whether it is symplectic, for separable Hamiltonians at least.
+    pub symplectic: bool,
+    /// The decimal places to which the exact method has the printed numbers, and how many are printed; `None` for exact numbers.
+    /// Where conditions leave coefficients free, another exact method may have more of them.
+    pub right_places: Option<(u32, u32)>,
+    /// The stable steps `hω` on the oscillator.
+    pub stable: String,
+    /// The order that is seen on the pendulum with `T = p²/2`.
+    pub seen_quadratic: Option<f64>,
+    /// The order that is seen on the pendulum with `T = √(1 + p²)`.
+    pub seen_relativistic: Option<f64>,
+    /// Whether the proof gives what is claimed.
+    pub verdict: Verdict,
+    /// Whether the orders that are proved are those that are seen, and those of the printed numbers up to their rounding.
+    pub explained: bool,
+}
+
+impl Row {
+    pub(super) fn new(
+        source: &Source,
+        name: &str,
+        claim: Claim,
+        note: Option<String>,
+        numbers: &Numbers,
+        limits: &Limits,
+    ) -> Result<Self, Error> {
+        let read = numbers.derive(limits)?;
+        let tableau = &read.tableau;
+        let orders = tableau.orders();
+        let [general, mut separable, mut nystrom] =
+            HamiltonianClass::ALL.map(|class| ProvedOrder::new(orders.class(class)));
+        // The conditions that the printed numbers violate, not those that the exact method near them happens to violate by less.
+        let within = match &read.origin {
+            Origin::Exact => None,
+            Origin::Refined(within) | Origin::Decimals(within) => Some(within),
+        };
+        let mut agree = true;
+        for (found, (order, violated)) in [&mut separable, &mut nystrom]
+            .into_iter()
+            .zip(within.into_iter().flatten())
+        {
+            if let Some(violated) = violated {
+                found.violated = Some(violated.tree.to_string());
+                found.residual = Some(violated.residual.clone());
+            }
+            if matches!(read.origin, Origin::Decimals(_)) {
+                found.order = *order;
+                found.evidence = "up to the rounding of the decimals".to_owned();
+            }
+            agree &= found.order == *order;
+        }
+        let seen = |kinetic, order: usize| tableau.observed_order(kinetic, order);
+        let seen_quadratic = seen(Kinetic::Quadratic, nystrom.order);
+        let seen_relativistic = seen(Kinetic::Relativistic, separable.order);
+        let agrees = |seen: Option<f64>, proved: usize| {
+            seen.is_some_and(|seen| (seen - proved as f64).abs() <= TOLERANCE)
+        };
+        let proved = match claim.class {
+            HamiltonianClass::General => general.order,
+            HamiltonianClass::Separable => separable.order,
+            HamiltonianClass::Nystrom => nystrom.order,
+        };
+        let separable_properties = tableau.separable_properties();
+        let exact = matches!(read.origin, Origin::Exact);
+        let right_places = match numbers.distance(tableau) {
+            Some(distance) if !exact => {
+                let printed = numbers.all().into_iter().filter(|value| !value.is_exact());
+                let finest = printed
+                    .map(|value| value.error.clone())
+                    .min()
+                    .unwrap_or_default();
+                let printed = places(&finest);
+                Some((places(&distance).min(printed), printed))
+            }
+            _ => None,
+        };
+        Ok(Row {
+            library: source.library.clone(),
+            version: source.version.clone(),
+            source: source.source.clone(),
+            convention: convention(source.convention),
+            name: name.to_owned(),
+            claim,
+            note,
+            stages: tableau.stages(),
+            numbers: match read.origin {
+                Origin::Exact => "exact",
+                Origin::Refined(_) => "decimals of an exact method that is proved to exist",
+                Origin::Decimals(_) => "decimals near which no exact method was found",
+            }
+            .to_owned(),
+            verdict: match proved.cmp(&claim.order) {
+                std::cmp::Ordering::Less => Verdict::LessThanClaimed,
+                std::cmp::Ordering::Equal => Verdict::AsClaimed,
+                std::cmp::Ordering::Greater => Verdict::MoreThanClaimed,
+            },
+            explained: agree
+                && agrees(seen_quadratic, nystrom.order)
+                && agrees(seen_relativistic, separable.order),
+            symmetric: separable_properties.symmetric.holds,
+            symplectic: separable_properties.symplectic.holds,
+            stable: tableau.stable_steps().to_string(),
+            right_places,
+            general,
+            separable,
+            nystrom,
+            seen_quadratic,
+            seen_relativistic,
+        })
+    }
+
+    /// What is proved for the class of the claim.
+    pub fn proved(&self) -> &ProvedOrder {
+        match self.claim.class {
+            HamiltonianClass::General => &self.general,
+            HamiltonianClass::Separable => &self.separable,
+            HamiltonianClass::Nystrom => &self.nystrom,
+        }
+    }
+}
+
+/// How a library steps its numbers, in words.
+fn convention(library: Library) -> String {
+    match library.stepping() {
+        None => "a Runge–Kutta table".to_owned(),
+        Some(stepping) => {
+            let (drift, kick) = (
+                format!("drift {}_i", stepping.drift),
+                format!("kick {}_i", stepping.kick),
+            );
+            let (first, second) = if stepping.drifts_first {
+                (drift, kick)
+            } else {
+                (kick, drift)
+            };
+            let back = if stepping.mirrored { ", and back" } else { "" };
+            format!("{first}, {second}{back} ({})", stepping.evidence)
+        }
+    }
+}
+
+/// The decimal places to which a number is known that is known up to an error.
+fn places(error: &BigRational) -> u32 {
+    /// More than any table has.
+    const MOST: u32 = 200;
+    let half = BigRational::new(BigInt::one(), 2.into());
+    if error.is_zero() {
+        return MOST;
+    }
+    let right =
+        |places: u32| *error <= &half / BigRational::from_integer(BigInt::from(10).pow(places));
+    (1..=MOST)
+        .take_while(|&places| right(places))
+        .last()
+        .unwrap_or(0)
+}

@@ -1,0 +1,133 @@
+//! `symplectic audit`
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use symplectic_compiler::audit::{Audit, Row, Verdict};
+use symplectic_compiler::{Error, ErrorKind, export};
+
+use crate::output;
+
+/// Hold what libraries claim of their tables against what is proved.
+///
+/// A file names the library, its version and source, and the `convention` by which its numbers are stepped, and has its tables with
+/// their claims; `tableaux/libraries/` has those of several libraries. Beside each proved order stands the order that is seen in a
+/// step of the pendulum. The exit status is 1 if a proved order is not the one that is seen.
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// Files, or folders with files named .toml.
+    #[arg(required = true, value_name = "FILE")]
+    paths: Vec<PathBuf>,
+    /// Writes all of it as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Writes all of it as one page.
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// The most stages that a table may have [default: 36].
+    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    max_stages: Option<u16>,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
+    let limits = output::limits(arguments.max_stages);
+    let mut audit = Audit::default();
+    for path in files(&arguments.paths)? {
+        let text = export::read_text(&path)?;
+        audit.add(&path.display().to_string(), &text, &limits)?;
+    }
+    for (path, text) in [
+        (&arguments.json, Audit::json as fn(&Audit) -> String),
+        (&arguments.html, Audit::html),
+    ] {
+        if let Some(path) = path {
+            write(path, &text(&audit))?;
+        }
+    }
+    let header = [
+        "library",
+        "table",
+        "claim",
+        "T(p) + U(q)",
+        "T quadratic",
+        "seen",
+        "",
+    ]
+    .map(str::to_owned);
+    let rows: Vec<_> = std::iter::once(header)
+        .chain(audit.rows.iter().map(line))
+        .collect();
+    let unexplained = audit.unexplained().count();
+    output::print(&format!(
+        "{}\n{} tables, {} prove another order than they claim, {unexplained} unexplained\n",
+        output::aligned(&rows),
+        audit.rows.len(),
+        audit.differences().count(),
+    ))?;
+    Ok(ExitCode::from(u8::from(unexplained > 0)))
+}
+
+/// The files of a list of files and folders.
+fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
+    let mut files = Vec::new();
+    for path in paths {
+        if !path.is_dir() {
+            files.push(path.clone());
+            continue;
+        }
+        let unreadable =
+            |error: std::io::Error| document(format!("cannot read `{}`: {error}", path.display()));
+        let mut found = Vec::new();
+        for entry in std::fs::read_dir(path).map_err(unreadable)? {
+            let file = entry.map_err(unreadable)?.path();
+            if file
+                .extension()
+                .is_some_and(|extension| extension == "toml")
+            {
+                found.push(file);
+            }
+        }
+        if found.is_empty() {
+            return Err(document(format!(
+                "`{}` has no files named .toml",
+                path.display()
+            )));
+        }
+        found.sort();
+        files.extend(found);
+    }
+    Ok(files)
+}
+
+fn document(message: String) -> Error {
+    ErrorKind::Document { message }.into()
+}
+
+fn write(path: &Path, text: &str) -> Result<(), Error> {
+    std::fs::write(path, text)
+        .map_err(|error| document(format!("cannot write `{}`: {error}", path.display())))
+}
+
+fn line(row: &Row) -> [String; 7] {
+    let seen = |seen: Option<f64>| seen.map_or("–".to_owned(), |seen| format!("{seen:.2}"));
+    let verdict = match row.verdict {
+        Verdict::AsClaimed => "",
+        Verdict::LessThanClaimed => "less than claimed",
+        Verdict::MoreThanClaimed => "more than claimed",
+    };
+    let unexplained = if row.explained { "" } else { " UNEXPLAINED" };
+    [
+        row.library.clone(),
+        row.name.clone(),
+        format!("{} {}", row.claim.order, row.claim.class),
+        row.separable.order.to_string(),
+        row.nystrom.order.to_string(),
+        format!(
+            "{}, {}",
+            seen(row.seen_relativistic),
+            seen(row.seen_quadratic)
+        ),
+        format!("{verdict}{unexplained}"),
+    ]
+}

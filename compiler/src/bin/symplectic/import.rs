@@ -1,0 +1,43 @@
+//! `symplectic import`
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use symplectic_compiler::{Error, Library, export, import};
+
+use crate::output::{self, OutputOptions};
+
+/// Read a table of another library, with the order in which that library steps its numbers.
+///
+/// The file holds one table, in the language of the library: Julia's `1//2` and `big"0.5"`, C's `0x1.8p-1`, Fortran's `1.0d0` and
+/// `0.5_real64`, Mathematica's "1.5`20", Python's `Fraction(1, 2)`, Matlab's `[1 2; 3 4]`. Splittings have the library's letters for
+/// drifts and kicks, Runge–Kutta methods `A` or `a`, `b`, perhaps `c`, `a_tilde`, `b_tilde`. Where decimals are rounded, the result
+/// is the exact method that is proved to be near them.
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// The library: sciml, sundials, petsc, petsc-kick-first, rungekutta.jl, odeint, nodepy, mathematica, principia, rebound or
+    /// pyhamsys.
+    #[arg(long, value_name = "LIBRARY")]
+    from: String,
+    /// The file.
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// A name to put into the output.
+    #[arg(long)]
+    name: Option<String>,
+    #[command(flatten)]
+    output: OutputOptions,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
+    let library = Library::find(&arguments.from)?;
+    let text = export::read_text(&arguments.file)?;
+    let file = arguments.file.display().to_string();
+    let mut tableau = import(library, &file, &text, &arguments.output.limits())?;
+    if let Some(name) = &arguments.name {
+        tableau = tableau.named(name);
+    }
+    output::warn_if_inconsistent(&tableau);
+    output::print(&arguments.output.write(&tableau)?)
+}

@@ -1,0 +1,135 @@
+//! Tables of other libraries, read with the order in which each library steps its numbers.
+//!
+//! A file holds the numbers of one table, in the language of the library: Julia's `1//2` and `big"0.5"`, C's `0x1.8p-1`, Fortran's
+//! `1.0d0` and `0.5_real64`, Mathematica's `` 1.5`20 ``, Python's `Fraction(1, 2)`, Matlab's `[1 2; 3 4]`. Numbers are exact: a
+//! decimal is a rational number, `sqrt(2)` is a root. Where decimals are rounded, the table is that of the exact method that is
+//! [proved](crate::certify) to be near them.
+
+mod numbers;
+mod parser;
+mod source;
+mod tokens;
+mod value;
+
+pub(crate) use numbers::{Numbers, Origin, half};
+pub(crate) use value::Value;
+
+use std::ops::Range;
+
+use self::source::Source;
+use crate::error::{Error, ErrorKind};
+use crate::expression::Input;
+use crate::library::{Library, Notation, Stepping};
+use crate::limits::Limits;
+use crate::tableau::Tableau;
+
+/// Reads a table as a library has it.
+///
+/// The letters and the order of kicks and drifts are those of [`Library::stepping`]; Butcher tables have `A` or `a`, `b`, perhaps
+/// `c`, and perhaps `a_tilde`, `b_tilde`. Matrices are read row by row. What else is in the file is passed over.
+///
+/// ```
+/// use symplectic_compiler::{Library, Limits, import};
+///
+/// // Ruth's method of order 3: SUNDIALS kicks first.
+/// let text = "sunrealtype a[] = {2.0/3.0, -2.0/3.0, 1.0}; sunrealtype ahat[] = {7.0/24.0, 0.75, -1.0/24.0};";
+/// let ruth = import(Library::Sundials, "ruth.c", text, &Limits::default())?;
+/// assert_eq!(ruth.orders().separable.order, 3);
+/// // OrdinaryDiffEq.jl drifts first, by `b`, so that the same numbers are another method there.
+/// let text = "a = [2//3, -2//3, 1]; b = [7//24, 3//4, -1//24]";
+/// let exchanged = import(Library::Sciml, "ruth.jl", text, &Limits::default())?;
+/// assert_eq!(exchanged.orders().separable.order, 3);
+/// assert_ne!(exchanged.to_f64(), ruth.to_f64());
+///
+/// let error = import(Library::Sciml, "ruth.jl", "a = [1, x]; b = [1, 0]", &Limits::default()).unwrap_err();
+/// assert_eq!(error.to_string(), "ruth.jl, column 9: found `x`, which has no value here, expected a number");
+/// # Ok::<(), symplectic_compiler::Error>(())
+/// ```
+///
+/// # Errors
+/// [`ErrorKind::Syntax`] for the first thing that is not a number; [`ErrorKind::Document`] for missing lists, lists of different
+/// lengths, names with two values, a `c` that is not the row sum; [`ErrorKind::TooManyStages`]. Each with its place in the file.
+pub fn import(
+    library: Library,
+    file_name: &str,
+    text: &str,
+    limits: &Limits,
+) -> Result<Tableau, Error> {
+    let input = Input::of_file(file_name, text);
+    let numbers = read(library, input, limits)?;
+    numbers.derive(limits).map(|read| read.tableau)
+}
+
+/// The exact value of a text in a language, as in `a = "1/3"`, and its place.
+pub(crate) fn value_of(
+    input: Input<'_>,
+    range: Range<usize>,
+    notation: Notation,
+) -> Result<Value, Error> {
+    source::value_of(input, range, notation)
+}
+
+/// The numbers of a table.
+fn read(library: Library, input: Input<'_>, limits: &Limits) -> Result<Numbers, Error> {
+    let source = Source::scan(input, library.notation())?;
+    let list = |name: &str| -> Result<Vec<Value>, Error> {
+        source
+            .list(name)?
+            .ok_or_else(|| missing(input, library, name))
+    };
+    let found = |name: &str| source.has(name);
+    if let Some(stepping) = library.stepping()
+        && found(stepping.drift)
+        && found(stepping.kick)
+    {
+        let (drifts, kicks) = (list(stepping.drift)?, list(stepping.kick)?);
+        let place = source.place(stepping.kick);
+        return Numbers::splitting(&stepping, drifts, kicks, limits)
+            .map_err(|kind| input.error(&place, kind));
+    }
+    let a = if found("A") { "A" } else { "a" };
+    if !found(a) || !found("b") {
+        return Err(missing(input, library, ""));
+    }
+    let table = |a: &str, b: &str, c: &str| -> Result<_, Error> {
+        let weights = list(b)?;
+        let nodes = source.list(c)?;
+        let place = source.place(if nodes.is_some() { c } else { a });
+        half(list(a)?, weights, nodes, limits).map_err(|kind| input.error(&place, kind))
+    };
+    let positions = table(a, "b", "c")?;
+    let momenta = match found("a_tilde") {
+        true => Some(table(
+            "a_tilde",
+            if found("b_tilde") { "b_tilde" } else { "b" },
+            "c_tilde",
+        )?),
+        false => None,
+    };
+    if momenta
+        .as_ref()
+        .is_some_and(|momenta| momenta.1.len() != positions.1.len())
+    {
+        let message = "the two tables have different numbers of stages".to_owned();
+        return Err(input.error(&source.place("a_tilde"), ErrorKind::Document { message }));
+    }
+    Ok(Numbers::RungeKutta { positions, momenta })
+}
+
+/// What a file of a library has to hold.
+fn missing(input: Input<'_>, library: Library, name: &str) -> Error {
+    let splitting = library.stepping().map(|stepping| {
+        let Stepping { drift, kick, .. } = stepping;
+        format!("the drifts `{drift}` and the kicks `{kick}` of a splitting, or ")
+    });
+    let name = match name {
+        "" => String::new(),
+        name => format!("`{name}` is missing: "),
+    };
+    let message = format!(
+        "{name}a table of `{}` has {}the matrix `A` or `a` and the weights `b` of a Runge–Kutta method",
+        library.name(),
+        splitting.unwrap_or_default()
+    );
+    input.error(&(0..0), ErrorKind::Document { message })
+}

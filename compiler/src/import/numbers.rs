@@ -1,0 +1,503 @@
+//! From the numbers of a table to its tableau.
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::source::zero;
+use super::value::Value;
+use crate::algebra::{Dense, Number, Rationals};
+use crate::arithmetic::rational::ratio;
+use crate::arithmetic::rounding::to_f64;
+use crate::definition::{Definition, Key};
+use crate::error::{Error, ErrorKind};
+use crate::exact::over_algebra;
+use crate::library::Stepping;
+use crate::limits::Limits;
+use crate::order::{HamiltonianClass, OrderOptions, ViolatedCondition, order_within};
+use crate::pair::{Pair, Staircase};
+use crate::quadrature::check_stages;
+use crate::refine::refine_table;
+use crate::tableau::Tableau;
+
+/// The rows of a matrix and the weights.
+type Half = (Vec<Vec<Value>>, Vec<Value>);
+
+/// The numbers of a table.
+#[derive(Debug, Clone)]
+pub(crate) enum Numbers {
+    /// Drifts and kicks, as many of both, whichever comes first.
+    Splitting {
+        drifts: Vec<Value>,
+        kicks: Vec<Value>,
+        drifts_first: bool,
+    },
+    /// Matrices and weights; those for momenta are the same if they are not given.
+    RungeKutta {
+        positions: Half,
+        momenta: Option<Half>,
+    },
+}
+
+/// Where the exact coefficients of a tableau come from.
+#[derive(Debug, Clone)]
+pub(crate) enum Origin {
+    /// The numbers are exact.
+    Exact,
+    /// The exact method that is proved to be near the decimals.
+    Refined(Within),
+    /// The decimals as they stand, because no exact method was found near them.
+    Decimals(Within),
+}
+
+/// The orders of decimals up to their rounding, with the first conditions that are violated by more: for separable `H` and for
+/// quadratic `T`.
+pub(crate) type Within = [(usize, Option<ViolatedCondition>); 2];
+
+/// A table that is read.
+pub(crate) struct Read {
+    pub tableau: Tableau,
+    pub origin: Origin,
+}
+
+/// The half of a Runge–Kutta table, with the matrix row by row and perhaps the nodes.
+pub(crate) fn half(
+    matrix: Vec<Value>,
+    weights: Vec<Value>,
+    nodes: Option<Vec<Value>>,
+    limits: &Limits,
+) -> Result<Half, ErrorKind> {
+    let stages = weights.len();
+    check_stages(&stages.into(), limits)?;
+    let document = |message: String| ErrorKind::Document { message };
+    if matrix.len() != stages * stages || stages == 0 {
+        return Err(document(format!(
+            "{} entries of a matrix for {stages} weights, which need {}",
+            matrix.len(),
+            stages * stages
+        )));
+    }
+    let rows: Vec<Vec<Value>> = matrix.chunks(stages).map(<[Value]>::to_vec).collect();
+    for (i, (row, node)) in rows.iter().zip(nodes.iter().flatten()).enumerate() {
+        let sum = sum(row)?;
+        let distance = (sum.rational() - node.rational()).abs();
+        // Irrational numbers are enclosed that narrowly.
+        let enclosed = BigRational::new(BigInt::one(), BigInt::from(10).pow(40));
+        if distance > (&sum.error + &node.error) * ratio(4, 1) + enclosed {
+            let i = i + 1;
+            return Err(document(format!(
+                "c_{i} is {}, and row {i} sums to {}",
+                node.constant, sum.constant
+            )));
+        }
+    }
+    Ok((rows, weights))
+}
+
+fn sum(values: &[Value]) -> Result<Value, ErrorKind> {
+    values.iter().try_fold(zero(), |sum, value| sum.add(value))
+}
+
+impl Numbers {
+    /// The lists of a splitting, as a library steps them.
+    pub fn splitting(
+        stepping: &Stepping,
+        mut drifts: Vec<Value>,
+        mut kicks: Vec<Value>,
+        limits: &Limits,
+    ) -> Result<Self, ErrorKind> {
+        let (first, second) = match stepping.drifts_first {
+            true => (&mut drifts, &mut kicks),
+            false => (&mut kicks, &mut drifts),
+        };
+        let (n, m) = (first.len(), second.len());
+        if n == 0 || n != m && !(stepping.mirrored && n == m + 1) {
+            let message = format!(
+                "{} drifts `{}` and {} kicks `{}`: a table has as many of both",
+                drifts.len(),
+                stepping.drift,
+                kicks.len(),
+                stepping.kick
+            );
+            return Err(ErrorKind::Document { message });
+        }
+        if stepping.mirrored {
+            // What is written last stands in the middle, once; then the flows in turn, from the front and from the back.
+            let reversed = |list: &[Value], skipped: usize| -> Vec<Value> {
+                list.iter().rev().skip(skipped).cloned().collect()
+            };
+            let (back, other) = (reversed(first, n - m), reversed(second, 1 - (n - m)));
+            first.extend(back);
+            second.extend(other);
+            second.resize_with(first.len(), zero);
+        }
+        check_stages(&drifts.len().into(), limits)?;
+        Ok(Numbers::Splitting {
+            drifts,
+            kicks,
+            drifts_first: stepping.drifts_first,
+        })
+    }
+
+    /// All numbers.
+    pub fn all(&self) -> Vec<&Value> {
+        match self {
+            Numbers::Splitting { drifts, kicks, .. } => drifts.iter().chain(kicks).collect(),
+            Numbers::RungeKutta { positions, momenta } => {
+                let halves = [Some(positions), momenta.as_ref()].into_iter().flatten();
+                let halves =
+                    halves.flat_map(|(rows, weights)| rows.iter().flatten().chain(weights));
+                halves.collect()
+            }
+        }
+    }
+
+    /// Whether all numbers are exact.
+    pub fn are_exact(&self) -> bool {
+        self.all().into_iter().all(Value::is_exact)
+    }
+
+    /// The tableau: of the numbers if they are exact, else of the exact method near them.
+    ///
+    /// # Errors
+    /// Numbers that are too long.
+    pub fn derive(&self, limits: &Limits) -> Result<Read, Error> {
+        if self.are_exact() {
+            let tableau = self.as_they_stand(limits)?;
+            return Ok(Read {
+                tableau,
+                origin: Origin::Exact,
+            });
+        }
+        let within = self.orders_within();
+        let (separable, nystrom) = (within[0].0, within[1].0);
+        let claims = [("nystrom", nystrom), ("separable", separable)];
+        // For separable H it is at most the order for quadratic T.
+        let skipped = usize::from(nystrom <= separable);
+        for (class, order) in claims.into_iter().skip(skipped) {
+            if let Some(tableau) = self.refined(class, order, limits)? {
+                let origin = Origin::Refined(within);
+                return Ok(Read { tableau, origin });
+            }
+        }
+        let tableau = self.as_they_stand(limits)?;
+        let origin = Origin::Decimals(within);
+        Ok(Read { tableau, origin })
+    }
+
+    fn orders_within(&self) -> Within {
+        let all = self.all();
+        let error = all.iter().map(|value| &value.error).max();
+        let error = error.cloned().unwrap_or_default() * ratio(1000, 1);
+        let least = BigRational::new(BigInt::one(), BigInt::from(10).pow(10));
+        let tolerance = error.max(least);
+        let pair = self.rational_pair();
+        let classes = [HamiltonianClass::Separable, HamiltonianClass::Nystrom];
+        classes.map(|class| order_within(&pair, class, &tolerance))
+    }
+
+    fn rational_pair(&self) -> Pair<Dense<Rationals>> {
+        let list =
+            |values: &[Value]| -> Vec<BigRational> { values.iter().map(Value::rational).collect() };
+        match self {
+            Numbers::Splitting {
+                drifts,
+                kicks,
+                drifts_first,
+            } => {
+                let staircase = match drifts_first {
+                    true => Staircase::DriftsFirst,
+                    false => Staircase::KicksFirst,
+                };
+                Pair::of_splitting(Rationals, staircase, list(drifts), list(kicks))
+            }
+            Numbers::RungeKutta { positions, momenta } => {
+                let matrix =
+                    |rows: &[Vec<Value>]| rows.iter().map(|row| list(row)).collect::<Vec<_>>();
+                let algebra = Dense::new(Rationals, positions.1.len());
+                let mut pair =
+                    Pair::equal(algebra.into(), matrix(&positions.0), list(&positions.1));
+                if let Some((rows, weights)) = momenta {
+                    (pair.a_tilde, pair.b_tilde) = (matrix(rows), list(weights));
+                }
+                pair
+            }
+        }
+    }
+
+    /// The exact method of an order that is near the numbers, if one is found.
+    fn refined(
+        &self,
+        class: &str,
+        order: usize,
+        limits: &Limits,
+    ) -> Result<Option<Tableau>, Error> {
+        if order == 0 {
+            return Ok(None);
+        }
+        let texts = |values: &[Value]| -> Result<Vec<String>, ErrorKind> {
+            let printed = values
+                .iter()
+                .map(|value| Ok(value.printed()?.text().to_owned()));
+            printed.collect()
+        };
+        match self {
+            Numbers::Splitting {
+                drifts,
+                kicks,
+                drifts_first,
+            } => {
+                let claim = format!("{class}({order})");
+                let definition =
+                    definition(*drifts_first, &texts(drifts)?, &texts(kicks)?, Some(&claim));
+                Ok(definition.derive(limits).ok())
+            }
+            Numbers::RungeKutta { positions, momenta } => {
+                // Trees are enumerated up to a limit, and a quadrature of a higher order determines its method.
+                let order = match order >= OrderOptions::default().limit {
+                    true => order.max(quadrature_order(positions)),
+                    false => order,
+                };
+                let quoted = |texts: Vec<String>| {
+                    let texts: Vec<String> =
+                        texts.iter().map(|text| format!("\"{text}\"")).collect();
+                    format!("[{}]", texts.join(", "))
+                };
+                let mut text =
+                    format!("[claim]\nclass = \"{class}\"\norder = {order}\n[printed]\n");
+                let halves = [("", Some(positions)), ("_tilde", momenta.as_ref())];
+                for (suffix, (rows, weights)) in
+                    halves.into_iter().filter_map(|(s, half)| Some((s, half?)))
+                {
+                    let nodes: Result<Vec<String>, ErrorKind> =
+                        rows.iter().map(|row| node(row)).collect();
+                    let rows: Result<Vec<String>, ErrorKind> =
+                        rows.iter().map(|row| texts(row).map(quoted)).collect();
+                    text.push_str(&format!(
+                        "a{suffix} = [{}]\nb{suffix} = {}\nc{suffix} = {}\n",
+                        rows?.join(", "),
+                        quoted(texts(weights)?),
+                        quoted(nodes?)
+                    ));
+                }
+                let found = refine_table("table", &text).ok().flatten();
+                let found = found.and_then(|table| table.tableau().cloned());
+                Ok(found.and_then(|tableau| match momenta {
+                    None => alone(tableau, positions, limits),
+                    Some(_) => Some(tableau),
+                }))
+            }
+        }
+    }
+
+    /// The tableau of the numbers, whatever they sum to.
+    fn as_they_stand(&self, limits: &Limits) -> Result<Tableau, Error> {
+        let texts = |values: &[Value]| -> Vec<String> {
+            values.iter().map(|v| v.constant.to_string()).collect()
+        };
+        match self {
+            Numbers::Splitting {
+                drifts,
+                kicks,
+                drifts_first,
+            } => {
+                let (drifts, kicks) = (texts(drifts), texts(kicks));
+                let splitting = definition(*drifts_first, &drifts, &kicks, None);
+                // Those that do not sum to 1 are refused there.
+                if let Ok(tableau) = splitting.derive(limits) {
+                    return Ok(tableau);
+                }
+                let matrix = |list: &[String], own: bool| {
+                    let row = |i: usize| {
+                        let entries = list.iter().enumerate();
+                        let entries = entries.map(|(j, text)| {
+                            if j < i + usize::from(own) {
+                                text.as_str()
+                            } else {
+                                "0"
+                            }
+                        });
+                        format!("[{}]", entries.collect::<Vec<_>>().join(", "))
+                    };
+                    (0..list.len()).map(row).collect::<Vec<_>>().join(", ")
+                };
+                let parts = [
+                    (Key::A, format!("[{}]", matrix(&drifts, *drifts_first))),
+                    (Key::B, drifts.join(", ")),
+                    (Key::ATilde, format!("[{}]", matrix(&kicks, !*drifts_first))),
+                    (Key::BTilde, kicks.join(", ")),
+                ];
+                Definition::new(parts).derive(limits)
+            }
+            Numbers::RungeKutta { positions, momenta } => {
+                let matrix = |rows: &[Vec<Value>]| {
+                    let rows: Vec<String> = rows
+                        .iter()
+                        .map(|row| format!("[{}]", texts(row).join(", ")))
+                        .collect();
+                    format!("[{}]", rows.join(", "))
+                };
+                let mut parts = vec![
+                    (Key::A, matrix(&positions.0)),
+                    (Key::B, texts(&positions.1).join(", ")),
+                ];
+                if let Some((rows, weights)) = momenta {
+                    parts.push((Key::ATilde, matrix(rows)));
+                    parts.push((Key::BTilde, texts(weights).join(", ")));
+                }
+                Definition::new(parts).derive(limits)
+            }
+        }
+    }
+
+    /// How far the exact method is from the numbers at most, for a splitting or a table whose stages stand as they are written.
+    pub fn distance(&self, tableau: &Tableau) -> Option<BigRational> {
+        let Numbers::Splitting {
+            drifts,
+            kicks,
+            drifts_first,
+        } = self
+        else {
+            return None;
+        };
+        let alternating = |second: &[Value], first: &[Value]| -> Vec<(bool, BigRational)> {
+            let pairs = first.iter().zip(second);
+            pairs
+                .flat_map(|(x, y)| {
+                    [
+                        (*drifts_first, x.rational()),
+                        (!*drifts_first, y.rational()),
+                    ]
+                })
+                .collect()
+        };
+        let written = match drifts_first {
+            true => alternating(kicks, drifts),
+            false => alternating(drifts, kicks),
+        };
+        let numbers = tableau.numbers();
+        let stages = tableau.stages();
+        // The stages of the tableau begin with whichever flow makes it shorter.
+        let starts = tableau_starts_with_drift(tableau);
+        let mut exact = Vec::new();
+        for i in 0..stages {
+            let middle = |number: &Number<'_>| number.enclose(400).middle();
+            let (drift, kick) = (
+                (true, middle(&numbers.b[i])),
+                (false, middle(&numbers.b_tilde[i])),
+            );
+            exact.extend(if starts { [drift, kick] } else { [kick, drift] });
+        }
+        let merged = |flows: Vec<(bool, BigRational)>| {
+            let mut merged: Vec<(bool, BigRational)> = Vec::new();
+            for (drift, value) in flows.into_iter().filter(|(_, value)| !value.is_zero()) {
+                match merged.last_mut() {
+                    Some((last, sum)) if *last == drift => *sum += value,
+                    _ => merged.push((drift, value)),
+                }
+            }
+            merged
+        };
+        let (written, exact) = (merged(written), merged(exact));
+        let same = written.len() == exact.len();
+        let distances = written
+            .iter()
+            .zip(&exact)
+            .map(|((_, x), (_, y))| (x - y).abs());
+        same.then(|| distances.max().unwrap_or_default())
+    }
+}
+
+/// The sum of a row as a table prints it; 0 and 1 are the ends of the step.
+fn node(row: &[Value]) -> Result<String, ErrorKind> {
+    let sum = sum(row)?;
+    for end in [BigRational::zero(), BigRational::one()] {
+        if (sum.rational() - &end).abs() <= sum.error {
+            return Ok(end.to_string());
+        }
+    }
+    Ok(sum.printed()?.text().to_owned())
+}
+
+/// The order of the quadrature, `Σ b_i c_i^(k−1) = 1/k` for `k` up to it, as far as decimals tell.
+fn quadrature_order((rows, weights): &Half) -> usize {
+    let nodes: Vec<BigRational> = rows
+        .iter()
+        .map(|row| row.iter().map(Value::rational).sum())
+        .collect();
+    let tolerance = BigRational::new(BigInt::one(), BigInt::from(10).pow(10));
+    let mut terms: Vec<BigRational> = weights.iter().map(Value::rational).collect();
+    for k in 1..=2 * weights.len() {
+        let sum: BigRational = terms.iter().sum();
+        let wanted = BigRational::new(BigInt::one(), k.into());
+        if (sum - wanted).abs() > tolerance {
+            return k - 1;
+        }
+        terms
+            .iter_mut()
+            .zip(&nodes)
+            .for_each(|(term, node)| *term *= node);
+    }
+    2 * weights.len()
+}
+
+/// The Runge–Kutta method with the numbers of one half of a pair: that of its positions, or of its momenta.
+fn alone(tableau: Tableau, (rows, weights): &Half, limits: &Limits) -> Option<Tableau> {
+    /// Far more than the rounding of decimals, and far less than what the halves differ by.
+    const NEAR: f64 = 1e-6;
+    if tableau.equal_halves() == (true, true) {
+        return Some(tableau);
+    }
+    let (forms, doubles) = (tableau.exact_forms(), tableau.to_f64());
+    let printed = rows.iter().flatten().chain(weights);
+    let printed: Vec<f64> = printed.map(|value| to_f64(&value.rational())).collect();
+    let halves = [
+        (forms.a, forms.b, [doubles.a.concat(), doubles.b].concat()),
+        (
+            forms.a_tilde,
+            forms.b_tilde,
+            [doubles.a_tilde.concat(), doubles.b_tilde].concat(),
+        ),
+    ];
+    let near = |half: &[f64]| {
+        let mut pairs = half.iter().zip(&printed);
+        half.len() == printed.len() && pairs.all(|(x, y)| (x - y).abs() < NEAR)
+    };
+    let (a, b, _) = halves.into_iter().find(|(.., half)| near(half))?;
+    let list = |entries: Vec<Option<String>>| {
+        Some(entries.into_iter().collect::<Option<Vec<_>>>()?.join(", "))
+    };
+    let rows: Option<Vec<String>> = a
+        .into_iter()
+        .map(|row| list(row).map(|row| format!("[{row}]")))
+        .collect();
+    let parts = [
+        (Key::A, format!("[{}]", rows?.join(", "))),
+        (Key::B, list(b)?),
+    ];
+    Definition::new(parts).derive(limits).ok()
+}
+
+/// Whether a stage of a splitting drifts before it kicks.
+fn tableau_starts_with_drift(tableau: &Tableau) -> bool {
+    let staircase = over_algebra!(tableau, pair => pair.staircase());
+    staircase == Some(Staircase::DriftsFirst)
+}
+
+/// The definition of a splitting.
+fn definition(
+    drifts_first: bool,
+    drifts: &[String],
+    kicks: &[String],
+    claim: Option<&str>,
+) -> Definition {
+    let mut parts = vec![
+        (Key::Kick, kicks.join(", ")),
+        (Key::Drift, drifts.join(", ")),
+    ];
+    if drifts_first {
+        parts.push((Key::First, "drift".to_owned()));
+    }
+    parts.extend(claim.map(|claim| (Key::Claim, claim.to_owned())));
+    Definition::new(parts)
+}

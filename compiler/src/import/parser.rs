@@ -1,0 +1,577 @@
+//! The expressions of a table, in whichever of the languages they are written.
+
+use std::ops::Range;
+
+use super::source::{Assigned, MAX_NUMBERS, Source};
+use super::tokens::{Spanned, Token, tokenize};
+use super::value::Value;
+use crate::error::{Error, ErrorKind};
+use crate::expression::{MAX_DEPTH, shown};
+use crate::library::Notation;
+
+/// An operation on two numbers.
+type Combine = fn(&Value, &Value) -> Result<Value, ErrorKind>;
+
+/// What an expression is.
+pub(super) enum Item {
+    One(Value),
+    /// A list, with those in it one after another.
+    Many(Vec<Value>),
+}
+
+impl Item {
+    pub fn values(self) -> Vec<Value> {
+        match self {
+            Item::One(value) => vec![value],
+            Item::Many(values) => values,
+        }
+    }
+}
+
+/// A recursive descent over the tokens of one value.
+pub(super) struct Parser<'s, 'a> {
+    pub source: &'s Source<'a>,
+    pub tokens: &'s [Spanned],
+    /// Where the text ends.
+    pub end: usize,
+    pub at: usize,
+    pub depth: usize,
+    /// In how many brackets, where the end of a line means nothing.
+    pub inside: usize,
+}
+
+impl Parser<'_, '_> {
+    pub fn peek(&self) -> Option<&Token> {
+        self.tokens.get(self.at).map(|found| &found.token)
+    }
+
+    fn symbol(&mut self) -> Option<char> {
+        if self.inside > 0 {
+            self.lines();
+        }
+        match self.peek() {
+            Some(Token::Symbol(c)) => Some(*c),
+            _ => None,
+        }
+    }
+
+    /// Takes a symbol if it stands here.
+    fn take(&mut self, wanted: char) -> bool {
+        let found = self.symbol() == Some(wanted);
+        self.at += usize::from(found);
+        found
+    }
+
+    fn lines(&mut self) {
+        while matches!(self.peek(), Some(Token::Line)) {
+            self.at += 1;
+        }
+    }
+
+    fn span(&self) -> Range<usize> {
+        self.tokens
+            .get(self.at)
+            .map_or(self.end..self.end, |found| found.span.clone())
+    }
+
+    /// What stands here is something else.
+    pub fn unexpected(&self, expected: &str) -> Error {
+        let span = self.span();
+        let found = match self.peek() {
+            None => "the input ends".to_owned(),
+            Some(Token::Line) => "the line ends".to_owned(),
+            Some(_) => format!("found `{}`", shown(&self.source.input.text[span.clone()])),
+        };
+        let expected = expected.to_owned();
+        let kind = ErrorKind::Syntax { found, expected };
+        self.source.input.error(&span, kind)
+    }
+
+    fn wrong(&self, span: Range<usize>, kind: ErrorKind) -> Error {
+        self.source.input.error(&span, kind)
+    }
+
+    fn deeper(&mut self) -> Result<(), Error> {
+        self.depth += 1;
+        if self.depth <= MAX_DEPTH {
+            return Ok(());
+        }
+        let kind = ErrorKind::ExpressionSize {
+            what: "its depth",
+            size: self.depth,
+            limit: MAX_DEPTH,
+        };
+        Err(self.wrong(self.span(), kind))
+    }
+
+    pub fn expression(&mut self) -> Result<Item, Error> {
+        self.deeper()?;
+        let mut left = self.term()?;
+        while let Some(operator @ ('+' | '-')) = self.symbol() {
+            // In lists without commas a sign that clings to what follows begins the next number.
+            let [here, next] = [self.at, self.at + 1].map(|at| self.tokens.get(at));
+            let clings = here.is_some_and(|x| x.apart) && next.is_some_and(|x| !x.apart);
+            if self.inside > 0 && clings && matches!(left, Item::One(_)) && self.in_matrix() {
+                break;
+            }
+            let span = self.span();
+            self.at += 1;
+            let right = self.term()?;
+            let combine = if operator == '+' {
+                Value::add
+            } else {
+                Value::subtract
+            };
+            left = self.combine(left, right, span, combine)?;
+        }
+        self.depth -= 1;
+        Ok(left)
+    }
+
+    /// Whether the innermost bracket is `[`, of a matrix with white space between its numbers.
+    fn in_matrix(&self) -> bool {
+        let mut depth = 0_i32;
+        for token in self.tokens[..self.at].iter().rev() {
+            match token.token {
+                Token::Symbol(')' | ']' | '}') => depth += 1,
+                Token::Symbol('(' | '{') if depth == 0 => return false,
+                Token::Symbol('[') if depth == 0 => return true,
+                Token::Symbol('(' | '[' | '{') => depth -= 1,
+                _ => {}
+            }
+        }
+        false
+    }
+
+    fn term(&mut self) -> Result<Item, Error> {
+        let mut left = self.factor()?;
+        while let Some(operator @ ('*' | '/' | '÷')) = self.symbol() {
+            let span = self.span();
+            self.at += 1;
+            let right = self.factor()?;
+            let combine = match operator {
+                '*' => Value::multiply,
+                _ => Value::divide,
+            };
+            left = self.combine(left, right, span, combine)?;
+        }
+        Ok(left)
+    }
+
+    fn combine(
+        &self,
+        left: Item,
+        right: Item,
+        span: Range<usize>,
+        combine: Combine,
+    ) -> Result<Item, Error> {
+        match (left, right) {
+            (Item::One(x), Item::One(y)) => {
+                let value = combine(&x, &y).map_err(|kind| self.wrong(span, kind))?;
+                Ok(Item::One(value))
+            }
+            _ => {
+                let message = "lists are not computed with here; write their numbers".to_owned();
+                Err(self.wrong(span, ErrorKind::Document { message }))
+            }
+        }
+    }
+
+    fn factor(&mut self) -> Result<Item, Error> {
+        self.lines();
+        let span = self.span();
+        if self.take('+') {
+            return self.nested_factor();
+        }
+        if self.take('-') {
+            return match self.nested_factor()? {
+                Item::One(value) => {
+                    let value = value.negate().map_err(|kind| self.wrong(span, kind))?;
+                    Ok(Item::One(value))
+                }
+                Item::Many(_) => Err(self.wrong(
+                    span,
+                    ErrorKind::Document {
+                        message: "a list has no sign here; write its numbers".to_owned(),
+                    },
+                )),
+            };
+        }
+        if self.take('√') {
+            let Item::One(value) = self.nested_factor()? else {
+                let message = "the root of a list".to_owned();
+                return Err(self.wrong(span, ErrorKind::Document { message }));
+            };
+            let root = value.root("sqrt").map_err(|kind| self.wrong(span, kind));
+            return root.map(Item::One);
+        }
+        let base = self.atom()?;
+        if self.symbol() == Some('^') {
+            let span = self.span();
+            self.at += 1;
+            let exponent = self.nested_factor()?;
+            return self.combine(base, exponent, span, Value::power);
+        }
+        // `2a1` of Julia.
+        let product = match (&base, self.peek()) {
+            (Item::One(_), Some(Token::Name(_))) => {
+                let number = matches!(
+                    self.tokens[self.at.saturating_sub(1)].token,
+                    Token::Number(_)
+                );
+                number && !self.tokens[self.at].apart
+            }
+            _ => false,
+        };
+        if product {
+            let span = self.span();
+            let right = self.nested_factor()?;
+            return self.combine(base, right, span, Value::multiply);
+        }
+        Ok(base)
+    }
+
+    fn nested_factor(&mut self) -> Result<Item, Error> {
+        self.deeper()?;
+        let item = self.factor();
+        self.depth -= 1;
+        item
+    }
+
+    fn atom(&mut self) -> Result<Item, Error> {
+        let span = self.span();
+        match self.peek().cloned() {
+            Some(Token::Number(value)) => {
+                self.at += 1;
+                Ok(Item::One(value))
+            }
+            Some(Token::Text(range)) => {
+                self.at += 1;
+                self.quoted(range)
+            }
+            Some(Token::Symbol('(')) => {
+                self.at += 1;
+                let items = self.items(')')?;
+                match <[Item; 1]>::try_from(items) {
+                    Ok([item]) => Ok(item),
+                    Err(items) => Ok(joined(items)),
+                }
+            }
+            Some(Token::Symbol(open @ ('[' | '{'))) => {
+                self.at += 1;
+                let items = self.items(if open == '[' { ']' } else { '}' })?;
+                Ok(joined(items))
+            }
+            Some(Token::Symbol('@')) => {
+                // A macro of Julia, `@big`.
+                self.at += 2;
+                self.nested_factor()
+            }
+            Some(Token::Name(name)) => {
+                self.at += 1;
+                self.named(&name, span)
+            }
+            _ => Err(self.unexpected("a number")),
+        }
+    }
+
+    /// What stands between quotes, read as an expression.
+    pub fn quoted(&mut self, range: Range<usize>) -> Result<Item, Error> {
+        self.deeper()?;
+        let tokens = tokenize(self.source.input, range.clone(), self.source.notation)?;
+        let mut parser = Parser {
+            source: self.source,
+            tokens: &tokens,
+            end: range.end,
+            at: 0,
+            depth: self.depth,
+            inside: 1,
+        };
+        let item = parser.expression()?;
+        if parser.peek().is_some() {
+            return Err(parser.unexpected("an operator, or the end of the text"));
+        }
+        self.depth -= 1;
+        Ok(item)
+    }
+
+    /// Items up to a closing bracket; keyword arguments are passed over.
+    fn items(&mut self, close: char) -> Result<Vec<Item>, Error> {
+        self.deeper()?;
+        self.inside += 1;
+        let (mut items, mut numbers) = (Vec::new(), 0);
+        loop {
+            match self.symbol() {
+                Some(c) if c == close => break,
+                Some(',' | ';') => {
+                    self.at += 1;
+                    continue;
+                }
+                _ => {}
+            }
+            let named = matches!(self.peek(), Some(Token::Name(_)));
+            if named && self.source_symbol(self.at + 1) == Some('=') {
+                self.pass_over(close);
+                continue;
+            }
+            let span = self.span();
+            let item = self.expression()?;
+            numbers += match &item {
+                Item::One(_) => 1,
+                Item::Many(values) => values.len(),
+            };
+            if numbers > MAX_NUMBERS {
+                let kind = ErrorKind::ExpressionSize {
+                    what: "the length of a list",
+                    size: numbers,
+                    limit: MAX_NUMBERS,
+                };
+                return Err(self.wrong(span, kind));
+            }
+            items.push(item);
+            // White space or the end of a line separates numbers of a matrix.
+            let line = matches!(self.peek(), Some(Token::Line));
+            let apart = self.tokens.get(self.at).is_some_and(|next| next.apart);
+            let ends = matches!(self.symbol(), Some(c) if c == close || c == ',' || c == ';');
+            if !ends && !(close == ']' && (line || apart)) {
+                return Err(self.unexpected(&format!("an operator, `,` or `{close}`")));
+            }
+        }
+        self.at += 1;
+        self.inside -= 1;
+        self.depth -= 1;
+        Ok(items)
+    }
+
+    fn source_symbol(&self, at: usize) -> Option<char> {
+        match self.tokens.get(at)?.token {
+            Token::Symbol(c) => Some(c),
+            _ => None,
+        }
+    }
+
+    /// Passes over a keyword argument.
+    fn pass_over(&mut self, close: char) {
+        let mut depth = 0_i32;
+        while let Some(token) = self.tokens.get(self.at) {
+            match token.token {
+                Token::Symbol('(' | '[' | '{') => depth += 1,
+                Token::Symbol(',') if depth == 0 => return,
+                Token::Symbol(c) if depth == 0 && c == close => return,
+                Token::Symbol(')' | ']' | '}') => depth -= 1,
+                _ => {}
+            }
+            self.at += 1;
+        }
+    }
+
+    /// A variable, an element, a call, or a list with the type of its entries before it.
+    fn named(&mut self, name: &str, span: Range<usize>) -> Result<Item, Error> {
+        // `big"0.5"`
+        if let Some(Token::Text(range)) = self.peek().cloned()
+            && !self.tokens[self.at].apart
+        {
+            self.at += 1;
+            return self.quoted(range);
+        }
+        // The parameters of a type: `Rational{BigInt}`, `static_cast<double>`.
+        for (open, close) in [('{', '}'), ('<', '>')] {
+            let names = self.source_symbol(self.at) == Some(open)
+                && matches!(self.tokens.get(self.at + 1), Some(found) if matches!(found.token, Token::Name(_)));
+            if names {
+                let rest = self.tokens[self.at..].iter().take(32);
+                let end = rest
+                    .enumerate()
+                    .find(|(_, token)| matches!(token.token, Token::Symbol(c) if c == close));
+                match end {
+                    Some((length, _)) => self.at += length + 1,
+                    None => return Err(self.unexpected("the parameters of a type")),
+                }
+            }
+        }
+        // A call for each entry: `Float64.(a)`.
+        if self.source_symbol(self.at) == Some('.') && self.source_symbol(self.at + 1) == Some('(')
+        {
+            self.at += 1;
+        }
+        let mathematica = self.source.notation == Notation::Mathematica;
+        match self.source_symbol(self.at) {
+            Some('(') => {
+                self.at += 1;
+                if name == "convert" {
+                    // The type comes first.
+                    self.pass_over(')');
+                }
+                let arguments = self.items(')')?;
+                self.call(name, span, arguments)
+            }
+            Some('[') if mathematica => {
+                self.at += 1;
+                let arguments = self.items(']')?;
+                self.call(name, span, arguments)
+            }
+            Some('[') if !self.tokens[self.at].apart => {
+                self.at += 1;
+                let items = self.items(']')?;
+                if self.source.has(name) {
+                    return self.element(name, span, items);
+                }
+                Ok(joined(items))
+            }
+            _ => self.variable(name, span),
+        }
+    }
+
+    fn variable(&mut self, name: &str, span: Range<usize>) -> Result<Item, Error> {
+        self.deeper()?;
+        let assigned = self.source.names.get(name);
+        let item = match assigned {
+            Some(Assigned {
+                whole: Some((_, value)),
+                ..
+            }) => {
+                self.source.once(name)?;
+                self.source.evaluate(*value, self.depth)?
+            }
+            Some(_) => Item::Many(
+                self.source
+                    .list_within(name, self.depth)?
+                    .unwrap_or_default(),
+            ),
+            None => {
+                let kind = ErrorKind::Syntax {
+                    found: format!("found `{}`, which has no value here", shown(name)),
+                    expected: "a number".to_owned(),
+                };
+                return Err(self.wrong(span, kind));
+            }
+        };
+        self.depth -= 1;
+        Ok(item)
+    }
+
+    /// `a[2]`
+    fn element(&mut self, name: &str, span: Range<usize>, items: Vec<Item>) -> Result<Item, Error> {
+        let index = match &items[..] {
+            [Item::One(value)] => {
+                let whole = value.constant.as_rational().filter(|x| x.is_integer());
+                whole.and_then(|x| usize::try_from(x.to_integer()).ok())
+            }
+            _ => None,
+        };
+        let single = index.and_then(|index| {
+            let assigned = self.source.names.get(name)?;
+            assigned.elements.get(&index)
+        });
+        self.deeper()?;
+        let item = match (single, index) {
+            (Some((_, value)), _) => {
+                self.source.once(name)?;
+                self.source.evaluate(*value, self.depth)?
+            }
+            (None, Some(index)) => {
+                let list = self.source.list_within(name, self.depth)?;
+                let one_based = self.source.notation == Notation::Julia;
+                let found = index
+                    .checked_sub(usize::from(one_based))
+                    .and_then(|index| list.and_then(|list| list.into_iter().nth(index)));
+                match found {
+                    Some(value) => Item::One(value),
+                    None => {
+                        let message = format!("`{name}` has no entry {index}");
+                        return Err(self.wrong(span, ErrorKind::Document { message }));
+                    }
+                }
+            }
+            (None, None) => {
+                let message = format!("an entry of `{name}` has a number here");
+                return Err(self.wrong(span, ErrorKind::Document { message }));
+            }
+        };
+        self.depth -= 1;
+        Ok(item)
+    }
+
+    /// A function of one or two numbers, or a conversion, which leaves a number as it is.
+    fn call(&self, name: &str, span: Range<usize>, arguments: Vec<Item>) -> Result<Item, Error> {
+        /// Conversions: the number is the first argument.
+        const CONVERSIONS: [&str; 25] = [
+            "convert",
+            "n",
+            "t",
+            "float",
+            "float64",
+            "float32",
+            "bigfloat",
+            "big",
+            "mpf",
+            "mpq",
+            "decimal",
+            "double",
+            "sun_rconst",
+            "realtype",
+            "sunrealtype",
+            "real",
+            "sympify",
+            "s",
+            "static_cast",
+            "array",
+            "svector",
+            "smatrix",
+            "value",
+            "rationalize",
+            "vector",
+        ];
+        let plain = name.to_ascii_lowercase();
+        let wrong = |expected: &str| {
+            let kind = ErrorKind::Arguments {
+                function: shown(name),
+                expected: expected.to_owned(),
+                found: format!("{} arguments", arguments.len()),
+            };
+            Err(self.wrong(span.clone(), kind))
+        };
+        let two = |combine: Combine| match &arguments[..] {
+            [Item::One(x), Item::One(y)] => combine(x, y)
+                .map(Item::One)
+                .map_err(|kind| self.wrong(span.clone(), kind)),
+            _ => wrong("two numbers"),
+        };
+        match (plain.as_str(), arguments.len()) {
+            ("sqrt" | "sunrsqrt" | "cbrt" | "cuberoot", _) => match &arguments[..] {
+                [Item::One(value)] => {
+                    let root = if plain.ends_with("sqrt") {
+                        "sqrt"
+                    } else {
+                        "cbrt"
+                    };
+                    let value = value.root(root);
+                    value.map(Item::One).map_err(|kind| self.wrong(span, kind))
+                }
+                _ => wrong("one number"),
+            },
+            ("pow" | "power" | "sunrpowerr", _) => two(Value::power),
+            ("rational" | "fraction", 2) => two(Value::divide),
+            ("rational" | "fraction" | "integer", 1) => Ok(first(arguments)),
+            (conversion, 1..) if CONVERSIONS.contains(&conversion) => Ok(first(arguments)),
+            _ => {
+                let kind = ErrorKind::Unknown {
+                    what: "function",
+                    name: shown(name),
+                    known: "sqrt, cbrt, pow and conversions such as big, Fraction, mpf, convert"
+                        .to_owned(),
+                };
+                Err(self.wrong(span, kind))
+            }
+        }
+    }
+}
+
+fn joined(items: Vec<Item>) -> Item {
+    Item::Many(items.into_iter().flat_map(Item::values).collect())
+}
+
+fn first(arguments: Vec<Item>) -> Item {
+    let mut arguments = arguments.into_iter();
+    arguments.next().unwrap_or(Item::Many(Vec::new()))
+}

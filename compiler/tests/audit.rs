@@ -1,0 +1,284 @@
+//! What the tables of other libraries claim and what is proved of them.
+
+mod command;
+
+use std::path::Path;
+
+use command::{failure, symplectic};
+use serde_json::Value;
+use symplectic_compiler::audit::{Audit, Row, Verdict};
+use symplectic_compiler::{Error, Limits};
+
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tableaux/libraries");
+
+fn table(convention: &str, claim: &str, numbers: &str) -> Result<Row, Error> {
+    let text = format!(
+        "library = \"L\"\nversion = \"V\"\nsource = \"S\"\n{convention}\n[[table]]\nname = \"T\"\n{claim}\n[table.numbers]\n{numbers}\n"
+    );
+    let mut audit = Audit::default();
+    audit.add("tables.toml", &text, &Limits::default())?;
+    Ok(audit.rows.swap_remove(0))
+}
+
+/// The whole audit: what is found for the libraries, and that all of it is seen in steps of the pendulum too.
+#[test]
+fn the_libraries_differ_from_their_claims_where_it_is_known() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let [json, page] = ["audit.json", "audit.html"].map(|name| folder.join(name));
+    let output = symplectic(&[
+        "audit",
+        FOLDER,
+        "--json",
+        json.to_str().expect("text"),
+        "--html",
+        page.to_str().expect("text"),
+    ]);
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        output.status.success(),
+        "{printed}{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+
+    let text = std::fs::read_to_string(&json).expect("written");
+    let found: Value = serde_json::from_str(&text).expect("JSON");
+    let rows = found["rows"].as_array().expect("rows");
+    let text = |row: &Value, key: &str| row[key].as_str().unwrap_or_default().to_owned();
+    // Nothing is reported that is not seen, within 0.05.
+    for row in rows {
+        assert_eq!(row["explained"], true, "{row}");
+        for (proved, seen) in [
+            ("separable", "seen_relativistic"),
+            ("nystrom", "seen_quadratic"),
+        ] {
+            let proved = row[proved]["order"].as_f64().expect("an order");
+            let seen = row[seen].as_f64().expect("an order");
+            assert!((proved - seen).abs() < 0.05, "{row}");
+        }
+        assert!(
+            !text(row, "version").is_empty() && text(row, "source").starts_with("https://"),
+            "{row}"
+        );
+    }
+    let mut differences: Vec<String> = Vec::new();
+    for row in rows.iter().filter(|row| row["verdict"] != "as_claimed") {
+        differences.push(format!(
+            "{}: {} {}, proved {} for T(p) + U(q), {} for quadratic T, not {}",
+            text(row, "name"),
+            row["claim"]["order"],
+            text(&row["claim"], "class"),
+            row["separable"]["order"],
+            row["nystrom"]["order"],
+            text(
+                &row[row["claim"]["class"].as_str().expect("a class")],
+                "violated"
+            ),
+        ));
+    }
+    expect_test::expect![[r#"
+        KraaijevangerSpijker: 2 general, proved 1 for T(p) + U(q), 1 for quadratic T, not q[q]
+        McAte4: 4 nystrom, proved 3 for T(p) + U(q), 3 for quadratic T, not p[q,q,q]
+        CalvoSanz4: 4 separable, proved 3 for T(p) + U(q), 3 for quadratic T, not p[q,q,q]
+        McAte42: 4 separable, proved 1 for T(p) + U(q), 1 for quadratic T, not p[q]
+        McAte5: 5 nystrom, proved 3 for T(p) + U(q), 3 for quadratic T, not p[q,q,q]
+        ARKODE_SPRK_MCLACHLAN_4_4: 4 separable, proved 3 for T(p) + U(q), 4 for quadratic T, not q[p,p,p]
+        ARKODE_SPRK_MCLACHLAN_5_6: 5 separable, proved 3 for T(p) + U(q), 5 for quadratic T, not q[p,p,p]"#]]
+    .assert_eq(&differences.join("\n"));
+    // The method of SciML of order 4 by its name which is in no class of it.
+    let row = |name: &str| rows.iter().find(|row| row["name"] == name).expect(name);
+    assert_eq!(row("McAte42")["separable"]["order"], 1);
+    assert_eq!(row("KahanLi8")["right_places"][1], 26);
+    assert!(row("KahanLi8")["right_places"][0].as_u64() >= Some(25));
+    assert!(row("ARKODE_SPRK_CANDY_ROZMUS_4_4")["right_places"].is_null());
+
+    // A page on its own.
+    let page = std::fs::read_to_string(&page).expect("written");
+    assert!(
+        page.starts_with("<!doctype html>")
+            && page.contains("McAte42: claimed 4 for separable H, proved 1"),
+        "{page}"
+    );
+    for foreign in ["<script", "<link", "<img", "src=", "@import", "url("] {
+        assert!(!page.contains(foreign), "{foreign}");
+    }
+    assert!(
+        printed.ends_with(&format!(
+            "{} tables, {} prove another order than they claim, 0 unexplained\n",
+            rows.len(),
+            differences.len()
+        )),
+        "{printed}"
+    );
+}
+
+/// Whether the proof has the claimed order depends on who goes first, and on each digit.
+#[test]
+fn order_of_flows_and_digits_decide() {
+    let drifts = r#"["0.515352837431122936", "-0.085782019412973646", "0.441583023616466524", "0.128846158365384185"]"#;
+    let kicks = r#"["0.134496199277431089", "-0.224819803079420806", "0.756320000515668291", "0.334003603286321425"]"#;
+    let claim = "order = 4\nclass = \"nystrom\"";
+    let sundials = table(
+        "convention = \"sundials\"",
+        claim,
+        &format!("a = {drifts}\nahat = {kicks}"),
+    )
+    .expect("a row");
+    assert_eq!(
+        (
+            sundials.nystrom.order,
+            sundials.separable.order,
+            sundials.verdict
+        ),
+        (4, 3, Verdict::AsClaimed)
+    );
+    let sciml = table(
+        "convention = \"sciml\"",
+        claim,
+        &format!("a = {drifts}\nb = {kicks}"),
+    )
+    .expect("a row");
+    assert_eq!(
+        (sciml.nystrom.order, sciml.verdict, sciml.explained),
+        (3, Verdict::LessThanClaimed, true)
+    );
+    let (tree, residual) = (
+        sciml.nystrom.violated.expect("a tree"),
+        sciml.nystrom.residual.expect("a residual"),
+    );
+    assert_eq!(tree, "p[q,q,q]");
+    // Σ b̃ c³ − 1/4 in doubles, by hand.
+    let (mut position, mut sum) = (0.0_f64, -0.25);
+    for (drift, kick) in [
+        (0.134496199277431, 0.5153528374311229),
+        (-0.2248198030794208, -0.0857820194129736),
+        (0.7563200005156682, 0.4415830236164665),
+        (0.3340036032863214, 0.1288461583653841),
+    ] {
+        position += drift;
+        sum += kick * position * position * position;
+    }
+    let residual: f64 = residual.trim_end_matches('…').parse().expect("a number");
+    assert!((residual - sum).abs() < 1e-11, "{residual} {sum}");
+    // A wrong digit, the sixth, leaves order 0 or 1, and no exact method of a higher order is near.
+    let wrong = kicks.replace("0.756320000515668291", "0.756310000515668291");
+    let wrong = table(
+        "convention = \"sundials\"",
+        claim,
+        &format!("a = {drifts}\nahat = {wrong}"),
+    )
+    .expect("a row");
+    assert!(
+        wrong.nystrom.order <= 1 && wrong.verdict == Verdict::LessThanClaimed,
+        "{wrong:?}"
+    );
+}
+
+/// A method that has more than its library claims is a row, and so is one that has no order at all.
+#[test]
+fn wrong_claims_are_rows() {
+    let verlet = "a = [\"1\", \"0\"]\nahat = [\"1/2\", \"1/2\"]";
+    let row = |order| {
+        table(
+            "convention = \"sundials\"",
+            &format!("order = {order}\nclass = \"separable\""),
+            verlet,
+        )
+        .expect("a row")
+    };
+    assert_eq!(
+        (row(1).verdict, row(2).verdict, row(9).verdict),
+        (
+            Verdict::MoreThanClaimed,
+            Verdict::AsClaimed,
+            Verdict::LessThanClaimed
+        )
+    );
+    let none = table(
+        "convention = \"sundials\"",
+        "order = 1\nclass = \"separable\"",
+        "a = [\"1\"]\nahat = [\"1/2\"]",
+    )
+    .expect("a row");
+    assert_eq!(
+        (none.separable.order, none.verdict),
+        (0, Verdict::LessThanClaimed)
+    );
+}
+
+#[test]
+fn wrong_files_are_refused_at_their_place() {
+    let claim = "order = 1\nclass = \"separable\"";
+    let long = format!("a = [{0}]\nahat = [{0}]", "\"1/50\", ".repeat(50));
+    for (convention, claim, numbers, message) in [
+        (
+            "",
+            claim,
+            "a = [\"1\"]\nahat = [\"1\"]",
+            "tables.toml, column 1: `convention` is missing: whether kicks or drifts come first",
+        ),
+        (
+            "convention = \"gsl\"",
+            claim,
+            "",
+            "tables.toml, line 4, column 14: unknown library `gsl`; known here: sciml, sundials",
+        ),
+        (
+            "convention = \"sundials\"",
+            "order = 1\nclass = \"all\"",
+            "a = [\"1\"]\nahat = [\"1\"]",
+            "line 8, column 9: unknown class `all`; known here: general, separable, nystrom",
+        ),
+        (
+            "convention = \"sundials\"",
+            claim,
+            "a = [\"1\"]",
+            "line 6, column 8: the numbers `ahat` are missing, which `sundials` has",
+        ),
+        (
+            "convention = \"sundials\"",
+            claim,
+            "a = [\"1\"]\nahat = [\"1\"]\nb = [\"1\"]",
+            "line 6, column 8: `sundials` has no numbers `b`; it has a, ahat",
+        ),
+        (
+            "convention = \"sundials\"",
+            claim,
+            "a = [\"1\", \"x\"]\nahat = [\"1\", \"0\"]",
+            "line 10, column 12: found `x`, which has no value here",
+        ),
+        (
+            "convention = \"sundials\"",
+            claim,
+            "a = [\"1\"]\nahat = [\"1\", \"0\"]",
+            "1 drifts `a` and 2 kicks `ahat`",
+        ),
+        (
+            "convention = \"sundials\"",
+            claim,
+            "a = [1.0]\nahat = [\"1\"]",
+            "line 10, column 6: not a file of tables: invalid type: floating point",
+        ),
+        (
+            "convention = \"sundials\"",
+            claim,
+            &long,
+            "50 stages exceed the limit of 36",
+        ),
+        (
+            "convention = \"sundials\"\nlicence = 1",
+            claim,
+            "",
+            "not a file of tables: unknown field `licence`",
+        ),
+    ] {
+        let found = table(convention, claim, numbers)
+            .expect_err(message)
+            .to_string();
+        assert!(found.contains(message), "{found}\n{message}");
+    }
+    let (status, message) = failure(&["audit", "no-such-folder"]);
+    assert!(
+        status == Some(2) && message.contains("cannot read `no-such-folder`"),
+        "{message}"
+    );
+}

@@ -1,0 +1,334 @@
+//! Tables of other libraries, read with the order in which each library steps its numbers.
+
+mod command;
+
+use command::{failure, stdout};
+use symplectic_compiler::export::Language;
+use symplectic_compiler::order::HamiltonianClass;
+use symplectic_compiler::{
+    Coefficients, Definition, Error, Library, Limits, Tableau, catalogue, import,
+};
+
+fn read(library: Library, text: &str) -> Result<Tableau, Error> {
+    import(library, "table", text, &Limits { stages: 64 })
+}
+
+fn orders(tableau: &Tableau) -> [usize; 3] {
+    let report = tableau.orders();
+    HamiltonianClass::ALL.map(|class| report.class(class).order)
+}
+
+/// The hexadecimal constants of a text of C.
+fn constants(text: &str) -> Vec<f64> {
+    let words = text.split(|c: char| c.is_whitespace() || c == ',');
+    let constants = words.filter_map(|word| {
+        let digits = word.trim_start_matches('-').strip_prefix("0x")?;
+        let (mantissa, exponent) = digits.split_once('p')?;
+        let places = mantissa
+            .split_once('.')
+            .map_or(0, |(_, places)| places.len());
+        let whole = u64::from_str_radix(&mantissa.replace('.', ""), 16).ok()?;
+        let exponent: i32 = exponent.parse().ok()?;
+        let value = whole as f64 * 2f64.powi(exponent - 4 * i32::try_from(places).ok()?);
+        Some(if word.starts_with('-') { -value } else { value })
+    });
+    constants.collect()
+}
+
+/// What is exported to a library and read from there is the same method, for the catalogue: the same orders, and the same
+/// doubles, except that coefficients which the conditions leave free are those of the doubles, so that all may move by a unit
+/// in the last place.
+#[test]
+fn exports_are_read_back() {
+    let (mut same, mut near, mut worst) = (0, 0, 0.0_f64);
+    for entry in catalogue::entries().filter(|entry| entry.stages <= 10) {
+        let tableau = entry.derive().expect("derived");
+        for (language, library) in [
+            (Language::Sundials, Library::Sundials),
+            (Language::Petsc, Library::Petsc),
+            (Language::Nodepy, Library::Nodepy),
+            (Language::Julia, Library::RungeKuttaJl),
+        ] {
+            let Ok(text) = language.write(&tableau, 40) else {
+                continue;
+            };
+            // In Julia all are Butcher tables. Decimals of others than these are refined by their equations, if they are short.
+            let families = ["gauss-", "lobatto-", "radau-"];
+            if language == Language::Julia
+                && !families.iter().any(|name| entry.name.starts_with(name))
+            {
+                continue;
+            }
+            let name = format!("{} for {}", entry.name, library.name());
+            let read = read(library, &text).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let [x, y] = [&read, &tableau].map(|tableau| match language {
+                Language::Sundials | Language::Petsc => {
+                    constants(&language.write(tableau, 40).expect("written"))
+                }
+                _ => {
+                    let Coefficients {
+                        a,
+                        a_tilde,
+                        b,
+                        b_tilde,
+                        ..
+                    } = tableau.to_f64();
+                    [b, b_tilde, a.concat(), a_tilde.concat()].concat()
+                }
+            });
+            assert_eq!(x.len(), y.len(), "{name}");
+            let distances = x
+                .iter()
+                .zip(&y)
+                .map(|(x, y)| (x - y).abs() / y.abs().max(1.0));
+            let distance = distances.fold(0.0, f64::max) / f64::EPSILON;
+            worst = worst.max(distance);
+            if x == y {
+                same += 1;
+            } else {
+                near += 1;
+            }
+            assert!(distance <= 1.0, "{name}: {distance}");
+            assert_eq!(orders(&read)[1..], orders(&tableau)[1..], "{name}");
+        }
+    }
+    assert!(same > 100 && near < 60, "{same} {near} {worst}");
+}
+
+/// The notations of the languages stand for the same exact numbers.
+#[test]
+fn notations_are_exact() {
+    let fraction = Definition::parse("kick: [1/4, 3/4], drift: [1/3, 2/3]").expect("parsed");
+    let fraction = fraction.derive(&Limits::default()).expect("derived");
+    for (library, text) in [
+        (
+            Library::Sundials,
+            "double a[2] = {1.0/3.0, 2./3}; double ahat[2] = {0x1p-2, 0.75L}; // 1/2",
+        ),
+        (
+            Library::Sundials,
+            "t->a[0] = SUN_RCONST(1.0) / SUN_RCONST(3.0); t->a[1] = t->a[0] * 2; /* x */ t->ahat[0] = 2.5e-1; t->ahat[1] = 3*t->ahat[0];",
+        ),
+        // Lists of Fortran, Matlab and Mathematica, with the letters of other libraries.
+        (
+            Library::Principia,
+            "real(real64), parameter :: a(2) = [ &\n 1.0d0/3, &\n 0.2d1/3.0_real64 &\n ]\nreal :: b(2) = [0.25_real64, 7.5d-1]",
+        ),
+        (
+            Library::Mathematica,
+            "b = {1/4, 0.75`20}; (* kicks *) B = {1/3, N[2/3, 30]};",
+        ),
+        (
+            Library::Pyhamsys,
+            "a = [Fraction(1, 3), Fraction('2/3')]  # drifts\nb = np.array([mpf('0.25'), 3 / 4], dtype=object)",
+        ),
+    ] {
+        let read = read(library, text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        assert_eq!(read.exact_forms(), fraction.exact_forms(), "{text}");
+    }
+    // SciML drifts first, by b.
+    let exchanged = "kick: [1/3, 2/3], drift: [1/4, 3/4], first: drift";
+    let exchanged = Definition::parse(exchanged)
+        .expect("parsed")
+        .derive(&Limits::default())
+        .expect("derived");
+    for text in [
+        "a = [1//3, 2//3]\nb = [big\"0.25\", BigFloat(\"0.75\")]",
+        "a1 = convert(T, 1 // 3)\na2 = 2a1\nb1 = 0.25 # b\nb2 = 1 - b1",
+        "a = [1/3 2/3]; b = [0.25; 0.75];",
+        "a = Rational{BigInt}[1//3, 2//3]\nb = T[1/4, 3/4]",
+    ] {
+        let read = read(Library::Sciml, text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        assert_eq!(read.exact_forms(), exchanged.exact_forms(), "{text}");
+    }
+    // Roots are exact, in matrices too.
+    let gauss = catalogue::find("gauss-2")
+        .expect("known")
+        .derive()
+        .expect("derived");
+    for (library, text) in [
+        (
+            Library::Nodepy,
+            "A = numpy.array([[1/4, 1/4 - sympy.sqrt(3)/6], [1/4 + sqrt(3)/6, 1/4]])\nb = [1/2, 1/2]",
+        ),
+        (
+            Library::RungeKuttaJl,
+            "a = [1/4 1/4-√3/6\n 1/4+√3/6 1/4]\nb = [1/2, 1/2]",
+        ),
+        (
+            Library::Mathematica,
+            "a = {{1/4, 1/4 - Sqrt[3]/6}, {1/4 + 3^(1/2)/6, 1/4}}; b = {1/2, 1/2}; c = {1/2 - Sqrt[3]/6, 1/2 + Sqrt[3]/6};",
+        ),
+    ] {
+        let read = read(library, text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        assert_eq!(read.exact_forms(), gauss.exact_forms(), "{text}");
+    }
+}
+
+/// The first thing that is not a number is named at its place, and so is what does not fit.
+#[test]
+fn what_is_no_table_is_refused_at_its_place() {
+    let deep = format!("a = {}1; b = [1]", "(".repeat(200));
+    let doubled: String = (1..20)
+        .map(|i| format!("x{i} = x{0} + x{0}\n", i + 1))
+        .collect();
+    let doubled = format!("a = [x1]\nb = [1]\n{doubled}x20 = 1\n");
+    let long = format!("a = [{}]; b = [1]", "1, ".repeat(20_000));
+    for (library, text, message) in [
+        (
+            Library::Sciml,
+            "a = [1,\n  1//x]\nb = [1, 0]",
+            "table, line 2, column 6: found `x`, which has no value here, expected a number",
+        ),
+        (
+            Library::Sciml,
+            "a = [1, 1.2.3]\nb = [1, 0]",
+            "table, column 9: found `1.2.3`, expected a number",
+        ),
+        (
+            Library::Sundials,
+            "a[2] = {1.0, nan}; ahat[2] = {1, 0};",
+            "table, column 14: found `nan`, which has no value here",
+        ),
+        (
+            Library::Sundials,
+            "a[2] = {1.0, 0.5 0.5}; ahat[2] = {1, 0};",
+            "table, column 18: found `0.5`, expected an operator, `,` or `}`",
+        ),
+        (
+            Library::Sundials,
+            "a[2] = {1.0, f(2)}; ahat[2] = {1, 0};",
+            "table, column 14: unknown function `f`",
+        ),
+        (
+            Library::Sundials,
+            "a[2] = {1.0, 1/0}; ahat[2] = {1, 0};",
+            "table, column 15: division by zero",
+        ),
+        (
+            Library::Sciml,
+            "a = [1, 0]\nb = [1]",
+            "table, column 1: 1 drifts `b` and 2 kicks `a`",
+        ),
+        (
+            Library::Sciml,
+            "a1 = 1\na3 = 0\nb = [1, 0]",
+            "table, line 2, column 1: `a` 2 is missing before `a` 3",
+        ),
+        (
+            Library::Sciml,
+            "a = [1]\na = [1]\nb = [1]",
+            "table, line 2, column 1: `a` has a value already; a file holds one table",
+        ),
+        (
+            Library::Sciml,
+            "a = [b1]\nb1 = a[1]",
+            "this is too large: its depth",
+        ),
+        (
+            Library::Petsc,
+            "c = {1};",
+            "table, column 1: a table of `petsc` has the drifts `c` and the kicks `d` of a splitting, or the matrix",
+        ),
+        (
+            Library::Nodepy,
+            "A = [[1, 2], [3]]\nb = [1, 0]",
+            "table, column 1: 3 entries of a matrix for 2 weights",
+        ),
+        (
+            Library::Nodepy,
+            "A = [[1/2]]\nb = [1]\nc = [1/3]",
+            "table, line 3, column 1: c_1 is 1/3, and row 1 sums to 1/2",
+        ),
+        (
+            Library::Nodepy,
+            "",
+            "table, column 1: a table of `nodepy` has the matrix",
+        ),
+        (
+            Library::Sciml,
+            &doubled,
+            "this is too large: the number of values",
+        ),
+        (Library::Sciml, &deep, "this is too large: its depth"),
+        (
+            Library::Sciml,
+            &long,
+            "this is too large: the length of a list",
+        ),
+        (
+            Library::Sciml,
+            "a = [1e99999]; b = [1]",
+            "table, column 6: found `1e99999`, expected a number",
+        ),
+    ] {
+        let found = read(library, text).expect_err(text).to_string();
+        assert!(found.contains(message), "{text}:\n{found}\n{message}");
+    }
+}
+
+/// Any text has an answer, and an error stands at a part of it.
+#[test]
+fn any_text_has_an_answer() {
+    let words = [
+        "a", "b", "ahat", "=", "[", "]", "{", "}", "(", ")", ",", ";", "\n", "1", "0.5", "//",
+        "1//2", "\"", "big\"", "0x1p", "é", "-", "^", "sqrt", ".",
+    ];
+    let mut state = 1_u64;
+    for _ in 0..4000 {
+        let mut text = String::new();
+        for _ in 0..12 {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            text.push_str(words[(state >> 33) as usize % words.len()]);
+        }
+        for library in [
+            Library::Sciml,
+            Library::Sundials,
+            Library::Nodepy,
+            Library::Mathematica,
+        ] {
+            if let Err(error) = read(library, &text)
+                && let Some(place) = &error.place
+            {
+                assert!(
+                    place.text.get(place.span.clone()).is_some(),
+                    "{text:?}: {place:?}"
+                );
+            }
+        }
+    }
+}
+
+/// The command prints the table as `show` does, and names unknown libraries.
+#[test]
+fn the_command_imports() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let file = folder.join("ruth.c");
+    let exported = stdout(&["show", "ruth-1983", "--format", "sundials"]);
+    std::fs::write(&file, exported).expect("written");
+    let path = file.to_str().expect("text");
+    let text = stdout(&["import", "--from", "sundials", path, "--name", "ruth"]);
+    assert!(
+        text.starts_with("ruth, 3 stages, ") && text.contains("separable  3, "),
+        "{text}"
+    );
+    let (status, message) = failure(&["import", "--from", "gsl", path]);
+    assert!(
+        status == Some(2) && message.contains("unknown library `gsl`; known here: sciml, "),
+        "{message}"
+    );
+    std::fs::write(&file, "double a[] = {1, one};\ndouble ahat[] = {1, 0};\n").expect("written");
+    let (status, message) = failure(&["import", "--from", "sundials", path]);
+    let message = message.replace(path, "ruth.c");
+    assert_eq!(status, Some(2));
+    expect_test::expect![[r#"
+        error: found `one`, which has no value here, expected a number
+         --> ruth.c:1:18
+          |
+        1 | double a[] = {1, one};
+          |                  ^^^
+    "#]]
+    .assert_eq(&message);
+}
