@@ -154,10 +154,10 @@ fn momentum_is_conserved_and_energy_bounded() -> Result<(), Error> {
     let (before, momentum) = (energy_of(&start()), start().p.sum());
     let mut worst = [0.0_f64; 2];
     let mut drift = 0.0_f64;
-    for half in 0..2 {
+    for worst in &mut worst {
         for _ in 0..3000 {
             let state = run.step()?;
-            worst[half] = worst[half].max((energy_of(state) - before).abs());
+            *worst = worst.max((energy_of(state) - before).abs());
             drift = drift.max((state.p.sum() - momentum).abs());
         }
     }

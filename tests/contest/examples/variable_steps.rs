@@ -91,12 +91,13 @@ fn reversible<M: Method + ProvedFor<Separable> + Copy>(
 ) -> Result<Outcome, Error> {
     let mut run = Integrator::adaptive(method, Kepler, DistancePower(1.5), start(), epsilon)?;
     let mut found = Vec::new();
-    match energies {
-        false => drop(run.integrate_to(END)?),
-        true => drop(run.integrate_with(END, |state| found.push(energy_error(state)))?),
-    }
+    let end = match energies {
+        false => run.integrate_to(END)?,
+        true => run.integrate_with(END, |state| found.push(energy_error(state)))?,
+    };
+    let position = end.q;
     Ok(Outcome {
-        position: run.state().q,
+        position,
         steps: run.integrator().steps(),
         energies: found,
     })
