@@ -1,0 +1,142 @@
+//! Ensembles against a loop of single runs: nanoseconds a step of one trajectory.
+//!
+//! `cargo run --release -p symplectic-contest --example ensembles`
+
+#![allow(clippy::print_stdout, reason = "an example prints")]
+
+use std::hint::black_box;
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use symplectic::ensemble::Ensemble;
+use symplectic::nalgebra::Vector2;
+use symplectic::{
+    Compensated, Integrator, Method, Plain, ProvedFor, Separable, State, Summation, System,
+};
+use symplectic_tests::formulas::{HenonHeiles, Kepler};
+use symplectic_tests::methods::{BlanesMoanS10, Gauss4};
+
+/// Rounds, in each of which everything runs once, in turn.
+const ROUNDS: usize = 9;
+
+type Start = State<Vector2<f64>>;
+
+/// Prints a row: medians of a loop of single runs, of an ensemble on one thread, and of one on all.
+fn row<M, S, R>(
+    name: &str,
+    method: M,
+    (system, starts): (S, &[Start]),
+    (step_size, steps): (f64, u64),
+    pools: &[ThreadPool; 2],
+) where
+    M: Method + ProvedFor<Separable> + Copy,
+    S: System<Vector2<f64>, Class = Separable> + Copy + Send + Sync,
+    R: Summation,
+{
+    let ensemble = Ensemble::<M, S, Vector2<f64>, R>::with_summation(
+        method,
+        [(system, starts.to_vec())],
+        step_size,
+    )
+    .expect("starts");
+    let single = || {
+        for start in starts {
+            let run = Integrator::<M, S, Vector2<f64>, R>::with_summation(
+                method,
+                system,
+                start.clone(),
+                step_size,
+            );
+            black_box(run.expect("a start").take_steps(steps).expect("steps"));
+        }
+    };
+    let many = || {
+        ensemble.take_steps(steps, |row| {
+            black_box(row);
+            ControlFlow::Continue(())
+        });
+    };
+    let mut times = [(); 3].map(|()| Vec::new());
+    for _ in 0..ROUNDS {
+        times[0].push(seconds(single));
+        for (times, pool) in times[1..].iter_mut().zip(pools) {
+            times.push(pool.install(|| seconds(many)));
+        }
+    }
+    let per_step = 1e9 / (starts.len() as f64 * steps as f64);
+    let [single, one, all] = times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times[ROUNDS / 2] * per_step
+    });
+    println!(
+        "| {name} | {single:.1} | {one:.1} | {:.1} × | {all:.1} | {:.1} × |",
+        single / one,
+        single / all
+    );
+}
+
+fn seconds(run: impl Fn()) -> f64 {
+    let began = Instant::now();
+    run();
+    began.elapsed().as_secs_f64()
+}
+
+fn main() {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let pools = [1, cores].map(|threads| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("threads")
+    });
+    let orbits: Vec<Start> = (0..4096)
+        .map(|k| {
+            let e = 0.6 * f64::from(k) / 4096.0;
+            State::from_arrays(0.0, [1.0 - e, 0.0], [0.0, ((1.0 + e) / (1.0 - e)).sqrt()])
+        })
+        .collect();
+    let galaxies: Vec<Start> = (0..1024)
+        .map(|k| State::from_arrays(0.0, [0.0, 0.3 * f64::from(k) / 1024.0], [0.3, 0.1]))
+        .collect();
+    println!("Nanoseconds a step of one trajectory, medians of {ROUNDS} rounds.\n");
+    println!("| | single runs | 1 thread | | {cores} threads | |");
+    println!("|---|---:|---:|---:|---:|---:|");
+    macro_rules! problem {
+        ($name:literal, $problem:expr, $h:literal, $steps:literal) => {
+            row::<_, _, Plain>(
+                concat!($name, ", Blanes–Moan S10, plain sums"),
+                BlanesMoanS10,
+                $problem,
+                ($h, 4 * $steps),
+                &pools,
+            );
+            row::<_, _, Compensated>(
+                concat!($name, ", Blanes–Moan S10"),
+                BlanesMoanS10,
+                $problem,
+                ($h, 4 * $steps),
+                &pools,
+            );
+            row::<_, _, Plain>(
+                concat!($name, ", Gauss 4, plain sums"),
+                Gauss4,
+                $problem,
+                ($h, $steps),
+                &pools,
+            );
+            row::<_, _, Compensated>(
+                concat!($name, ", Gauss 4"),
+                Gauss4,
+                $problem,
+                ($h, $steps),
+                &pools,
+            );
+        };
+    }
+    problem!("4096 Kepler orbits", (Kepler, &orbits), 0.01, 25);
+    problem!(
+        "1024 Hénon–Heiles orbits",
+        (HenonHeiles, &galaxies),
+        0.05,
+        100
+    );
+}
