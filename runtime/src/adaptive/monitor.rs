@@ -157,7 +157,7 @@ impl Monitor for PairDistances {
 /// ```
 ///
 /// With `α = 3/4` and `F_0 = 0` it is `|q|^{3/2}` in the Kepler problem. Where the force has zeros, a floor `F_0` above zero keeps σ
-/// finite. The force is taken at the time 0 and without momenta. Each value of σ is an evaluation of the force, and each derivative one
+/// finite. The force is taken at the time 0. Each value of σ is an evaluation of the force, and each derivative one
 /// with dual numbers; with dynamic vectors they allocate.
 ///
 /// ```

@@ -1,14 +1,21 @@
-//! Doubles in files, as their bits: formats of text may round.
+//! Doubles in files, as their bits in sixteen hexadecimal digits: formats of text may round, and some have no whole numbers of 64 bits.
 
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 
+use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serializer};
 
 pub(super) fn serialize<S: Serializer>(numbers: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(numbers.iter().map(|x| x.to_bits()))
+    serializer.collect_seq(numbers.iter().map(|x| format!("{:016x}", x.to_bits())))
 }
 
 pub(super) fn deserialize<'de, D: Deserializer<'de>>(source: D) -> Result<Vec<f64>, D::Error> {
-    let bits = Vec::<u64>::deserialize(source)?;
-    Ok(bits.into_iter().map(f64::from_bits).collect())
+    let texts = Vec::<String>::deserialize(source)?;
+    let double = |text: String| {
+        let bits = u64::from_str_radix(&text, 16).map_err(D::Error::custom)?;
+        Ok(f64::from_bits(bits))
+    };
+    texts.into_iter().map(double).collect()
 }

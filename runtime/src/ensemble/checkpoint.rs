@@ -38,10 +38,11 @@ impl EnsembleCheckpoint {
     }
 }
 
-/// FNV-1a by words.
+/// FNV-1a by words, with the upper half of each product folded onto the lower one: else the signs of two numbers could change unseen.
 fn brief(words: impl Iterator<Item = u64>) -> u64 {
     words.fold(0xcbf2_9ce4_8422_2325, |hash, word| {
-        (hash ^ word).wrapping_mul(0x0100_0000_01b3)
+        let product = (hash ^ word).wrapping_mul(0x0100_0000_01b3);
+        product ^ (product >> 32)
     })
 }
 

@@ -38,7 +38,7 @@ pub enum EnsembleError {
 
     /// Bins that hold nothing.
     #[error(
-        "a histogram of {bins} bins from {low} to {high}: there must be one at least, and both ends finite, in their order"
+        "a histogram of {bins} bins from {low} to {high}: there must be one at least and 2^24 at most, and both ends finite, in their order"
     )]
     Histogram {
         /// The lower end.
@@ -48,6 +48,10 @@ pub enum EnsembleError {
         /// The number of bins.
         bins: usize,
     },
+
+    /// What is read is no such thing.
+    #[error("the file does not hold {0}; it is damaged, or of something else")]
+    Written(&'static str),
 
     /// There is no such part.
     #[error(

@@ -256,17 +256,19 @@ where
             }
             let (mark, begun) = (lanes.mark(), leg);
             let block = lanes.block_of(&leg);
-            if lanes.take_block(block, &mut leg).is_ok() {
+            if lanes.take_block_together(block, &mut leg) {
                 continue;
             }
             lanes.go_back(mark);
             self.take_from_lanes(lanes, live);
+            let mut first = None;
             live.retain(|&place| {
                 let member = &mut self.group.members[place];
                 let mut own = begun;
                 member.outcome = member.run.take_block(block, &mut own);
-                if member.outcome.is_ok() && member.run.statistics().rejected > 0 {
-                    // Its steps are no longer those of the others.
+                let statistics = *member.run.statistics();
+                if member.outcome.is_ok() && *first.get_or_insert(statistics) != statistics {
+                    // Its steps are no longer those of the others: some were taken again.
                     member.outcome = member.run.take_leg(&mut own);
                     return false;
                 }

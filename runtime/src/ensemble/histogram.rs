@@ -7,7 +7,7 @@ use super::EnsembleError;
 
 /// How many numbers are in each of a few bins of one width.
 ///
-/// Bin `k` holds `low + k w ≤ x < low + (k + 1) w` with `w = (high − low)/bins`.
+/// Bin `k` holds `low + k w ≤ x < low + (k + 1) w` with `w = (high − low)/bins`, up to rounding at its ends.
 ///
 /// ```
 /// use symplectic::ensemble::{EnsembleError, Histogram};
@@ -25,7 +25,7 @@ use super::EnsembleError;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", serde(try_from = "Written"))]
 pub struct Histogram {
     /// Low and high.
     #[cfg_attr(feature = "serde", serde(with = "super::as_bits"))]
@@ -35,16 +35,57 @@ pub struct Histogram {
     outside: [u64; 3],
 }
 
+/// The most bins.
+const MOST_BINS: usize = 1 << 24;
+
+/// A histogram as it is read, before it is looked at.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    #[serde(with = "super::as_bits")]
+    range: Vec<f64>,
+    counts: Vec<u64>,
+    outside: [u64; 3],
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Written> for Histogram {
+    type Error = EnsembleError;
+
+    fn try_from(written: Written) -> Result<Self, EnsembleError> {
+        let Written {
+            range,
+            counts,
+            outside,
+        } = written;
+        let [low, high] = range[..] else {
+            return Err(EnsembleError::Written("a histogram with two ends"));
+        };
+        check(low, high, counts.len())?;
+        Ok(Self {
+            range,
+            counts,
+            outside,
+        })
+    }
+}
+
+fn check(low: f64, high: f64, bins: usize) -> Result<(), EnsembleError> {
+    match (1..=MOST_BINS).contains(&bins) && low < high && (high - low).is_finite() {
+        true => Ok(()),
+        false => Err(EnsembleError::Histogram { low, high, bins }),
+    }
+}
+
 impl Histogram {
     /// Empty bins from `low` to `high`.
     ///
     /// # Errors
     ///
-    /// [`EnsembleError::Histogram`] if there is no bin, or if `low` is not below `high` or one of them not finite.
+    /// [`EnsembleError::Histogram`] if there is no bin or more than 2²⁴, or if `low` is not below `high` or one of them not finite.
     pub fn new(low: f64, high: f64, bins: usize) -> Result<Self, EnsembleError> {
-        if bins == 0 || !(low < high && (high - low).is_finite()) {
-            return Err(EnsembleError::Histogram { low, high, bins });
-        }
+        check(low, high, bins)?;
         Ok(Self {
             range: vec![low, high],
             counts: vec![0; bins],

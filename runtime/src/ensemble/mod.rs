@@ -17,9 +17,10 @@
 //! [`Scalar`](crate::Scalar). Trajectories side by side have one system and one time at the start, and follow one another.
 //!
 //! All others are taken one by one: those of implicit methods, the stages of which are in lanes already; of closures; and each that
-//! has a [system](Ensemble::of_families) of its own. A system can have other bits in lanes only where it asks for the type of its
-//! numbers, as products of large matrices in nalgebra do: velocity and force are compared at every start, and where they differ the
-//! trajectories are taken one by one.
+//! has a [system](Ensemble::of_families) of its own. A system has other bits in lanes where it asks for the type of its numbers, as
+//! products of large matrices in nalgebra do: velocity and force are compared at every start, and where they differ the trajectories are
+//! taken one by one. What is written for every scalar must not [decide by a value](crate::Scalar), by a magnitude say: in lanes it would
+//! decide for all of them at once, and only the starts are looked at.
 //!
 //! # Threads
 //!
@@ -60,7 +61,7 @@ use crate::number::{Compensated, F64x8, Lanes, Plain, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
 
-/// What an ensemble is of: none of it is in it, so that threads may share it.
+/// Type parameters of which an ensemble stores nothing: threads may share it.
 type Kind<M, R, N, L> = fn() -> (M, R, N, L);
 
 /// Many trajectories of one method and one step size.
@@ -178,6 +179,25 @@ impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {
     }
 }
 
+impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V, Plain> {
+    /// [`new`](Ensemble::new) with [`Plain`] sums.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Ensemble::new).
+    pub fn plain(
+        method: M,
+        system: S,
+        starts: Vec<State<V>>,
+        step_size: f64,
+    ) -> Result<Self, EnsembleError>
+    where
+        M: ProvedFor<S::Class>,
+    {
+        Self::with_summation(method, [(system, starts)], step_size)
+    }
+}
+
 impl<M: Method, S: System<V>, V: Vector, R: Summation> Ensemble<M, S, V, R> {
     /// [`of_families`](Ensemble::of_families) with the sums that the type says.
     ///
@@ -269,7 +289,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         self.of_kind()
     }
 
-    /// The same ensemble with other lanes than [`F64x8`], [`F64x4`](crate::simd::F64x4) say. No bit depends on it.
+    /// The same ensemble with lanes of another width than [`F64x8`], for example [`F64x4`](crate::simd::F64x4). No bit depends on it.
     ///
     /// Eight lanes are the fastest also where registers are narrower: the steps of several registers do not wait for one another.
     ///
@@ -361,7 +381,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
             *end = (*end).min(to).saturating_sub(from);
         }
         self.offset += from;
-        self.first = 0;
+        self.first = self.first.clamp(from, to) - from;
         Ok(self)
     }
 
@@ -379,7 +399,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         };
     }
 
-    /// Stops a run where `stop` says so. It is asked often, by all threads: let it read a flag.
+    /// Stops a run where `stop` says so: let it read a flag. Every thread asks it before each trajectory, and for trajectories side by side
+    /// before each block of 65 536 steps or fewer; a step of an implicit method asks nothing.
     ///
     /// Trajectories that are not finished then have no row.
     ///

@@ -31,13 +31,48 @@ use crate::error::Error;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", serde(try_from = "Written"))]
 pub struct Moments {
     count: u64,
     #[cfg_attr(feature = "serde", serde(with = "super::as_bits"))]
     mean: Vec<f64>,
     #[cfg_attr(feature = "serde", serde(with = "super::as_bits"))]
     squares: Vec<f64>,
+}
+
+/// Moments as they are read, before they are looked at.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    count: u64,
+    #[serde(with = "super::as_bits")]
+    mean: Vec<f64>,
+    #[serde(with = "super::as_bits")]
+    squares: Vec<f64>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Written> for Moments {
+    type Error = super::EnsembleError;
+
+    fn try_from(written: Written) -> Result<Self, super::EnsembleError> {
+        let Written {
+            count,
+            mean,
+            squares,
+        } = written;
+        if mean.len() != squares.len() {
+            return Err(super::EnsembleError::Written(
+                "a mean and a variance of each component",
+            ));
+        }
+        Ok(Self {
+            count,
+            mean,
+            squares,
+        })
+    }
 }
 
 impl Moments {

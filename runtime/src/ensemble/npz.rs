@@ -32,7 +32,10 @@ pub struct Npz<W> {
     out: W,
     offset: u32,
     directory: Vec<u8>,
-    entries: u16,
+    /// The names of the arrays.
+    names: Vec<String>,
+    /// Whether an array is written in part.
+    broken: bool,
 }
 
 impl<W: Write> Npz<W> {
@@ -42,7 +45,8 @@ impl<W: Write> Npz<W> {
             out,
             offset: 0,
             directory: Vec::new(),
-            entries: 0,
+            names: Vec::new(),
+            broken: false,
         }
     }
 
@@ -50,8 +54,9 @@ impl<W: Write> Npz<W> {
     ///
     /// # Errors
     ///
-    /// Those of the output; [`ErrorKind::InvalidInput`] if the shape has another number of elements, and where the file would exceed
-    /// 4 GiB: write the [shards](Ensemble::shard) of the ensemble to files of their own.
+    /// Those of the output, after which the file takes nothing more; [`ErrorKind::InvalidInput`] if the shape has another number of
+    /// elements, if there is an array of this name, and where the file would exceed 4 GiB: write the [shards](Ensemble::shard) of the
+    /// ensemble to files of their own.
     pub fn doubles(&mut self, name: &str, shape: &[usize], values: &[f64]) -> io::Result<()> {
         let bytes = values.iter().flat_map(|value| value.to_le_bytes());
         self.array(name, "<f8", shape, values.len(), bytes)
@@ -109,19 +114,27 @@ impl<W: Write> Npz<W> {
         self.text("version", env!("CARGO_PKG_VERSION"))
     }
 
-    /// Writes rows: `trajectory`, `time`, `q` and `p` with an index for the row and one for the component, `steps`, and `error`, which
-    /// is empty for a trajectory that came to its end.
+    /// Writes rows, once in a file: `trajectory`, `time`, `q` and `p` with an index for the row and one for the component, `steps`; and the
+    /// numbers of trajectories that failed, `failed`, with their errors, `error`.
     ///
     /// # Errors
     ///
     /// As for [`doubles`](Self::doubles); [`ErrorKind::InvalidInput`] also for rows of different dimensions.
     pub fn rows<V: Vector<Scalar = f64>, A>(&mut self, rows: &[Row<V, A>]) -> io::Result<()> {
         let count = rows.len();
+        let dimension = rows.first().map_or(0, |row| row.state.q.dimension());
+        let other =
+            |row: &&Row<V, A>| [&row.state.q, &row.state.p].map(V::dimension) != [dimension; 2];
+        if let Some(row) = rows.iter().find(other) {
+            return Err(invalid(format!(
+                "trajectory {} has another dimension than the first row, {dimension}: write them to files of their own",
+                row.trajectory
+            )));
+        }
         let list = |of: fn(&Row<V, A>) -> u64| rows.iter().map(of).collect::<Vec<u64>>();
         self.integers("trajectory", &[count], &list(|row| row.trajectory as u64))?;
         let times: Vec<f64> = rows.iter().map(|row| row.state.time).collect();
         self.doubles("time", &[count], &times)?;
-        let dimension = rows.first().map_or(0, |row| row.state.q.dimension());
         let vectors = |of: fn(&Row<V, A>) -> &V| {
             let components = rows.iter().flat_map(|row| of(row).as_slice());
             components.copied().collect::<Vec<f64>>()
@@ -129,11 +142,12 @@ impl<W: Write> Npz<W> {
         self.doubles("q", &[count, dimension], &vectors(|row| &row.state.q))?;
         self.doubles("p", &[count, dimension], &vectors(|row| &row.state.p))?;
         self.integers("steps", &[count], &list(|row| row.statistics.steps))?;
-        let error = |row: &Row<V, A>| match &row.outcome {
-            Ok(()) => String::new(),
-            Err(error) => format!("{error}"),
+        let of = |row: &Row<V, A>| {
+            let error = row.outcome.as_ref().err()?;
+            Some((row.trajectory as u64, format!("{error}")))
         };
-        let errors: Vec<String> = rows.iter().map(error).collect();
+        let (failed, errors): (Vec<u64>, Vec<String>) = rows.iter().filter_map(of).unzip();
+        self.integers("failed", &[failed.len()], &failed)?;
         let errors: Vec<&str> = errors.iter().map(String::as_str).collect();
         self.texts("error", &errors)
     }
@@ -142,12 +156,14 @@ impl<W: Write> Npz<W> {
     ///
     /// # Errors
     ///
-    /// Those of the output.
+    /// Those of the output; an array that was written in part.
     pub fn finish(mut self) -> io::Result<W> {
+        self.check()?;
         let size = word(self.directory.len())?;
+        let entries = u16::try_from(self.names.len()).map_err(|_| too_large())?;
         let mut end = b"PK\x05\x06\0\0\0\0".to_vec();
         for _ in 0..2 {
-            end.extend(self.entries.to_le_bytes());
+            end.extend(entries.to_le_bytes());
         }
         end.extend(size.to_le_bytes());
         end.extend(self.offset.to_le_bytes());
@@ -179,11 +195,13 @@ impl<W: Write> Npz<W> {
         count: usize,
         bytes: impl Iterator<Item = u8>,
     ) -> io::Result<()> {
-        if shape.iter().product::<usize>() != count {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                format!("array `{name}`: {count} elements do not fill the shape {shape:?}"),
-            ));
+        let size = shape
+            .iter()
+            .try_fold(1_usize, |size, &side| size.checked_mul(side));
+        if size != Some(count) {
+            return Err(invalid(format!(
+                "array `{name}`: {count} elements do not fill the shape {shape:?}"
+            )));
         }
         let sides: String = shape.iter().map(|side| format!("{side}, ")).collect();
         let mut header =
@@ -194,7 +212,8 @@ impl<W: Write> Npz<W> {
         }
         header.push('\n');
         let mut file = b"\x93NUMPY\x01\0".to_vec();
-        file.extend((header.len() as u16).to_le_bytes());
+        let length = u16::try_from(header.len()).map_err(|_| too_large())?;
+        file.extend(length.to_le_bytes());
         file.extend(header.bytes());
         file.extend(bytes);
         self.entry(&format!("{name}.npy"), &file)
@@ -202,17 +221,28 @@ impl<W: Write> Npz<W> {
 
     /// Writes a file of the archive (APPNOTE 6.3.10, 4.3.7 and 4.3.12), stored, of 1 January 1980.
     fn entry(&mut self, name: &str, file: &[u8]) -> io::Result<()> {
-        let (length, letters) = (word(file.len())?, word(name.len())?);
+        self.check()?;
+        if self.names.iter().any(|known| known == name) {
+            return Err(invalid(format!(
+                "there is an array `{name}` already: NumPy would read the last one only"
+            )));
+        }
+        let letters = u16::try_from(name.len()).map_err(|_| too_large())?;
+        let length = word(file.len())?;
         let end = u64::from(self.offset) + 30 + u64::from(letters) + u64::from(length);
-        let (end, entries) = (word(end as usize)?, self.entries.checked_add(1));
-        let entries = entries.ok_or_else(too_large)?;
-        let mut common = [20, 0, 0, 0, 0, 0, 0, 0, 0x21, 0].to_vec();
+        let end = u32::try_from(end).map_err(|_| too_large())?;
+        if self.names.len() == usize::from(u16::MAX) {
+            return Err(too_large());
+        }
+        // Version 2.0, names in UTF-8, stored.
+        let mut common = [20, 0, 0, 8, 0, 0, 0, 0, 0x21, 0].to_vec();
         common.extend(crc32(file).to_le_bytes());
         common.extend(length.to_le_bytes());
         common.extend(length.to_le_bytes());
-        common.extend((letters as u16).to_le_bytes());
+        common.extend(letters.to_le_bytes());
         common.extend([0, 0]);
 
+        self.broken = true;
         self.out.write_all(b"PK\x03\x04")?;
         self.out.write_all(&common)?;
         self.out.write_all(name.as_bytes())?;
@@ -223,9 +253,25 @@ impl<W: Write> Npz<W> {
         self.directory.extend([0; 10]);
         self.directory.extend(self.offset.to_le_bytes());
         self.directory.extend(name.bytes());
-        (self.offset, self.entries) = (end, entries);
+        self.offset = end;
+        self.names.push(name.into());
+        self.broken = false;
         Ok(())
     }
+
+    /// Refuses what would come after an array that was written in part.
+    fn check(&self) -> io::Result<()> {
+        match self.broken {
+            false => Ok(()),
+            true => Err(Error::other(
+                "an array is written in part only: begin a new file",
+            )),
+        }
+    }
+}
+
+fn invalid(reason: String) -> Error {
+    Error::new(ErrorKind::InvalidInput, reason)
 }
 
 fn too_large() -> Error {

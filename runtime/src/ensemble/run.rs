@@ -11,10 +11,20 @@ use crate::integrator::Integrator;
 use crate::method::{Method, Solver};
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::state::State;
-use crate::system::System;
+use crate::system::{LaneWork, System};
 
-/// Groups of trajectories that a thread takes, about, before rows are shown.
-const GROUPS: usize = 1 << 6;
+/// Nothing, over lanes: it shows whether a system is known over them.
+struct Known;
+
+impl<V: Vector, S: System<V>, L: Lanes> LaneWork<V, S, L> for Known {
+    type Output = ();
+
+    fn run<W: Vector<Scalar = L>>(self)
+    where
+        S: System<W, Class = <S as System<V>>::Class>,
+    {
+    }
+}
 
 impl<M, S, V, R, N, L> Ensemble<M, S, V, R, N, L>
 where
@@ -28,7 +38,8 @@ where
     /// Takes every trajectory to the time `end`, as [`Integrator::integrate_to`] does.
     ///
     /// `show` is shown a [`Row`] for each trajectory, in their order, on this thread, also for one that failed. Where it breaks, the
-    /// run ends. Returns the number of the first trajectory that has no row: the number of all where the run was not stopped.
+    /// run ends. Returns the number of the first trajectory that has no row; the end of [`trajectories`](Self::trajectories) where the run was
+    /// not stopped.
     pub fn integrate_to(&self, end: f64, show: impl FnMut(Row<V>) -> ControlFlow<()>) -> usize {
         self.run(&Task::To(end), |_| (), |(), _| (), show)
     }
@@ -40,8 +51,8 @@ where
 
     /// Takes every trajectory until all `times` are behind, as [`Integrator::integrate_at`] does.
     ///
-    /// `output` makes what is made of the trajectory with this number, and `see` is shown its state at each of the times; both on any
-    /// thread. It comes with the [`Row`]. Else like [`integrate_to`](Self::integrate_to).
+    /// `output(k)` makes a value for the trajectory k, `see` changes it at each of the times, and it comes with the [`Row`]; both on any
+    /// thread. Else like [`integrate_to`](Self::integrate_to).
     ///
     /// ```
     /// use core::ops::ControlFlow;
@@ -150,7 +161,10 @@ where
 
     /// Whether trajectories can be side by side.
     pub(super) fn goes_in_lanes(&self) -> bool {
-        self.in_lanes && V::Scalar::IS_DOUBLE && Integrator::<M, S, V, R, N>::LANEWISE
+        self.in_lanes
+            && V::Scalar::IS_DOUBLE
+            && Integrator::<M, S, V, R, N>::LANEWISE
+            && S::over_lanes::<L, _>(Known).is_some()
     }
 
     /// Shows the rows of all groups of trajectories, at most `width` in each; a group that was stopped has none.
@@ -162,15 +176,15 @@ where
     ) -> usize {
         let mut next = self.first;
         let mut shown = self.first;
-        let most = GROUPS * pool::threads();
+        let mut batch = pool::Batch::new();
         'all: while next < self.starts.len() {
             let mut groups = Vec::new();
-            while next < self.starts.len() && groups.len() < most {
+            while next < self.starts.len() && groups.len() < batch.groups() {
                 let end = self.end_of_group(next, width);
                 groups.push(next..end);
                 next = end;
             }
-            let rows = pool::map(groups, |group| match self.is_stopped() {
+            let rows = batch.map(groups, |group| match self.is_stopped() {
                 true => vec![],
                 false => rows(group),
             });

@@ -16,10 +16,10 @@ pub trait Elements {
     /// The number of elements.
     fn count(&self) -> usize;
 
-    /// The components of the position on which `V_K` depends, each once.
+    /// The components of the position on which `V_K` depends, each once; always the same.
     fn components(&self, element: usize) -> &[usize];
 
-    /// Writes the force `−∂V_K/∂q` on the components of an element, in their order; `q` are their positions.
+    /// Writes the force `−∂V_K/∂q` on each component of an element, in their order; `q` are their positions.
     fn force(&self, element: usize, time: f64, q: &[f64], force: &mut [f64]);
 
     /// The longest step of an element: well below the shortest period of its own oscillations.

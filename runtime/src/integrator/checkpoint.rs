@@ -335,7 +335,8 @@ impl<V: Vector, T: StageStorage<V>> Run<V, T> {
         self.retry = halvings.map_or(Retry::Never, |halvings| Retry::Split { halvings });
     }
 
-    /// Velocity and force at the state: sums of their bits, each multiplied by another odd number.
+    /// Velocity and force at the state, in brief: the upper half of each product is folded onto the lower one, or the signs of two
+    /// components could change unseen.
     fn evaluated<S: System<V>>(&self, system: &S) -> [u64; 2] {
         let State { time, q, p } = &self.course.state;
         let time = V::Scalar::from_f64(*time);
@@ -343,12 +344,12 @@ impl<V: Vector, T: StageStorage<V>> Run<V, T> {
         system.velocity(time, q, p, &mut found[0]);
         system.force(time, q, p, &mut found[1]);
         found.map(|mut vector| {
-            let (mut sum, mut factor) = (0_u64, 1_u64);
+            let mut brief = 0_u64;
             vector_words(core::slice::from_mut(&mut vector), &mut |word| {
-                sum = sum.wrapping_add(word.wrapping_mul(factor));
-                factor = factor.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+                let product = (brief ^ *word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+                brief = product ^ (product >> 32);
             });
-            sum
+            brief
         })
     }
 }

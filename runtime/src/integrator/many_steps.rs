@@ -86,7 +86,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
     /// Takes some steps in place; `false` where that cannot be, or where something is not finite: then nothing has changed.
     #[inline]
-    fn advance_in_place(&mut self, steps: u64, size: f64, clock: &mut Clock) -> bool {
+    pub(super) fn advance_in_place(&mut self, steps: u64, size: f64, clock: &mut Clock) -> bool {
         let Some(evaluations) = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE else {
             return false;
         };

@@ -85,6 +85,18 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Ok(())
     }
 
+    /// The same, if it can be for runs side by side: `false` where one of them is not finite. What it has left behind for the others is lost
+    /// then, and the run has to [go back](Self::go_back).
+    pub(crate) fn take_block_together(&mut self, block: u64, leg: &mut Leg) -> bool {
+        let ready = self.course.kept.evaluation && leg.left > 1;
+        if ready && self.advance_in_place(block, leg.size, &mut leg.clock) {
+            leg.left -= block;
+            return true;
+        }
+        let is_lost = ready && !self.course.kept.evaluation;
+        !is_lost && self.take_block(block, leg).is_ok()
+    }
+
     /// Takes all steps of a leg.
     pub(crate) fn take_leg(&mut self, leg: &mut Leg) -> Result<(), Error> {
         self.advance_by(leg.left, leg.size, &mut leg.clock, leg.end)?;

@@ -1,6 +1,6 @@
 //! Ensembles that cannot be made.
 
-use symplectic::ensemble::{Ensemble, EnsembleError};
+use symplectic::ensemble::{Ensemble, EnsembleError, Histogram};
 use symplectic::nalgebra::DVector;
 use symplectic::{Error, State};
 
@@ -61,5 +61,18 @@ fn no_starts_no_step_size_no_part() {
             error.expect_err("no part"),
             EnsembleError::Shard { part, count }
         );
+    }
+}
+
+#[test]
+fn bins_have_a_bound() {
+    for (low, high, bins) in [
+        (0.0, 1.0, 0),
+        (0.0, 1.0, usize::MAX),
+        (1.0, 1.0, 3),
+        (f64::NAN, 1.0, 3),
+    ] {
+        let error = Histogram::new(low, high, bins).expect_err("no bins");
+        assert!(matches!(error, EnsembleError::Histogram { .. }), "{error}");
     }
 }

@@ -181,9 +181,15 @@ fn a_file_for_numpy() {
     let mut file = Npz::new(Vec::new());
     file.facts(&ensemble).expect("room");
     file.rows(&rows).expect("room");
-    file.text("system", "ω").expect("room");
-    let wrong = file.doubles("wrong", &[2, 2], &[1.0]).expect_err("a shape");
-    assert_eq!(wrong.kind(), std::io::ErrorKind::InvalidInput);
+    file.text("ω", "ω").expect("room");
+    // Shapes of other numbers, names that are taken, and rows of two dimensions.
+    let no_shape = file.doubles("wrong", &[2, 2], &[1.0]);
+    let too_many = file.doubles("wrong", &[1 << 63, 2], &[]);
+    let twice = file.rows(&rows);
+    for wrong in [no_shape, too_many, twice] {
+        let error = wrong.expect_err("it is refused");
+        assert_eq!(error.kind(), std::io::ErrorKind::InvalidInput, "{error}");
+    }
     let archive = file.finish().expect("room");
     // By hand: python3 -m zipfile -t, numpy.load.
     if let Some(path) = std::env::var_os("SYMPLECTIC_NPZ") {
@@ -193,7 +199,7 @@ fn a_file_for_numpy() {
     let files = files(&archive);
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     let expected =
-        "method definition orders step_size version trajectory time q p steps error system";
+        "method definition orders step_size version trajectory time q p steps failed error ω";
     let expected: Vec<String> = expected
         .split(' ')
         .map(|name| format!("{name}.npy"))
@@ -215,9 +221,42 @@ fn a_file_for_numpy() {
     assert_eq!(array("q.npy"), (header.to_string(), doubles));
     let header = "{'descr': '<U1', 'fortran_order': False, 'shape': (), }";
     assert_eq!(
-        array("system.npy"),
+        array("ω.npy"),
         (header.to_string(), 0x3c9_u32.to_le_bytes().to_vec())
     );
     let orders: Vec<u8> = [6_u64; 3].iter().flat_map(|x| x.to_le_bytes()).collect();
     assert_eq!(array("orders.npy").1, orders);
+}
+
+#[cfg(feature = "npz")]
+#[test]
+fn nothing_comes_after_an_array_in_part() {
+    /// A disk that is full after so many bytes.
+    struct Full(usize);
+
+    impl std::io::Write for Full {
+        fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+            let taken = bytes.len().min(self.0);
+            self.0 -= taken;
+            match taken {
+                0 => Err(std::io::ErrorKind::StorageFull.into()),
+                _ => Ok(taken),
+            }
+        }
+
+        fn flush(&mut self) -> std::io::Result<()> {
+            Ok(())
+        }
+    }
+
+    let mut file = symplectic::ensemble::Npz::new(Full(500));
+    file.doubles("first", &[1], &[1.0]).expect("room");
+    let error = file.doubles("second", &[99], &[1.0; 99]);
+    assert_eq!(
+        error.expect_err("full").kind(),
+        std::io::ErrorKind::StorageFull
+    );
+    file.doubles("third", &[0], &[])
+        .expect_err("the second is there in part");
+    assert!(file.finish().is_err());
 }

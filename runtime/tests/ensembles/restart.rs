@@ -174,3 +174,47 @@ fn a_killed_ensemble_goes_on() {
     assert!(matches!(damaged, Err(CheckpointError::Damaged { .. })));
     std::fs::remove_dir_all(&folder).expect("a folder");
 }
+
+/// Two signs that change: sums of products of their bits with odd numbers would not.
+#[test]
+fn mirrored_starts_are_other_starts() {
+    let make = |mirrored: usize| {
+        let mut starts = starts(40, 100);
+        for start in &mut starts[mirrored..=mirrored] {
+            start.p = -start.p;
+        }
+        let system = HenonHeiles { amplitude: 0.02 };
+        Ensemble::new(ForestRuth, system, starts, 0.1).expect("starts")
+    };
+    let checkpoint = make(7).checkpoint(5).expect("f64");
+    make(7).restore(&checkpoint).expect("the same run");
+    for other in [8, 0] {
+        make(other)
+            .restore(&checkpoint)
+            .expect_err("two starts go the other way");
+    }
+    let run = |size: f64| {
+        let force = move |_: f64, q: &Vector2<f64>, force: &mut Vector2<f64>| *force = q * size;
+        let start = symplectic::State::from_arrays(0.0, [0.5, 0.25], [0.1, 0.2]);
+        let system = symplectic::acceleration(force);
+        symplectic::Integrator::new(StoermerVerlet, system, start, 0.1).expect("a start")
+    };
+    let checkpoint = run(1.0).checkpoint().expect("f64");
+    run(1.0).restore(&checkpoint).expect("the same run");
+    let error = run(-1.0).restore(&checkpoint).expect_err("another force");
+    assert!(matches!(error, CheckpointError::OtherSystem), "{error}");
+}
+
+#[test]
+fn a_part_of_a_resumed_ensemble_begins_where_it_was() {
+    let whole = rows(&ensemble(40, 0.02, 0.1), 0);
+    let checkpoint = ensemble(40, 0.02, 0.1).checkpoint(17).expect("f64");
+    for (part, first) in [(0, 10), (1, 17), (2, 20), (3, 30)] {
+        let mut resumed = ensemble(40, 0.02, 0.1);
+        resumed.restore(&checkpoint).expect("the same run");
+        let part = resumed.shard(part, 4).expect("a part");
+        let end = part.trajectories().end;
+        assert_eq!(part.trajectories(), first..end);
+        assert_eq!(rows(&part, first), whole[first..end]);
+    }
+}
