@@ -76,7 +76,7 @@ pub use derive::{derive, derive_from, derive_within};
 pub use error::{Error, ErrorKind, Place};
 pub use evidence::Evidence;
 pub use exact::Tier;
-pub use import::import;
+pub use import::{ImportOrigin, import, import_with_origin};
 pub use library::{Library, Stepping};
 pub use limits::Limits;
 pub use properties::{Properties, Property, SeparableProperties};

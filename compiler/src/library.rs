@@ -26,8 +26,10 @@ pub enum Library {
     Principia,
     /// REBOUND.
     Rebound,
-    /// pyHamSys.
+    /// pyHamSys, its methods for any splitting and those whose `chi` is `exp(hX_B) exp(hX_A)`.
     Pyhamsys,
+    /// pyHamSys, its methods whose `chi` is `exp(hX_A) exp(hX_B)`: PEFRL, RKN6a, ABA104, ABA864, ABA1064.
+    PyhamsysDriftFirst,
 }
 
 /// How a library steps a splitting: for each stage `i` a drift `q += drift_i h ∂T/∂p(p)` and a kick `p −= kick_i h ∂U/∂q(q)`, in
@@ -61,7 +63,7 @@ pub(crate) enum Notation {
 
 impl Library {
     /// All of them.
-    pub const ALL: [Library; 11] = [
+    pub const ALL: [Library; 12] = [
         Library::Sciml,
         Library::Sundials,
         Library::Petsc,
@@ -73,6 +75,7 @@ impl Library {
         Library::Principia,
         Library::Rebound,
         Library::Pyhamsys,
+        Library::PyhamsysDriftFirst,
     ];
 
     /// The name on the command line and in files.
@@ -89,6 +92,7 @@ impl Library {
             Library::Principia => "principia",
             Library::Rebound => "rebound",
             Library::Pyhamsys => "pyhamsys",
+            Library::PyhamsysDriftFirst => "pyhamsys-drift-first",
         }
     }
 
@@ -183,6 +187,12 @@ impl Library {
                 false,
                 "SymplecticIntegrator._integrate_onestep: chi* and chi in turn by alpha_1, alpha_2, …, and back; with two parts, chi*(x) chi(y) is b, a, b",
             ),
+            Library::PyhamsysDriftFirst => (
+                "b",
+                "a",
+                true,
+                "README: chi is exp(h X_A) exp(h X_B) for PEFRL, with H = A(p) + B(q); SymplecticIntegrator._integrate_onestep begins with chi*",
+            ),
             Library::RungeKuttaJl | Library::Nodepy => return None,
         };
         Some(Stepping {
@@ -204,7 +214,7 @@ impl Library {
             | Library::Principia
             | Library::Rebound => Notation::C,
             Library::Sciml | Library::RungeKuttaJl => Notation::Julia,
-            Library::Nodepy | Library::Pyhamsys => Notation::Python,
+            Library::Nodepy | Library::Pyhamsys | Library::PyhamsysDriftFirst => Notation::Python,
             Library::Mathematica => Notation::Mathematica,
         }
     }

@@ -111,6 +111,45 @@ fn the_libraries_differ_from_their_claims_where_it_is_known() {
     );
 }
 
+/// A page names its sources apart, links only to addresses of the web, and decimals without an exact method have no right places.
+#[test]
+fn pages_keep_sources_apart() {
+    let text = |version: &str, convention: &str, numbers: &str| {
+        format!(
+            "library = \"L\"\nversion = \"{version}\"\nsource = \"javascript:alert(1)\"\nconvention = \"{convention}\"\n[[table]]\nname = \"T\"\norder = 1\nclass = \"separable\"\n[table.numbers]\n{numbers}\n"
+        )
+    };
+    let mut audit = Audit::default();
+    let near = "a = [\"0.29289321\", \"0.70710678\"]\nahat = [\"0.70710678\", \"0.29299322\"]";
+    for (version, convention, numbers) in [
+        ("1", "sundials", near),
+        ("2", "sundials", "a = [\"1\"]\nahat = [\"1\"]"),
+        ("2", "principia", "a = [\"1\"]\nb = [\"1\"]"),
+    ] {
+        let text = text(version, convention, numbers);
+        audit
+            .add("tables.toml", &text, &Limits::default())
+            .expect("rows");
+    }
+    let page = audit.html();
+    assert_eq!(page.matches("<h2>L</h2>").count(), 3, "{page}");
+    assert!(!page.contains("href"), "{page}");
+    assert_eq!(audit.rows[0].right_places, None);
+}
+
+/// pyHamSys drifts first by the same letters where its README says so.
+#[test]
+fn the_order_of_chi_decides() {
+    let claim = "order = 4\nclass = \"separable\"";
+    let numbers = "a = [\"1\", \"0\"]\nb = [\"1/2\", \"1/2\"]";
+    let [kick, drift] = ["pyhamsys", "pyhamsys-drift-first"].map(|convention| {
+        table(&format!("convention = \"{convention}\""), claim, numbers).expect("a row")
+    });
+    assert!(kick.convention.starts_with("kick b_i, drift a_i ("));
+    assert!(drift.convention.starts_with("drift b_i, kick a_i ("));
+    assert_eq!((kick.separable.order, drift.separable.order), (2, 2));
+}
+
 /// Whether the proof has the claimed order depends on who goes first, and on each digit.
 #[test]
 fn order_of_flows_and_digits_decide() {
@@ -258,6 +297,31 @@ fn wrong_files_are_refused_at_their_place() {
             "a = [1.0]\nahat = [\"1\"]",
             "line 10, column 6: not a file of tables: invalid type: floating point",
         ),
+        // Texts are numbers to their end.
+        (
+            "convention = \"sundials\"",
+            claim,
+            "a = [\"1/2 & 99\"]\nahat = [\"1\"]",
+            "line 10, column 11: found `&`",
+        ),
+        (
+            "convention = \"sundials\"",
+            claim,
+            "a = [\"0 % 3\"]\nahat = [\"1\"]",
+            "line 10, column 9: found `%`",
+        ),
+        (
+            "convention = \"sundials\"",
+            claim,
+            "a = [\"1 ! x\"]\nahat = [\"1\"]",
+            "line 10, column 9: found `!`",
+        ),
+        (
+            "convention = \"sundials\"",
+            claim,
+            "a = [\"1 # x\"]\nahat = [\"1\"]",
+            "line 10, column 9: found `#`",
+        ),
         (
             "convention = \"sundials\"",
             claim,
@@ -275,6 +339,22 @@ fn wrong_files_are_refused_at_their_place() {
             .expect_err(message)
             .to_string();
         assert!(found.contains(message), "{found}\n{message}");
+    }
+    // No result replaces a table or the other result.
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let [tables, result] = ["overwritten.toml", "overwritten.out"].map(|name| folder.join(name));
+    let verlet = std::fs::read_to_string(format!("{FOLDER}/petsc.toml")).expect("read");
+    std::fs::write(&tables, verlet).expect("written");
+    let [tables, result] = [&tables, &result].map(|path| path.to_str().expect("text"));
+    for arguments in [
+        ["audit", tables, "--json", tables, "--html", result],
+        ["audit", tables, "--json", result, "--html", result],
+    ] {
+        let (status, message) = failure(&arguments);
+        assert!(
+            status == Some(2) && message.contains("over an input or the other result"),
+            "{message}"
+        );
     }
     let (status, message) = failure(&["audit", "no-such-folder"]);
     assert!(

@@ -2,7 +2,7 @@
 
 mod command;
 
-use command::{failure, stdout};
+use command::{failure, stdout, symplectic};
 use symplectic_compiler::export::Language;
 use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::{
@@ -202,7 +202,7 @@ fn what_is_no_table_is_refused_at_its_place() {
         ),
         (
             Library::Sundials,
-            "a[2] = {1.0, 1/0}; ahat[2] = {1, 0};",
+            "a[2] = {1.0, 1/0.0}; ahat[2] = {1, 0};",
             "table, column 15: division by zero",
         ),
         (
@@ -267,6 +267,340 @@ fn what_is_no_table_is_refused_at_its_place() {
     }
 }
 
+/// What is not certain is refused, with its place and the reason.
+#[test]
+fn what_may_mean_something_else_is_refused() {
+    use Library::{Mathematica, Nodepy, Sciml, Sundials};
+    let chain = format!("a = [{}w]\nb = [1]", "a.".repeat(300_000));
+    let arrows = format!("a[] = {{{}w}}; ahat[] = {{1}};", "a->".repeat(100_000));
+    for (library, text, message) in [
+        (Sciml, chain.as_str(), "found `w`, which has no value here"),
+        (
+            Sundials,
+            arrows.as_str(),
+            "found `w`, which has no value here",
+        ),
+        // Continued lines and comments.
+        (Sciml, "a = [1 & 2]; b = [1]", "column 8: found `&`"),
+        (
+            Sundials,
+            "a[0] = 1 & 2; ahat[0] = 1;",
+            "column 10: found `&`",
+        ),
+        (
+            Sundials,
+            "a[0] = 0.5; if (!x) a[1] = 0.5; ahat[0] = 1;",
+            "1 kicks `ahat`",
+        ),
+        (Sciml, "a = [5 % 3, 1]\nb = [1, 0]", "column 8: found `%`"),
+        (
+            Sciml,
+            "a = [1, 0]\nb = [0 1]\nif x != 0; a = [3, 4]; end",
+            "`a` has a value already",
+        ),
+        (
+            Sciml,
+            "#= a = [1, 0]\nb = [1, 0]",
+            "column 1: `#=` has no `=#` behind it",
+        ),
+        (
+            Sundials,
+            "a[0] = 1; ahat[0] = 1; /*",
+            "column 24: `/*` has no `*/` behind it",
+        ),
+        (
+            Mathematica,
+            "(* (* b = {1} *) B = {1}",
+            "column 1: `(*` has no `*)` behind it",
+        ),
+        (
+            Nodepy,
+            "A = [[0]]\nb = [1]\n\"\"\"",
+            "line 3, column 1: `\"\"\"` has no",
+        ),
+        (
+            Nodepy,
+            "A = [[1/2]]\nb = ['1]",
+            "line 2, column 6: `'` has no `'` in this line",
+        ),
+        (
+            Nodepy,
+            "\"\"\"\nA = [[1/2]]\n\"\"\"\nb = [1]",
+            "the matrix `A` or `a`",
+        ),
+        (Sciml, "a = [1 0]'\nb = [1, 0]", "column 10: found `'`"),
+        // Names without a value.
+        (
+            Sciml,
+            "a = [w[1], w[2]]\nb = [1, 0]",
+            "column 6: found `w`, which has no value here",
+        ),
+        // Arguments that are left out.
+        (Nodepy, "A = [[0,0],[1,0]]\nb = [s(2, 3), 1]", "`s`"),
+        (
+            Nodepy,
+            "A = [[0,0],[1,0]]\nb = [t(3, 1, 4), 1]",
+            "3 arguments",
+        ),
+        (Sciml, "a = [convert(T, 1, 2)]\nb = [1]", "2 arguments"),
+        (Sciml, "a = SMatrix(1, 2, 3, 4)\nb = [1, 1]", "4 arguments"),
+        (
+            Sundials,
+            "a[0] = static_cast<int>(0.5); ahat[0] = 1;",
+            "cut to an integer",
+        ),
+        (Nodepy, "A = [[Integer(1/2)]]\nb = [1]", "an integer"),
+        // Digits and suffixes.
+        (
+            Sciml,
+            "a = [0.123_456, 1]\nb = [1, 0]",
+            "column 6: found `0.123_456`, expected a number",
+        ),
+        (
+            Nodepy,
+            "A = [[1_0]]\nb = [1]",
+            "column 7: found `1_0`, expected a number",
+        ),
+        (
+            Sundials,
+            "a[0] = 1'000; ahat[0] = 1;",
+            "column 8: found `1`, expected a number",
+        ),
+        (
+            Sundials,
+            "a[] = {010}; ahat[] = {1};",
+            "column 8: found `010`, expected a number",
+        ),
+        (
+            Sciml,
+            "a = [2d1]\nb = [1]",
+            "column 7: found `d1`, which has no value here",
+        ),
+        (
+            Sciml,
+            "a = [2f]\nb = [1]",
+            "column 7: found `f`, which has no value here",
+        ),
+        (
+            Mathematica,
+            "b = {2d1}; B = {1};",
+            "column 6: found `2d1`, expected a number",
+        ),
+        (
+            Mathematica,
+            "b = {2e3}; B = {1};",
+            "column 6: found `2e3`, expected a number",
+        ),
+        (
+            Nodepy,
+            "A = [[1j]]\nb = [1]",
+            "column 7: found `1j`, expected a number",
+        ),
+        (
+            Sundials,
+            "a[0] = 1.0d0; ahat[0] = 1;",
+            "column 8: found `1.0d0`, expected a number",
+        ),
+        // What follows a value.
+        (
+            Mathematica,
+            "b = 1/2 Sqrt[2]; B = {1};",
+            "found `Sqrt`, expected an operator",
+        ),
+        (
+            Mathematica,
+            "b = {N[2 Sqrt[3], 20]}; B = {1};",
+            "found `Sqrt`, expected an operator",
+        ),
+        (
+            Mathematica,
+            "w = 1/2 Sqrt[2]\nb = {w}\nB = {1}",
+            "found `Sqrt`, expected an operator",
+        ),
+        (Mathematica, "x = {1}; b = {x.x}; B = {1};", "found `.`"),
+        (
+            Nodepy,
+            "A = [[w]]\nb = [1]\nw = 0.5 if x else 0.25",
+            "line 3, column 9: found `if`",
+        ),
+        (
+            Nodepy,
+            "A = [[0.5 if x else 1]]\nb = [1]",
+            "column 11: found `if`",
+        ),
+        (Nodepy, "A = [[1 2]]\nb = [1]", "column 9: found `2`"),
+        // Divisions that cut.
+        (
+            Nodepy,
+            "A = [[7//2]]\nb = [1]",
+            "column 8: `//` is not a division with all digits",
+        ),
+        (
+            Sundials,
+            "a[] = {1/2, 1/2}; ahat[] = {1, 0};",
+            "column 9: an integer divided by an integer",
+        ),
+        (
+            Sundials,
+            "a[0] = pow(2.0, 1/3); ahat[0] = 1;",
+            "an integer divided by an integer",
+        ),
+        (
+            Sundials,
+            "int n = 2; a[0] = 1/(n + 1); ahat[0] = 1;",
+            "an integer divided by an integer",
+        ),
+        // Changes.
+        (
+            Sundials,
+            "double a[2]={0}; a[0]=.5; ahat[0]=1;",
+            "column 18: `a` is changed later",
+        ),
+        (
+            Nodepy,
+            "A = [[0,0],[1,0]]\nb = [.5,.5]\nb[0] = 1",
+            "line 3, column 1: `b` is changed later",
+        ),
+        (
+            Sciml,
+            "a = [1, 0]\nb = [1, 0]\na .*= 2",
+            "line 3, column 1: `a` is changed later",
+        ),
+        (
+            Sciml,
+            "a = [1, 0]\nb = [1, 0]\na[1] += 3",
+            "line 3, column 1: `a` is changed later",
+        ),
+        (
+            Sciml,
+            "a = [1, 0]\nb = [1, 0]\nreverse!(a)",
+            "line 3, column 10: `a` is changed later",
+        ),
+        (
+            Sundials,
+            "a[0] = 1; ahat[0] = 1; a[0]++;",
+            "column 24: `a` is changed later",
+        ),
+        (
+            Nodepy,
+            "A = [[0]]\nb[i] = 1",
+            "line 2, column 1: `b` has an index that is not one number",
+        ),
+        (
+            Sundials,
+            "A[1][0] = 1.0; A[2][0] = 0.5; b[0] = 1;",
+            "column 1: `A` has an index that",
+        ),
+        (Nodepy, "A[0] = [0.5]\nb = [1]", "`A` has an index that"),
+        (
+            Sundials,
+            "a[1] = 0.5; a[2] = 0.5; ahat[0] = 1; ahat[1] = 0;",
+            "`a` 0 is missing before `a` 1",
+        ),
+        // Tuples, and lists beside one another.
+        (
+            Nodepy,
+            "A = [[0,0],[1,0]]\nb = 1, 0",
+            "line 2, column 6: several values without brackets",
+        ),
+        (Nodepy, "A = [[0]]\nb, x = 1, 0", "`b`"),
+        (
+            Nodepy,
+            "A = [[0]]\nx, b = y",
+            "line 2, column 4: `b` gets its value together",
+        ),
+        (
+            Sciml,
+            "a, b = [1], [1]",
+            "table, column 1: a table of `sciml` has",
+        ),
+        (
+            Sciml,
+            "A = [[1, 2] [3, 4]]\nb = [1, 1]",
+            "lists beside one another are columns",
+        ),
+        (
+            Sundials,
+            "a[0] = (1, 2); ahat[0] = 1;",
+            "column 8: one number is needed",
+        ),
+        (
+            Sciml,
+            "a1 = 1\na01 = 2\nb = [1]",
+            "two of the numbered `a` have the same number",
+        ),
+        // Lengths.
+        (
+            Sciml,
+            "A = [1 2; 3 4]\nb = [1, 1]\nc = [3]",
+            "line 3, column 1: 1 nodes `c` for 2 weights",
+        ),
+        (
+            Sciml,
+            "A = [1 2; 3 4]\nb = [1, 1]\nc = [3, 7, 9]",
+            "3 nodes `c` for 2 weights",
+        ),
+    ] {
+        let found = match read(library, text) {
+            Ok(tableau) => panic!("{text}: {:?}", tableau.exact_forms()),
+            Err(error) => error.to_string(),
+        };
+        let start: String = text.chars().take(200).collect();
+        assert!(found.contains(message), "{start}:\n{found}\n{message}");
+    }
+}
+
+/// What was refused or read otherwise once, beside what is refused now.
+#[test]
+fn what_is_certain_is_read() {
+    let two = |first: &str, second: &str| {
+        let text = format!("kick: [{first}], drift: [{second}]");
+        let definition = Definition::parse(&text).expect("parsed");
+        definition.derive(&Limits::default()).expect("derived")
+    };
+    let halves = two("1/2, 1/4, 1/4", "1/2, 1/4, 1/4");
+    let list = (0..1000).map(|_| "1").collect::<Vec<_>>().join(", ");
+    let indices = (1..=1000).map(|i| format!("w[{i}] - w[1]"));
+    let indices = indices.collect::<Vec<_>>().join(", ");
+    let long = format!(
+        "w = [{list}]\nx = [{indices}]\na = [1/2, 1/4 + x[7], 1/4]\nb = [1/2, 1/4, 1/4 + x[1000]]"
+    );
+    for (library, text) in [
+        (
+            Library::Principia,
+            "real :: a(3) = [0.5d0, & ! one\n  & 0.25_dp, 0.25d0]\nreal :: b(3) = [0.5, 0.25, &\n 0.25] ! b = 3",
+        ),
+        (
+            Library::Principia,
+            "/* a = 1 \n */ double a[3] = {.5f, 1.0/4, 0.25L}; // b = 2\n double b[3] = {0.5,0.25,0.25};",
+        ),
+        (
+            Library::Pyhamsys,
+            "\"\"\"\na = [1, 2]\n\"\"\"\na = [1 -2*w, 1/4, 1/4]\nw = 0.25\nb = np.array([.5, 1/4, 1/4])",
+        ),
+        (
+            Library::Mathematica,
+            "(* (* b = {1}; *) B = 2 *)\nb = {1/2, 1/4, 2.5`20*1/10};\nB = {1/2, 1/4, 1/4}",
+        ),
+    ] {
+        let read = read(library, text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        assert_eq!(read.exact_forms(), halves.exact_forms(), "{text}");
+    }
+    let exchanged =
+        Definition::parse("kick: [1/2, 1/4, 1/4], drift: [1/2, 1/4, 1/4], first: drift");
+    let exchanged = exchanged.expect("parsed").derive(&Limits::default());
+    let exchanged = exchanged.expect("derived").exact_forms();
+    for text in [
+        long.as_str(),
+        "a = SVector(1//2, 1//4, 1//4) #= b = 1 #= =# =#\nb = SA[1//2, 1//4, 0.25f0]",
+        "a = [3/2//3 - 4, 1/4, 1/4]\nb = [0.5 0.25 0.25]",
+        "% a = 1\na = [0.5, ... % first\n0.25, 1/4];\nb = [0.5 ...\n 1/4 .25];",
+    ] {
+        let read = read(Library::Sciml, text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        assert_eq!(read.exact_forms(), exchanged, "{text}");
+    }
+}
+
 /// Any text has an answer, and an error stands at a part of it.
 #[test]
 fn any_text_has_an_answer() {
@@ -309,7 +643,18 @@ fn the_command_imports() {
     let exported = stdout(&["show", "ruth-1983", "--format", "sundials"]);
     std::fs::write(&file, exported).expect("written");
     let path = file.to_str().expect("text");
-    let text = stdout(&["import", "--from", "sundials", path, "--name", "ruth"]);
+    let output = symplectic(&["import", "--from", "sundials", path, "--name", "ruth"]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    let remark = String::from_utf8_lossy(&output.stderr);
+    // The constants are doubles, half a unit in the last place from thirds and 24ths.
+    assert!(
+        output.status.success()
+            && remark.contains(
+                "the exact method near the decimals, from which the decimals differ by at most"
+            )
+            && remark.contains("e-17"),
+        "{remark}"
+    );
     assert!(
         text.starts_with("ruth, 3 stages, ") && text.contains("separable  3, "),
         "{text}"
@@ -318,6 +663,16 @@ fn the_command_imports() {
     assert!(
         status == Some(2) && message.contains("unknown library `gsl`; known here: sciml, "),
         "{message}"
+    );
+    // One digit is wrong, so that no exact method is near, or is farther away than the digits say.
+    let wrong =
+        "double a[2] = {0.29289321, 0.70710678};\ndouble ahat[2] = {0.70710678, 0.29299322};\n";
+    std::fs::write(&file, wrong).expect("written");
+    let output = symplectic(&["import", "--from", "sundials", path]);
+    let remark = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        remark.contains("no exact method was found near the decimals"),
+        "{remark}"
     );
     std::fs::write(&file, "double a[] = {1, one};\ndouble ahat[] = {1, 0};\n").expect("written");
     let (status, message) = failure(&["import", "--from", "sundials", path]);

@@ -25,26 +25,29 @@ pub(super) fn page(audit: &Audit) -> String {
         }
         body.push_str("</ul>\n");
     }
-    let mut sources: Vec<(&str, &str)> = Vec::new();
+    let key = |row: &Row| -> [String; 4] {
+        [&row.library, &row.version, &row.source, &row.convention].map(String::clone)
+    };
+    let mut sources: Vec<[String; 4]> = Vec::new();
     for row in &audit.rows {
-        let source = (row.library.as_str(), row.source.as_str());
+        let source = key(row);
         if !sources.contains(&source) {
             sources.push(source);
         }
     }
-    for (library, source) in sources {
-        let rows: Vec<&Row> = audit
-            .rows
-            .iter()
-            .filter(|row| row.library == library && row.source == source)
-            .collect();
+    for source in sources {
+        let rows: Vec<&Row> = audit.rows.iter().filter(|row| key(row) == source).collect();
         let Some(first) = rows.first() else { continue };
+        let address = escape(&first.source);
+        let address =
+            match first.source.starts_with("http://") || first.source.starts_with("https://") {
+                true => format!("<a href=\"{address}\">{address}</a>"),
+                false => address,
+            };
         body.push_str(&format!(
-            "<h2>{}</h2>\n<p class=\"convention\">{}, <a href=\"{}\">{}</a>. Steps: {}.</p>\n",
-            escape(library),
+            "<h2>{}</h2>\n<p class=\"convention\">{}, {address}. Steps: {}.</p>\n",
+            escape(&first.library),
             escape(&first.version),
-            escape(source),
-            escape(source),
             escape(&first.convention)
         ));
         body.push_str(

@@ -105,7 +105,8 @@ pub struct Row {
     pub symmetric: bool,
     /// Whether it is symplectic, for separable Hamiltonians at least.
     pub symplectic: bool,
-    /// The decimal places to which the exact method has the printed numbers, and how many are printed; `None` for exact numbers.
+    /// The decimal places to which the exact method has the printed numbers, and how many are printed; `None` if the numbers are exact, and
+    /// if no exact method was found.
     /// Where conditions leave coefficients free, another exact method may have more of them.
     pub right_places: Option<(u32, u32)>,
     /// The stable steps `hω` on the oscillator.
@@ -152,7 +153,8 @@ impl Row {
                 found.order = *order;
                 found.evidence = "up to the rounding of the decimals".to_owned();
             }
-            agree &= found.order == *order;
+            // Conditions of the decimals are computed up to a limit, and that of the exact method may be higher.
+            agree &= found.order == *order || violated.is_none() && found.order > *order;
         }
         let seen = |kinetic, order: usize| tableau.observed_order(kinetic, order);
         let seen_quadratic = seen(Kinetic::Quadratic, nystrom.order);
@@ -166,9 +168,9 @@ impl Row {
             HamiltonianClass::Nystrom => nystrom.order,
         };
         let separable_properties = tableau.separable_properties();
-        let exact = matches!(read.origin, Origin::Exact);
+        let refined = matches!(read.origin, Origin::Refined(_));
         let right_places = match numbers.distance(tableau) {
-            Some(distance) if !exact => {
+            Some(distance) if refined => {
                 let printed = numbers.all().into_iter().filter(|value| !value.is_exact());
                 let finest = printed
                     .map(|value| value.error.clone())

@@ -17,6 +17,7 @@ pub(crate) use value::Value;
 use std::ops::Range;
 
 use self::source::Source;
+use crate::arithmetic::rounding::to_f64;
 use crate::error::{Error, ErrorKind};
 use crate::expression::Input;
 use crate::library::{Library, Notation, Stepping};
@@ -55,9 +56,53 @@ pub fn import(
     text: &str,
     limits: &Limits,
 ) -> Result<Tableau, Error> {
+    import_with_origin(library, file_name, text, limits).map(|(tableau, _)| tableau)
+}
+
+/// Where the exact coefficients of a table that is read come from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ImportOrigin {
+    /// The numbers of the table are exact.
+    Exact,
+    /// They are decimals, and the coefficients are those of the exact method near them.
+    NearDecimals {
+        /// The largest distance of a coefficient from its decimal; `None` if they do not stand in the same places.
+        distance: Option<f64>,
+    },
+    /// They are decimals as they stand, because no exact method was found near them.
+    Decimals,
+}
+
+/// Reads a table as [`import`] does, and says where its coefficients come from.
+///
+/// ```
+/// use symplectic_compiler::{ImportOrigin, Library, Limits, import_with_origin};
+///
+/// let text = "a[0] = 0.70710678118; a[1] = 0.29289321882; ahat[0] = 0.29289321881; ahat[1] = 0.70710678119;";
+/// let (_, origin) = import_with_origin(Library::Sundials, "mclachlan.c", text, &Limits::default())?;
+/// assert!(!matches!(origin, ImportOrigin::Exact));
+/// # Ok::<(), symplectic_compiler::Error>(())
+/// ```
+///
+/// # Errors
+/// Those of [`import`].
+pub fn import_with_origin(
+    library: Library,
+    file_name: &str,
+    text: &str,
+    limits: &Limits,
+) -> Result<(Tableau, ImportOrigin), Error> {
     let input = Input::of_file(file_name, text);
     let numbers = read(library, input, limits)?;
-    numbers.derive(limits).map(|read| read.tableau)
+    let read = numbers.derive(limits)?;
+    let origin = match read.origin {
+        Origin::Exact => ImportOrigin::Exact,
+        Origin::Refined(_) => ImportOrigin::NearDecimals {
+            distance: numbers.largest_error(&read.tableau).map(|x| to_f64(&x)),
+        },
+        Origin::Decimals(_) => ImportOrigin::Decimals,
+    };
+    Ok((read.tableau, origin))
 }
 
 /// The exact value of a text in a language, as in `a = "1/3"`, and its place.

@@ -77,6 +77,10 @@ pub(crate) fn half(
             stages * stages
         )));
     }
+    if let Some(nodes) = nodes.as_ref().filter(|nodes| nodes.len() != stages) {
+        let found = nodes.len();
+        return Err(document(format!("{found} nodes `c` for {stages} weights")));
+    }
     let rows: Vec<Vec<Value>> = matrix.chunks(stages).map(<[Value]>::to_vec).collect();
     for (i, (row, node)) in rows.iter().zip(nodes.iter().flatten()).enumerate() {
         let sum = sum(row)?;
@@ -186,9 +190,11 @@ impl Numbers {
     }
 
     fn orders_within(&self) -> Within {
+        /// How many errors of the coefficients a condition may be off by.
+        const UNITS: i64 = 50;
         let all = self.all();
         let error = all.iter().map(|value| &value.error).max();
-        let error = error.cloned().unwrap_or_default() * ratio(1000, 1);
+        let error = error.cloned().unwrap_or_default() * ratio(UNITS, 1);
         let least = BigRational::new(BigInt::one(), BigInt::from(10).pow(10));
         let tolerance = error.max(least);
         let pair = self.rational_pair();
@@ -348,6 +354,33 @@ impl Numbers {
                 Definition::new(parts).derive(limits)
             }
         }
+    }
+
+    /// How far the exact coefficients are from the numbers at most, if each has its number.
+    pub fn largest_error(&self, tableau: &Tableau) -> Option<BigRational> {
+        let Numbers::RungeKutta { positions, momenta } = self else {
+            return self.distance(tableau);
+        };
+        let numbers = tableau.numbers();
+        let halves = [
+            (Some(positions), &numbers.a, &numbers.b),
+            (momenta.as_ref(), &numbers.a_tilde, &numbers.b_tilde),
+        ];
+        let mut largest = BigRational::zero();
+        for (half, matrix, list) in halves {
+            let Some((rows, weights)) = half else {
+                continue;
+            };
+            let written: Vec<&Value> = rows.iter().flatten().chain(weights).collect();
+            let exact: Vec<&Number<'_>> = matrix.iter().flatten().chain(list).collect();
+            if written.len() != exact.len() {
+                return None;
+            }
+            for (x, y) in written.into_iter().zip(exact) {
+                largest = largest.max((x.rational() - y.enclose(400).middle()).abs());
+            }
+        }
+        Some(largest)
     }
 
     /// How far the exact method is from the numbers at most, for a splitting or a table whose stages stand as they are written.

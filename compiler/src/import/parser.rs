@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::source::{Assigned, MAX_NUMBERS, Source};
-use super::tokens::{Spanned, Token, tokenize};
+use super::tokens::{Kind, Spanned, Token, tokenize};
 use super::value::Value;
 use crate::error::{Error, ErrorKind};
 use crate::expression::{MAX_DEPTH, shown};
@@ -38,6 +38,8 @@ pub(super) struct Parser<'s, 'a> {
     pub depth: usize,
     /// In how many brackets, where the end of a line means nothing.
     pub inside: usize,
+    /// Whether the innermost bracket is `[` of a matrix, where white space is between the numbers.
+    pub matrix: bool,
 }
 
 impl Parser<'_, '_> {
@@ -111,7 +113,7 @@ impl Parser<'_, '_> {
             // In lists without commas a sign that clings to what follows begins the next number.
             let [here, next] = [self.at, self.at + 1].map(|at| self.tokens.get(at));
             let clings = here.is_some_and(|x| x.apart) && next.is_some_and(|x| !x.apart);
-            if self.inside > 0 && clings && matches!(left, Item::One(_)) && self.in_matrix() {
+            if self.matrix && clings && matches!(left, Item::One(_)) {
                 break;
             }
             let span = self.span();
@@ -128,34 +130,50 @@ impl Parser<'_, '_> {
         Ok(left)
     }
 
-    /// Whether the innermost bracket is `[`, of a matrix with white space between its numbers.
-    fn in_matrix(&self) -> bool {
-        let mut depth = 0_i32;
-        for token in self.tokens[..self.at].iter().rev() {
-            match token.token {
-                Token::Symbol(')' | ']' | '}') => depth += 1,
-                Token::Symbol('(' | '{') if depth == 0 => return false,
-                Token::Symbol('[') if depth == 0 => return true,
-                Token::Symbol('(' | '[' | '{') => depth -= 1,
-                _ => {}
-            }
-        }
-        false
-    }
-
     fn term(&mut self) -> Result<Item, Error> {
-        let mut left = self.factor()?;
-        while let Some(operator @ ('*' | '/' | '÷')) = self.symbol() {
+        let mut left = self.fraction()?;
+        while let Some(operator @ ('*' | '/')) = self.symbol() {
             let span = self.span();
             self.at += 1;
-            let right = self.factor()?;
-            let combine = match operator {
-                '*' => Value::multiply,
-                _ => Value::divide,
+            let right = self.fraction()?;
+            left = match operator {
+                '*' => self.combine(left, right, span, Value::multiply)?,
+                _ => self.quotient(left, right, span)?,
             };
-            left = self.combine(left, right, span, combine)?;
         }
         Ok(left)
+    }
+
+    /// Factors with `//` between them, which binds more tightly than `/` in Julia.
+    fn fraction(&mut self) -> Result<Item, Error> {
+        let mut left = self.factor()?;
+        while self.symbol() == Some('÷') {
+            let span = self.span();
+            if self.source.notation != Notation::Julia {
+                let message = "`//` is not a division with all digits here; write `/`".to_owned();
+                return Err(self.wrong(span, ErrorKind::Document { message }));
+            }
+            self.at += 1;
+            let right = self.factor()?;
+            left = self.combine(left, right, span, Value::divide)?;
+        }
+        Ok(left)
+    }
+
+    /// A quotient; that of two integers is cut to an integer in C and Fortran.
+    fn quotient(&self, left: Item, right: Item, span: Range<usize>) -> Result<Item, Error> {
+        let cuts = self.source.notation == Notation::C || self.source.fortran;
+        if let (Item::One(x), Item::One(y)) = (&left, &right)
+            && cuts
+            && x.whole
+            && y.whole
+        {
+            let message =
+                "an integer divided by an integer is cut to an integer here; write `1.0` for `1`";
+            let message = message.to_owned();
+            return Err(self.wrong(span, ErrorKind::Document { message }));
+        }
+        self.combine(left, right, span, Value::divide)
     }
 
     fn combine(
@@ -213,16 +231,18 @@ impl Parser<'_, '_> {
             return self.combine(base, exponent, span, Value::power);
         }
         // `2a1` of Julia.
-        let product = match (&base, self.peek()) {
-            (Item::One(_), Some(Token::Name(_))) => {
-                let number = matches!(
-                    self.tokens[self.at.saturating_sub(1)].token,
-                    Token::Number(_)
-                );
-                number && !self.tokens[self.at].apart
-            }
-            _ => false,
-        };
+        let julia = self.source.notation == Notation::Julia && !self.source.fortran;
+        let product = julia
+            && match (&base, self.peek()) {
+                (Item::One(_), Some(Token::Name(_))) => {
+                    let number = matches!(
+                        self.tokens[self.at.saturating_sub(1)].token,
+                        Token::Number(_)
+                    );
+                    number && !self.tokens[self.at].apart
+                }
+                _ => false,
+            };
         if product {
             let span = self.span();
             let right = self.nested_factor()?;
@@ -254,6 +274,10 @@ impl Parser<'_, '_> {
                 let items = self.items(')')?;
                 match <[Item; 1]>::try_from(items) {
                     Ok([item]) => Ok(item),
+                    Err(_) if self.source.notation == Notation::C && !self.source.fortran => {
+                        let message = "one number is needed in these brackets".to_owned();
+                        Err(self.wrong(span, ErrorKind::Document { message }))
+                    }
                     Err(items) => Ok(joined(items)),
                 }
             }
@@ -278,7 +302,8 @@ impl Parser<'_, '_> {
     /// What stands between quotes, read as an expression.
     pub fn quoted(&mut self, range: Range<usize>) -> Result<Item, Error> {
         self.deeper()?;
-        let tokens = tokenize(self.source.input, range.clone(), self.source.notation)?;
+        let (input, notation) = (self.source.input, self.source.notation);
+        let tokens = tokenize(input, range.clone(), notation, Kind::Number)?;
         let mut parser = Parser {
             source: self.source,
             tokens: &tokens,
@@ -286,6 +311,7 @@ impl Parser<'_, '_> {
             at: 0,
             depth: self.depth,
             inside: 1,
+            matrix: false,
         };
         let item = parser.expression()?;
         if parser.peek().is_some() {
@@ -299,7 +325,12 @@ impl Parser<'_, '_> {
     fn items(&mut self, close: char) -> Result<Vec<Item>, Error> {
         self.deeper()?;
         self.inside += 1;
+        let spaces =
+            close == ']' && self.source.notation == Notation::Julia && !self.source.fortran;
+        let outside = std::mem::replace(&mut self.matrix, spaces);
         let (mut items, mut numbers) = (Vec::new(), 0);
+        // Whether white space in a line is between the item before and this one.
+        let mut beside = false;
         loop {
             match self.symbol() {
                 Some(c) if c == close => break,
@@ -316,6 +347,16 @@ impl Parser<'_, '_> {
             }
             let span = self.span();
             let item = self.expression()?;
+            if beside
+                && [Some(&item), items.last()]
+                    .into_iter()
+                    .flatten()
+                    .any(is_long)
+            {
+                let message = "lists beside one another are columns; write the numbers row by row";
+                let message = message.to_owned();
+                return Err(self.wrong(span, ErrorKind::Document { message }));
+            }
             numbers += match &item {
                 Item::One(_) => 1,
                 Item::Many(values) => values.len(),
@@ -333,10 +374,12 @@ impl Parser<'_, '_> {
             let line = matches!(self.peek(), Some(Token::Line));
             let apart = self.tokens.get(self.at).is_some_and(|next| next.apart);
             let ends = matches!(self.symbol(), Some(c) if c == close || c == ',' || c == ';');
-            if !ends && !(close == ']' && (line || apart)) {
+            if !ends && !(spaces && (line || apart)) {
                 return Err(self.unexpected(&format!("an operator, `,` or `{close}`")));
             }
+            beside = !ends && !line;
         }
+        self.matrix = outside;
         self.at += 1;
         self.inside -= 1;
         self.depth -= 1;
@@ -379,6 +422,9 @@ impl Parser<'_, '_> {
             let names = self.source_symbol(self.at) == Some(open)
                 && matches!(self.tokens.get(self.at + 1), Some(found) if matches!(found.token, Token::Name(_)));
             if names {
+                if open == '<' {
+                    self.no_integer()?;
+                }
                 let rest = self.tokens[self.at..].iter().take(32);
                 let end = rest
                     .enumerate()
@@ -416,10 +462,38 @@ impl Parser<'_, '_> {
                 if self.source.has(name) {
                     return self.element(name, span, items);
                 }
-                Ok(joined(items))
+                // The type of the entries.
+                let types = self.source.notation == Notation::Julia && TYPES.contains(&name);
+                match types {
+                    true => Ok(joined(items)),
+                    false => Err(self.no_value(name, span)),
+                }
             }
             _ => self.variable(name, span),
         }
+    }
+
+    /// Refuses `static_cast<int>`, which cuts a number.
+    fn no_integer(&self) -> Result<(), Error> {
+        const INTEGERS: [&str; 8] = [
+            "int", "unsigned", "short", "char", "bool", "size_t", "int32_t", "int64_t",
+        ];
+        match self.tokens.get(self.at + 1) {
+            Some(found) if matches!(&found.token, Token::Name(name) if INTEGERS.contains(&name.as_str())) =>
+            {
+                let message = "a number is cut to an integer here".to_owned();
+                Err(self.wrong(found.span.clone(), ErrorKind::Document { message }))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn no_value(&self, name: &str, span: Range<usize>) -> Error {
+        let kind = ErrorKind::Syntax {
+            found: format!("found `{}`, which has no value here", shown(name)),
+            expected: "a number".to_owned(),
+        };
+        self.wrong(span, kind)
     }
 
     fn variable(&mut self, name: &str, span: Range<usize>) -> Result<Item, Error> {
@@ -431,20 +505,14 @@ impl Parser<'_, '_> {
                 ..
             }) => {
                 self.source.once(name)?;
-                self.source.evaluate(*value, self.depth)?
+                self.source.whole(name, *value, self.depth)?
             }
-            Some(_) => Item::Many(
-                self.source
-                    .list_within(name, self.depth)?
-                    .unwrap_or_default(),
-            ),
-            None => {
-                let kind = ErrorKind::Syntax {
-                    found: format!("found `{}`, which has no value here", shown(name)),
-                    expected: "a number".to_owned(),
-                };
-                return Err(self.wrong(span, kind));
+            Some(_) => {
+                let list = self.source.list_within(name, self.depth)?;
+                let list = list.map(|list| self.source.copy(name, &list)).transpose()?;
+                Item::Many(list.unwrap_or_default())
             }
+            None => return Err(self.no_value(name, span)),
         };
         self.depth -= 1;
         Ok(item)
@@ -474,7 +542,7 @@ impl Parser<'_, '_> {
                 let one_based = self.source.notation == Notation::Julia;
                 let found = index
                     .checked_sub(usize::from(one_based))
-                    .and_then(|index| list.and_then(|list| list.into_iter().nth(index)));
+                    .and_then(|index| list.and_then(|list| list.get(index).cloned()));
                 match found {
                     Some(value) => Item::One(value),
                     None => {
@@ -537,6 +605,13 @@ impl Parser<'_, '_> {
                 .map_err(|kind| self.wrong(span.clone(), kind)),
             _ => wrong("two numbers"),
         };
+        // A vector of several numbers; several arguments are something else in C++.
+        let vectors = matches!(
+            self.source.notation,
+            Notation::Julia | Notation::Python | Notation::Mathematica
+        );
+        // The precision, or the kind of Fortran, is no number of the table.
+        let second = matches!(name, "N" | "mpf" | "Float") || plain == "real";
         match (plain.as_str(), arguments.len()) {
             ("sqrt" | "sunrsqrt" | "cbrt" | "cuberoot", _) => match &arguments[..] {
                 [Item::One(value)] => {
@@ -552,8 +627,19 @@ impl Parser<'_, '_> {
             },
             ("pow" | "power" | "sunrpowerr", _) => two(Value::power),
             ("rational" | "fraction", 2) => two(Value::divide),
-            ("rational" | "fraction" | "integer", 1) => Ok(first(arguments)),
-            (conversion, 1..) if CONVERSIONS.contains(&conversion) => Ok(first(arguments)),
+            ("integer", 1) => match &arguments[..] {
+                [Item::One(value)]
+                    if value.constant.as_rational().is_some_and(|x| x.is_integer()) =>
+                {
+                    Ok(first(arguments))
+                }
+                _ => wrong("an integer"),
+            },
+            ("rational" | "fraction", 1) => Ok(first(arguments)),
+            ("svector" | "vector" | "array", 2..) if vectors => Ok(joined(arguments)),
+            (conversion, 1) if CONVERSIONS.contains(&conversion) => Ok(first(arguments)),
+            (_, 2) if second && matches!(arguments[1], Item::One(_)) => Ok(first(arguments)),
+            (conversion, _) if CONVERSIONS.contains(&conversion) => wrong("one argument"),
             _ => {
                 let kind = ErrorKind::Unknown {
                     what: "function",
@@ -567,11 +653,26 @@ impl Parser<'_, '_> {
     }
 }
 
+/// Types of Julia that stand before a list of their numbers.
+const TYPES: [&str; 13] = [
+    "SA", "T", "T2", "Float64", "Float32", "BigFloat", "Rational", "BigInt", "Int", "Int64",
+    "Real", "Number", "Any",
+];
+
+/// Whether it is a list of several numbers.
+fn is_long(item: &Item) -> bool {
+    matches!(item, Item::Many(values) if values.len() > 1)
+}
+
 fn joined(items: Vec<Item>) -> Item {
     Item::Many(items.into_iter().flat_map(Item::values).collect())
 }
 
+/// The first argument, which is a real number of its language from here on.
 fn first(arguments: Vec<Item>) -> Item {
-    let mut arguments = arguments.into_iter();
-    arguments.next().unwrap_or(Item::Many(Vec::new()))
+    match arguments.into_iter().next() {
+        Some(Item::One(value)) => Item::One(value.with_whole(false)),
+        Some(list) => list,
+        None => Item::Many(Vec::new()),
+    }
 }

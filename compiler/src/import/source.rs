@@ -7,20 +7,23 @@
 //!
 //! Everything else in the text is passed over.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::rc::Rc;
 
 use super::parser::{Item, Parser};
-use super::tokens::{Spanned, Token, tokenize};
+use super::tokens::{Kind, Spanned, Token, is_fortran, tokenize};
 use super::value::Value;
 use crate::error::{Error, ErrorKind};
-use crate::expression::Input;
+use crate::expression::{Input, shown};
 use crate::library::Notation;
 use crate::symbolic::Constant;
 
 /// The most numbers in a list: the matrix of a hundred stages.
 pub(super) const MAX_NUMBERS: usize = 10_000;
+/// The most numbers that are copied from lists into others.
+const MAX_COPIES: usize = 100 * MAX_NUMBERS;
 
 /// Where values are assigned to a name.
 #[derive(Default)]
@@ -29,82 +32,205 @@ pub(super) struct Assigned {
     pub whole: Option<(Range<usize>, usize)>,
     /// The same for `a[3]`, by the number.
     pub elements: BTreeMap<usize, (Range<usize>, usize)>,
-    /// The name, where something is assigned a second time.
-    pub again: Option<Range<usize>>,
+    /// Where it is not certain what the name stands for, and why.
+    pub refused: Option<(Range<usize>, &'static str)>,
+}
+
+impl Assigned {
+    /// An error only where the values of this name are asked for.
+    fn refuse(&mut self, span: Range<usize>, why: &'static str) {
+        self.refused.get_or_insert((span, why));
+    }
+}
+
+const AGAIN: &str = "has a value already; a file holds one table";
+const CHANGED: &str = "is changed later; write the numbers that it has in the end";
+const INDEX: &str = "has an index that is not one number; write the list as a whole";
+const TOGETHER: &str = "gets its value together with others; give each name its own";
+
+/// What an assignment begins with.
+struct Target {
+    name: String,
+    /// The number in brackets.
+    index: Option<usize>,
+    /// How many brackets there are.
+    brackets: usize,
+    /// The first token of the value.
+    value: usize,
 }
 
 /// A text with its assignments.
 pub(super) struct Source<'a> {
     pub input: Input<'a>,
     pub notation: Notation,
+    pub fortran: bool,
     tokens: Vec<Spanned>,
+    /// In how many brackets each token is.
+    depths: Vec<usize>,
     pub names: BTreeMap<String, Assigned>,
     /// How many values were computed: a name may stand in many others, and these in many others again.
     computed: Cell<usize>,
+    /// How many numbers were copied from lists.
+    copied: Cell<usize>,
+    /// The lists that are computed.
+    lists: RefCell<BTreeMap<String, Rc<Vec<Value>>>>,
 }
 
 impl<'a> Source<'a> {
     /// Finds the assignments.
     pub fn scan(input: Input<'a>, notation: Notation) -> Result<Self, Error> {
-        let tokens = tokenize(input, 0..input.text.len(), notation)?;
-        let mut source = Source {
-            input,
-            notation,
-            tokens,
-            names: BTreeMap::new(),
-            computed: Cell::new(0),
-        };
+        let mut source = Source::empty(input, notation);
+        source.fortran = is_fortran(input.text, notation);
+        source.tokens = tokenize(input, 0..input.text.len(), notation, Kind::File)?;
+        let mut depth = 0_usize;
+        for token in &source.tokens {
+            if let Token::Symbol(')' | ']' | '}') = token.token {
+                depth = depth.saturating_sub(1);
+            }
+            source.depths.push(depth);
+            if let Token::Symbol('(' | '[' | '{') = token.token {
+                depth += 1;
+            }
+        }
         for at in 0..source.tokens.len() {
-            if let Some((name, index, value)) = source.assignment(at) {
-                source.note(at, name, index, value);
+            let Token::Name(name) = &source.tokens[at].token else {
+                continue;
+            };
+            let name = name.clone();
+            if let Some(target) = source.assignment(at, &name) {
+                source.note(at, target);
+            } else if source.changes(at) {
+                let span = source.tokens[at].span.clone();
+                source.names.entry(name).or_default().refuse(span, CHANGED);
+            }
+        }
+        for assigned in source.names.values_mut() {
+            let whole = assigned.whole.is_some();
+            if let Some((span, _)) = assigned.elements.values().next().filter(|_| whole) {
+                let span = span.clone();
+                assigned.refuse(span, CHANGED);
             }
         }
         Ok(source)
     }
 
-    /// The name, the number in brackets and the first token of the value, if an assignment begins at a token.
-    fn assignment(&self, at: usize) -> Option<(String, Option<usize>, usize)> {
-        let Token::Name(name) = &self.tokens[at].token else {
-            return None;
-        };
-        let (mut after, mut index) = (at + 1, None);
-        while let Some(close) = match self.symbol(after) {
-            Some('[') => Some(']'),
-            Some('(') => Some(')'),
-            _ => None,
-        } {
-            let number = match &self.tokens.get(after + 1)?.token {
-                Token::Number(value) => {
+    fn empty(input: Input<'a>, notation: Notation) -> Self {
+        Source {
+            input,
+            notation,
+            fortran: false,
+            tokens: Vec::new(),
+            depths: Vec::new(),
+            names: BTreeMap::new(),
+            computed: Cell::new(0),
+            copied: Cell::new(0),
+            lists: RefCell::default(),
+        }
+    }
+
+    /// The first token behind the brackets that follow a name, how many they are, and the number in the only one.
+    fn brackets(&self, at: usize) -> Option<(usize, usize, Option<usize>)> {
+        let (mut after, mut brackets, mut index) = (at + 1, 0, None);
+        while let Some('[' | '(') = self.symbol(after) {
+            let depth = self.depths[after];
+            // The size of an array may be anything.
+            let inner = self.depths[after + 1..].iter().take(64);
+            let length = inner.take_while(|&&inside| inside > depth).count();
+            let end = after + 1 + length;
+            if !matches!(self.symbol(end), Some(']' | ')')) {
+                return None;
+            }
+            let number = match &self.tokens[after + 1].token {
+                Token::Number(value) if length == 1 => {
                     let whole = value.constant.as_rational().filter(|x| x.is_integer());
                     whole.and_then(|x| usize::try_from(x.to_integer()).ok())
                 }
                 _ => None,
             };
-            index = number.or(index);
-            // The size of an array may be anything, or a second one behind a comma.
-            let length = self.tokens[after..].iter().take(8);
-            let end = length
-                .enumerate()
-                .find(|(_, token)| matches!(token.token, Token::Symbol(c) if c == close))?;
-            after += end.0 + 1;
+            index = number.filter(|_| brackets == 0);
+            brackets += 1;
+            after = end + 1;
         }
+        Some((after, brackets, index))
+    }
+
+    /// What an assignment begins with, if one begins at a name.
+    fn assignment(&self, at: usize, name: &str) -> Option<Target> {
+        let (after, brackets, index) = self.brackets(at)?;
         let equals = self.symbol(after) == Some('=');
-        equals.then(|| (name.clone(), index, self.skip_lines(after + 1)))
+        equals.then(|| Target {
+            name: name.to_owned(),
+            index,
+            brackets,
+            value: self.skip_lines(after + 1),
+        })
+    }
+
+    /// Whether what a name stands for is changed here: `a += 1`, `a .*= 2`, `a[1]++`, `push!(a, 1)`.
+    fn changes(&self, at: usize) -> bool {
+        let before = |n: usize| at.checked_sub(n).and_then(|at| self.symbol(at));
+        let function = at.checked_sub(3).and_then(|at| self.tokens.get(at));
+        let named = function.is_some_and(|token| matches!(token.token, Token::Name(_)));
+        let julia = self.notation == Notation::Julia;
+        if julia && named && before(1) == Some('(') && before(2) == Some('!') {
+            return true;
+        }
+        let Some((mut after, ..)) = self.brackets(at) else {
+            return false;
+        };
+        let clings = |at: usize| self.tokens.get(at).is_some_and(|token| !token.apart);
+        if self.symbol(after) == Some('.') {
+            after += 1;
+            if self.symbol(after) == Some('=') && clings(after) {
+                return true;
+            }
+        }
+        match self.symbol(after) {
+            Some(sign @ ('+' | '-')) if self.symbol(after + 1) == Some(sign) => {
+                self.notation == Notation::C && clings(after + 1)
+            }
+            Some('+' | '-' | '*' | '/' | '÷' | '^' | '%' | '|' | '&' | '@') => {
+                self.symbol(after + 1) == Some('=') && clings(after + 1)
+            }
+            _ => false,
+        }
     }
 
     /// Notes an assignment: of an element where the value is no list.
-    fn note(&mut self, at: usize, name: String, index: Option<usize>, value: usize) {
+    fn note(&mut self, at: usize, target: Target) {
+        let Target {
+            name,
+            index,
+            brackets,
+            value,
+        } = target;
         let list = matches!(self.symbol(value), Some('{' | '['));
-        let place = (self.tokens[at].span.clone(), value);
+        // The size of a list in its declaration.
+        let declared = list && (self.notation == Notation::C || self.fortran);
+        let unclear = brackets > 0 && !declared && (list || brackets > 1 || index.is_none());
+        let before = at.checked_sub(1).and_then(|at| self.symbol(at));
+        let together = before == Some(',') && self.depths[at] == 0 && self.has_tuples();
+        let span = self.tokens[at].span.clone();
+        let place = (span.clone(), value);
         let assigned = self.names.entry(name).or_default();
-        let before = match index.filter(|_| !list) {
+        let earlier = match index.filter(|_| !list && brackets == 1) {
             Some(index) => assigned.elements.insert(index, place),
             None => assigned.whole.replace(place),
         };
-        // An error only where the values of this name are asked for.
-        if before.is_some() && assigned.again.is_none() {
-            assigned.again = Some(self.tokens[at].span.clone());
+        for (holds, why) in [
+            (unclear, INDEX),
+            (together, TOGETHER),
+            (earlier.is_some(), AGAIN),
+        ] {
+            if holds {
+                assigned.refuse(span.clone(), why);
+            }
         }
+    }
+
+    /// Whether a comma outside brackets makes a tuple, and not another declaration.
+    fn has_tuples(&self) -> bool {
+        self.notation != Notation::C && !self.fortran
     }
 
     /// Whether a name has a value, or `a1`, `a2`, … have.
@@ -114,13 +240,8 @@ impl<'a> Source<'a> {
 
     /// `a1`, `a2`, … by their numbers.
     fn numbered(&self, name: &str) -> BTreeMap<usize, String> {
-        let numbered = self.names.keys().filter_map(|key| {
-            let digits = key.strip_prefix(name)?;
-            let digits = digits.strip_prefix('_').unwrap_or(digits);
-            let plain = digits.bytes().all(|byte| byte.is_ascii_digit());
-            let number = plain.then(|| digits.parse().ok()).flatten()?;
-            Some((number, key.clone()))
-        });
+        let keys = self.names.keys();
+        let numbered = keys.filter_map(|key| Some((number(name, key)?, key.clone())));
         numbered.collect()
     }
 
@@ -130,6 +251,7 @@ impl<'a> Source<'a> {
     /// The first thing in it that is not a number, a name that is assigned twice, and numbers that do not follow one another.
     pub fn list(&self, name: &str) -> Result<Option<Vec<Value>>, Error> {
         self.list_within(name, 0)
+            .map(|list| list.map(|list| list.to_vec()))
     }
 
     /// Where a name is first assigned.
@@ -145,7 +267,21 @@ impl<'a> Source<'a> {
         own.or_else(numbered).map_or(0..0, |(span, _)| span.clone())
     }
 
-    pub fn list_within(&self, name: &str, depth: usize) -> Result<Option<Vec<Value>>, Error> {
+    /// The same, computed once.
+    pub fn list_within(&self, name: &str, depth: usize) -> Result<Option<Rc<Vec<Value>>>, Error> {
+        if let Some(known) = self.lists.borrow().get(name) {
+            return Ok(Some(Rc::clone(known)));
+        }
+        let Some(list) = self.computed_list(name, depth)? else {
+            return Ok(None);
+        };
+        let list = Rc::new(list);
+        let mut lists = self.lists.borrow_mut();
+        lists.insert(name.to_owned(), Rc::clone(&list));
+        Ok(Some(list))
+    }
+
+    fn computed_list(&self, name: &str, depth: usize) -> Result<Option<Vec<Value>>, Error> {
         if let Some(assigned) = self.names.get(name) {
             self.once(name)?;
             if let Some((_, value)) = &assigned.whole {
@@ -153,11 +289,23 @@ impl<'a> Source<'a> {
             }
             let places = assigned.elements.iter();
             let places = places.map(|(&index, (span, value))| (index, span.clone(), *value));
-            return self.elements(name, places, depth).map(Some);
+            let from_zero = match self.notation {
+                Notation::C => !self.fortran,
+                Notation::Python => true,
+                Notation::Julia | Notation::Mathematica => false,
+            };
+            let first = from_zero.then_some(0);
+            return self.elements(name, places, first, depth).map(Some);
         }
         let numbered = self.numbered(name);
         if numbered.is_empty() {
             return Ok(None);
+        }
+        // `a1` and `a01`
+        let names = self.names.keys().filter(|key| number(name, key).is_some());
+        if names.count() > numbered.len() {
+            let message = format!("two of the numbered `{name}` have the same number");
+            return Err(self.wrong(&self.place(name), message));
         }
         let mut places = Vec::new();
         for (index, name) in numbered {
@@ -167,19 +315,43 @@ impl<'a> Source<'a> {
                 places.push((index, span, value));
             }
         }
-        self.elements(name, places.into_iter(), depth).map(Some)
+        self.elements(name, places.into_iter(), None, depth)
+            .map(Some)
     }
 
+    /// What is assigned to a name as a whole; a list is computed once.
+    pub fn whole(&self, name: &str, value: usize, depth: usize) -> Result<Item, Error> {
+        let known = self.lists.borrow().get(name).map(Rc::clone);
+        if let Some(list) = known.filter(|list| list.len() != 1) {
+            return self.copy(name, &list).map(Item::Many);
+        }
+        let item = self.evaluate(value, depth)?;
+        if let Item::Many(values) = &item {
+            let list = Rc::new(self.copy(name, values)?);
+            self.lists.borrow_mut().insert(name.to_owned(), list);
+        }
+        Ok(item)
+    }
+
+    /// The numbers of a list, of which there may not be too many.
+    pub fn copy(&self, name: &str, list: &[Value]) -> Result<Vec<Value>, Error> {
+        self.copied.set(self.copied.get() + list.len());
+        if self.copied.get() > MAX_COPIES {
+            let kind = ErrorKind::ExpressionSize {
+                what: "the number of values that are copied from lists",
+                size: self.copied.get(),
+                limit: MAX_COPIES,
+            };
+            return Err(self.input.error(&self.place(name), kind));
+        }
+        Ok(list.to_vec())
+    }
+
+    /// Refuses a name of which it is not certain what it stands for.
     pub fn once(&self, name: &str) -> Result<(), Error> {
-        match self
-            .names
-            .get(name)
-            .and_then(|assigned| assigned.again.as_ref())
-        {
-            Some(span) => {
-                let message = format!("`{name}` has a value already; a file holds one table");
-                Err(self.wrong(span, message))
-            }
+        let assigned = self.names.get(name);
+        match assigned.and_then(|assigned| assigned.refused.as_ref()) {
+            Some((span, why)) => Err(self.wrong(span, format!("`{}` {why}", shown(name)))),
             None => Ok(()),
         }
     }
@@ -188,9 +360,10 @@ impl<'a> Source<'a> {
         &self,
         name: &str,
         places: impl Iterator<Item = (usize, Range<usize>, usize)>,
+        first: Option<usize>,
         depth: usize,
     ) -> Result<Vec<Value>, Error> {
-        let mut next = None;
+        let mut next = first;
         let mut values = Vec::new();
         for (index, span, value) in places {
             let expected = next.unwrap_or(index.min(1));
@@ -229,13 +402,31 @@ impl<'a> Source<'a> {
             at,
             depth,
             inside: 0,
+            matrix: false,
         };
         let item = parser.expression()?;
-        match parser.peek() {
-            None | Some(Token::Line | Token::Symbol(',' | ';' | ')' | ']' | '}')) => Ok(item),
-            // The end of a Julia tuple, or the next word of a declaration.
-            Some(Token::Name(_)) if parser.tokens[parser.at].apart => Ok(item),
-            Some(_) => Err(parser.unexpected("an operator, or the end of the statement")),
+        let after = parser.at;
+        let Some(found) = self.tokens.get(after) else {
+            return Ok(item);
+        };
+        let previous = after.checked_sub(1).and_then(|at| self.tokens.get(at));
+        let between = previous.map_or(0..0, |previous| previous.span.end..found.span.start);
+        let other_line = self
+            .input
+            .text
+            .get(between)
+            .is_some_and(|gap| gap.contains('\n'));
+        match &found.token {
+            Token::Line | Token::Symbol(';' | ')' | ']' | '}') => Ok(item),
+            Token::Symbol(',') if self.depths[after] == 0 && self.has_tuples() => {
+                let message = "several values without brackets; write them as a list".to_owned();
+                Err(self.wrong(&found.span, message))
+            }
+            Token::Symbol(',') => Ok(item),
+            // The next statement of Fortran, or the end of a block of Julia.
+            Token::Name(_) if other_line => Ok(item),
+            Token::Name(name) if name == "end" && self.notation == Notation::Julia => Ok(item),
+            _ => Err(parser.unexpected("an operator, or the end of the statement")),
         }
     }
 
@@ -247,7 +438,11 @@ impl<'a> Source<'a> {
     }
 
     fn skip_lines(&self, mut at: usize) -> usize {
-        while matches!(self.tokens.get(at), Some(found) if matches!(found.token, Token::Line)) {
+        // In Python the line ends the statement.
+        let over = self.notation != Notation::Python;
+        while over
+            && matches!(self.tokens.get(at), Some(found) if matches!(found.token, Token::Line))
+        {
             at += 1;
         }
         at
@@ -265,13 +460,7 @@ pub(super) fn value_of(
     range: Range<usize>,
     notation: Notation,
 ) -> Result<Value, Error> {
-    let source = Source {
-        input,
-        notation,
-        tokens: Vec::new(),
-        names: BTreeMap::new(),
-        computed: Cell::new(0),
-    };
+    let source = Source::empty(input, notation);
     let mut parser = Parser {
         source: &source,
         tokens: &[],
@@ -279,11 +468,20 @@ pub(super) fn value_of(
         at: 0,
         depth: 0,
         inside: 1,
+        matrix: false,
     };
     match parser.quoted(range.clone())? {
         Item::One(value) => Ok(value),
         Item::Many(_) => Err(source.wrong(&range, "a list where a number is needed".to_owned())),
     }
+}
+
+/// The number of `a1` or `a_1` behind the name `a`.
+fn number(name: &str, key: &str) -> Option<usize> {
+    let digits = key.strip_prefix(name)?;
+    let digits = digits.strip_prefix('_').unwrap_or(digits);
+    let plain = digits.bytes().all(|byte| byte.is_ascii_digit());
+    plain.then(|| digits.parse().ok()).flatten()
 }
 
 /// The number 0.

@@ -34,11 +34,32 @@ pub(super) struct Spanned {
     pub apart: bool,
 }
 
+/// What the text of the tokens is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A file, with comments and continued lines.
+    File,
+    /// A single number, as between quotes.
+    Number,
+}
+
+/// Whether a text is Fortran: declarations with ` :: ` or lines that `&` continues, and no braces.
+pub(super) fn is_fortran(text: &str, notation: Notation) -> bool {
+    let continued = |line: &str| {
+        let line = line.trim_end();
+        line.ends_with('&') && !line.ends_with("&&")
+    };
+    matches!(notation, Notation::C | Notation::Julia)
+        && !text.contains(['{', '}'])
+        && (text.contains(" :: ") || text.lines().any(continued))
+}
+
 /// Reads the tokens of a part of a text.
 pub(super) fn tokenize(
     input: Input<'_>,
     range: Range<usize>,
     notation: Notation,
+    kind: Kind,
 ) -> Result<Vec<Spanned>, Error> {
     if input.text.len() > MAX_LENGTH {
         let kind = ErrorKind::ExpressionSize {
@@ -51,14 +72,34 @@ pub(super) fn tokenize(
     let mut reader = Reader {
         input,
         notation,
+        kind,
+        fortran: kind == Kind::File && is_fortran(input.text, notation),
         at: range.start,
         end: range.end,
     };
     let mut tokens = Vec::new();
     let mut apart = true;
+    // Whether nothing is before it in its line.
+    let mut fresh = true;
     while reader.at < reader.end {
         let start = reader.at;
-        match reader.next()? {
+        let continues = reader.fortran && fresh && !tokens.is_empty();
+        if continues && reader.rest().starts_with('&') {
+            // The line before goes on here.
+            if matches!(
+                tokens.last(),
+                Some(Spanned {
+                    token: Token::Line,
+                    ..
+                })
+            ) {
+                tokens.pop();
+            }
+            reader.skip(1);
+            (apart, fresh) = (true, false);
+            continue;
+        }
+        match reader.next(tokens.last(), apart)? {
             Some(token) => {
                 let span = start..reader.at;
                 let line = matches!(token, Token::Line);
@@ -67,6 +108,8 @@ pub(super) fn tokenize(
             }
             None => apart = true,
         }
+        let read = &input.text[start..reader.at];
+        fresh = read.contains('\n') || fresh && read.trim().is_empty();
     }
     Ok(tokens)
 }
@@ -74,6 +117,8 @@ pub(super) fn tokenize(
 struct Reader<'a> {
     input: Input<'a>,
     notation: Notation,
+    kind: Kind,
+    fortran: bool,
     at: usize,
     end: usize,
 }
@@ -93,35 +138,133 @@ impl<'a> Reader<'a> {
         self.skip(rest.find(|c| !accept(c)).unwrap_or(rest.len()));
     }
 
-    /// The next token; `None` for white space and comments.
-    fn next(&mut self) -> Result<Option<Token>, Error> {
+    fn wrong(&self, span: Range<usize>, message: &str) -> Error {
+        let message = message.to_owned();
+        self.input.error(&span, ErrorKind::Document { message })
+    }
+
+    /// Skips a comment of several lines or a text of several lines.
+    fn block(&mut self, open: &str, close: &str) -> Result<(), Error> {
+        let nests = matches!(open, "#=" | "(*");
+        let (start, mut depth) = (self.at, 1_usize);
+        self.skip(open.len());
+        while depth > 0 {
+            let rest = self.rest();
+            if rest.starts_with(close) {
+                depth -= 1;
+                self.skip(close.len());
+            } else if nests && rest.starts_with(open) {
+                depth += 1;
+                self.skip(open.len());
+            } else if let Some(next) = rest.chars().next() {
+                self.skip(next.len_utf8());
+            } else {
+                let span = start..start + open.len();
+                return Err(self.wrong(span, &format!("`{open}` has no `{close}` behind it")));
+            }
+        }
+        Ok(())
+    }
+
+    /// Skips a comment, if one begins here.
+    fn comment(&mut self, first: char, last: Option<&Spanned>) -> Result<bool, Error> {
+        if self.kind == Kind::Number {
+            return Ok(false);
+        }
         let rest = self.rest();
-        let Some(first) = rest.chars().next() else {
+        // `%` is an operator of Julia, except where a number cannot end.
+        let begins = || match last.map(|last| &last.token) {
+            None | Some(Token::Line) => true,
+            Some(Token::Symbol(c)) => matches!(c, ';' | ',' | '['),
+            Some(_) => false,
+        };
+        let blocks: &[(&str, &str)] = match self.notation {
+            Notation::C => &[("/*", "*/")],
+            Notation::Julia => &[("#=", "=#"), ("%{", "%}")],
+            Notation::Python => &[],
+            Notation::Mathematica => &[("(*", "*)")],
+        };
+        let block = blocks.iter().find(|(open, _)| rest.starts_with(open));
+        if let Some((open, close)) = block.filter(|(open, _)| *open != "%{" || begins()) {
+            self.block(open, close)?;
+            return Ok(true);
+        }
+        let line = match (self.notation, first) {
+            (Notation::C, '#') => true,
+            (Notation::C, '/') => rest.starts_with("//"),
+            (Notation::Julia | Notation::Python, '#') => true,
+            (Notation::Julia, '%') => begins(),
+            _ => false,
+        };
+        let line = line || self.fortran && first == '!';
+        if !line {
+            return Ok(false);
+        }
+        // The end of the line is a token.
+        self.run(|c| c != '\n');
+        while self.notation == Notation::C
+            && self.input.text[..self.at]
+                .trim_end_matches('\r')
+                .ends_with('\\')
+            && self.at < self.end
+        {
+            self.skip(1);
+            self.run(|c| c != '\n');
+        }
+        Ok(true)
+    }
+
+    /// Skips the mark of a line that goes on, of Fortran, Python and Matlab, if one stands here.
+    fn continued(&mut self, first: char) -> bool {
+        if self.kind == Kind::Number {
+            return false;
+        }
+        let rest = self.rest();
+        let (mark, comments): (usize, &[char]) = match (self.notation, first) {
+            (Notation::C | Notation::Julia, '&') if self.fortran => (1, &['!']),
+            (_, '\\') => (1, &[]),
+            (Notation::Julia, '.') if rest.starts_with("...") => (3, &['%', '#']),
+            _ => return false,
+        };
+        let line = rest[mark..].split('\n').next().unwrap_or_default();
+        let blank = line.trim_start();
+        if blank.is_empty() || blank.starts_with(comments) {
+            self.skip(mark + line.len() + 1);
+            return true;
+        }
+        // `...` in a line puts the entries of a list one after another.
+        if mark == 3 {
+            self.skip(mark);
+        }
+        mark == 3
+    }
+
+    /// The next token; `None` for white space and comments.
+    fn next(&mut self, last: Option<&Spanned>, apart: bool) -> Result<Option<Token>, Error> {
+        let Some(first) = self.rest().chars().next() else {
             return Ok(None);
         };
-        let comment = match rest {
-            _ if rest.starts_with("/*") => Some("*/"),
-            _ if rest.starts_with("(*") && self.notation == Notation::Mathematica => Some("*)"),
-            _ if rest.starts_with("//") && self.notation == Notation::C => Some("\n"),
-            _ if matches!(first, '#' | '%' | '!') => Some("\n"),
-            _ => None,
-        };
-        if let Some(end) = comment {
-            let length = rest.find(end);
-            // The end of the line is a token.
-            let after = if end == "\n" { 0 } else { end.len() };
-            self.skip(length.map_or(rest.len(), |length| length + after));
+        if self.comment(first, last)? {
             return Ok(None);
         }
         if first == '\n' {
             self.skip(1);
             return Ok((self.notation != Notation::C).then_some(Token::Line));
         }
-        // Continuation marks of Fortran, Python and Matlab.
-        if matches!(first, '&' | '\\') || rest.starts_with("...") {
-            self.run(|c| c != '\n');
-            self.skip(1);
+        if self.continued(first) {
             return Ok(None);
+        }
+        let rest = self.rest();
+        for quotes in ["\"\"\"", "'''"] {
+            let known = match self.notation {
+                Notation::Python => true,
+                Notation::Julia => quotes.starts_with('"'),
+                Notation::C | Notation::Mathematica => false,
+            };
+            if known && self.kind == Kind::File && rest.starts_with(quotes) {
+                self.block(quotes, quotes)?;
+                return Ok(Some(Token::Symbol('"')));
+            }
         }
         if first.is_whitespace() {
             self.skip(first.len_utf8());
@@ -131,26 +274,37 @@ impl<'a> Reader<'a> {
         if first.is_ascii_digit() || first == '.' && digit_follows {
             return self.number().map(|value| Some(Token::Number(value)));
         }
-        if first == '"' || first == '\'' {
-            return Ok(Some(self.text(first)));
+        // A matrix is transposed by the `'` that clings to it.
+        let transposed = self.notation == Notation::Julia
+            && first == '\''
+            && !apart
+            && last.is_some_and(|last| match last.token {
+                Token::Symbol(c) => matches!(c, ')' | ']' | '}' | '.' | '\''),
+                Token::Name(_) | Token::Number(_) => true,
+                Token::Text(_) | Token::Line => false,
+            });
+        if first == '"' || first == '\'' && !transposed {
+            return self.text(first).map(Some);
         }
         if first.is_alphabetic() || first == '_' {
-            let start = self.at;
-            self.run(|c| c.is_alphanumeric() || c == '_');
-            let name = self.input.text[start..self.at].to_owned();
-            // `table->a`, `numpy.array` and `std::sqrt` are their last parts.
-            let rest = self.rest();
-            let link = ["->", "::", "."].into_iter().find(|link| {
-                rest.strip_prefix(link)
-                    .is_some_and(|rest| rest.starts_with(|c: char| c.is_alphabetic() || c == '_'))
-            });
-            return Ok(match link {
-                Some(link) => {
-                    self.skip(link.len());
-                    self.next()?
+            loop {
+                let start = self.at;
+                self.run(|c| c.is_alphanumeric() || c == '_');
+                let name = start..self.at;
+                // `table->a`, `numpy.array` and `std::sqrt` are their last parts.
+                let rest = self.rest();
+                // `a.b` is a product in Mathematica.
+                let dots = self.notation != Notation::Mathematica;
+                let link = ["->", "::", "."].into_iter().filter(|_| dots).find(|link| {
+                    rest.strip_prefix(link).is_some_and(|rest| {
+                        rest.starts_with(|c: char| c.is_alphabetic() || c == '_')
+                    })
+                });
+                match link {
+                    Some(link) => self.skip(link.len()),
+                    None => return Ok(Some(Token::Name(self.input.text[name].to_owned()))),
                 }
-                None => Some(Token::Name(name)),
-            });
+            }
         }
         for (mark, symbol) in [("//", '÷'), ("**", '^'), (":=", '='), ("==", '≡')] {
             if rest.starts_with(mark) {
@@ -162,38 +316,67 @@ impl<'a> Reader<'a> {
         Ok(Some(Token::Symbol(first)))
     }
 
-    fn text(&mut self, quote: char) -> Token {
+    /// What stands between quotes, in one line.
+    fn text(&mut self, quote: char) -> Result<Token, Error> {
+        let open = self.at..self.at + 1;
         self.skip(1);
         let start = self.at;
-        self.run(|c| c != quote && c != '\n');
+        loop {
+            self.run(|c| c != quote && c != '\n' && c != '\\');
+            if !self.rest().starts_with('\\') {
+                break;
+            }
+            self.skip(1);
+            let escaped = self.rest().chars().next();
+            self.skip(escaped.map_or(0, char::len_utf8));
+        }
         let range = start..self.at;
+        if !self.rest().starts_with(quote) {
+            return Err(self.wrong(open, &format!("`{quote}` has no `{quote}` in this line")));
+        }
         self.skip(1);
-        Token::Text(range)
+        Ok(Token::Text(range))
     }
 
     /// A number with whatever its language puts behind it.
     fn number(&mut self) -> Result<Value, Error> {
         let start = self.at;
         let text = self.rest();
-        let value = match text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
-            Some(digits) => {
+        let hexadecimal_digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
+        let mut value = match hexadecimal_digits {
+            Some(digits) if self.notation != Notation::Mathematica => {
                 let (value, length) = hexadecimal(digits);
                 self.skip(2 + length);
                 value
             }
-            None => {
-                let (value, length) = decimal(text);
+            _ => {
+                let (value, length) = decimal(text, self.exponents());
                 self.skip(length);
                 value
             }
         };
+        // `010` is 8 in C.
+        let digits = &self.input.text[start..self.at];
+        let octal = self.notation == Notation::C
+            && !self.fortran
+            && digits.len() > 1
+            && digits.starts_with('0')
+            && digits.bytes().all(|byte| byte.is_ascii_digit());
         self.suffix();
+        if self.at > start + digits.len()
+            && let Some(value) = &mut value
+        {
+            value.whole = false;
+        }
         // `2a1` is a product in Julia.
-        let product = self.notation == Notation::Julia;
+        let product = self.notation == Notation::Julia && !self.fortran;
         let glued = self.rest().starts_with(|c: char| {
-            c.is_alphanumeric() && !product || c.is_ascii_digit() || c == '_' || c == '.'
+            c.is_alphanumeric() && !product
+                || c.is_ascii_digit()
+                || matches!(c, '_' | '.' | '`')
+                || c == '\'' && self.notation == Notation::C
         });
-        let value = value.filter(|_| !glued);
+        let value = value.filter(|_| !glued && !octal);
         value.ok_or_else(|| {
             self.run(|c| c.is_alphanumeric() || c == '_' || c == '.');
             let span = start..self.at;
@@ -205,22 +388,34 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// `_real64`, `f`, `L`, and the precision `` `20 `` of Mathematica.
+    /// The marks of exponents: `e`, `d` of Fortran, `f` of Julia and `*^` of Mathematica.
+    fn exponents(&self) -> &'static [&'static str] {
+        match self.notation {
+            _ if self.fortran => &["e", "E", "d", "D"],
+            Notation::C | Notation::Python => &["e", "E"],
+            Notation::Julia => &["e", "E", "f"],
+            Notation::Mathematica => &["*^"],
+        }
+    }
+
+    /// `_real64` of Fortran, `f` and `L` of C, and the precision `` `20 `` of Mathematica.
     fn suffix(&mut self) {
         let rest = self.rest();
-        if rest.starts_with('_') {
-            self.run(|c| c.is_alphanumeric() || c == '_');
-        } else if rest.starts_with('`') {
+        if self.fortran {
+            if rest.starts_with('_') {
+                self.run(|c| c.is_alphanumeric() || c == '_');
+            }
+        } else if self.notation == Notation::Mathematica && rest.starts_with('`') {
             self.run(|c| c == '`' || c == '.' || c.is_ascii_digit());
-        } else if rest.starts_with(['f', 'F', 'l', 'L']) {
+        } else if self.notation == Notation::C && rest.starts_with(['f', 'F', 'l', 'L']) {
             let single = !rest[1..].starts_with(|c: char| c.is_alphanumeric() || c == '_');
             self.skip(usize::from(single));
         }
     }
 }
 
-/// A decimal with the exponents `e`, `d` of Fortran, `f` of Julia and `*^` of Mathematica, and its length.
-fn decimal(text: &str) -> (Option<Value>, usize) {
+/// A decimal with an exponent behind one of some marks, and its length.
+fn decimal(text: &str, marks: &[&str]) -> (Option<Value>, usize) {
     let digits = |from: usize| {
         let rest = &text[from..];
         from + rest
@@ -232,9 +427,7 @@ fn decimal(text: &str) -> (Option<Value>, usize) {
         end = digits(end + 1);
     }
     let mantissa = &text[..end];
-    let mark = ["*^", "e", "E", "d", "D", "f"]
-        .into_iter()
-        .find(|mark| text[end..].starts_with(mark));
+    let mark = marks.iter().find(|mark| text[end..].starts_with(**mark));
     let mut exponent = "";
     if let Some(mark) = mark {
         let start = end + mark.len();
@@ -288,5 +481,6 @@ fn hexadecimal(text: &str) -> (Option<Value>, usize) {
     let places = i64::try_from(places).unwrap_or(0);
     let value =
         numerator.and_then(|numerator| Value::binary(numerator, exponent - 4 * places).ok());
-    (value, end)
+    let whole = whole == end;
+    (value.map(|value| value.with_whole(whole)), end)
 }

@@ -26,6 +26,8 @@ pub(crate) struct Value {
     pub error: BigRational,
     /// A single decimal as it is written.
     text: Option<String>,
+    /// Whether it is an integer of its language, such as `1` and not `1.0`.
+    pub whole: bool,
 }
 
 impl Value {
@@ -35,6 +37,7 @@ impl Value {
             constant,
             error: BigRational::zero(),
             text: None,
+            whole: false,
         }
     }
 
@@ -47,13 +50,18 @@ impl Value {
         let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
         let long = digits.trim_matches('0').len() > EXACT_DIGITS;
         let constant = Constant::rational(printed.value().clone())?;
+        let whole = text.bytes().all(|byte| byte.is_ascii_digit());
         Ok(match long {
             true => Value {
                 constant,
                 error: printed.half_unit(),
                 text: Some(text.to_owned()),
+                whole,
             },
-            false => Value::exact(constant),
+            false => Value {
+                whole,
+                ..Value::exact(constant)
+            },
         })
     }
 
@@ -78,7 +86,14 @@ impl Value {
                 BigRational::zero()
             },
             text,
+            whole: false,
         })
+    }
+
+    /// The same number as an integer of its language, or as another number.
+    pub fn with_whole(mut self, whole: bool) -> Self {
+        self.whole = whole;
+        self
     }
 
     /// Whether it is exact.
@@ -126,6 +141,7 @@ impl Value {
                 Some(bare) => bare.to_owned(),
                 None => format!("-{}", text.trim_start_matches('+')),
             }),
+            whole: self.whole,
         })
     }
 
@@ -134,6 +150,7 @@ impl Value {
             constant: self.constant.add(&other.constant)?,
             error: &self.error + &other.error,
             text: None,
+            whole: self.whole && other.whole,
         })
     }
 
@@ -147,6 +164,7 @@ impl Value {
             constant: self.constant.multiply(&other.constant)?,
             error: x * &other.error + y * &self.error + &self.error * &other.error,
             text: None,
+            whole: self.whole && other.whole,
         })
     }
 
@@ -160,6 +178,7 @@ impl Value {
             // To first order, and twice that for the rest.
             error: error * ratio(2, 1),
             text: None,
+            whole: false,
         })
     }
 

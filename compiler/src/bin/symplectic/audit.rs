@@ -33,7 +33,9 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let limits = output::limits(arguments.max_stages);
     let mut audit = Audit::default();
-    for path in files(&arguments.paths)? {
+    let inputs = files(&arguments.paths)?;
+    refuse_overwriting(&inputs, [&arguments.json, &arguments.html])?;
+    for path in inputs {
         let text = export::read_text(&path)?;
         audit.add(&path.display().to_string(), &text, &limits)?;
     }
@@ -51,7 +53,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         "claim",
         "T(p) + U(q)",
         "T quadratic",
-        "seen",
+        "seen: p²/2, √(1 + p²)",
         "",
     ]
     .map(str::to_owned);
@@ -109,6 +111,37 @@ fn write(path: &Path, text: &str) -> Result<(), Error> {
         .map_err(|error| document(format!("cannot write `{}`: {error}", path.display())))
 }
 
+/// Refuses a result that would replace a file of tables or the other result.
+fn refuse_overwriting(inputs: &[PathBuf], outputs: [&Option<PathBuf>; 2]) -> Result<(), Error> {
+    // A file that does not exist yet is known by its folder and name.
+    let known = |path: &Path| -> Option<PathBuf> {
+        path.canonicalize().ok().or_else(|| {
+            let folder = path
+                .parent()
+                .filter(|folder| !folder.as_os_str().is_empty());
+            let folder = folder.unwrap_or(Path::new(".")).canonicalize().ok()?;
+            Some(folder.join(path.file_name()?))
+        })
+    };
+    let mut taken: Vec<Option<PathBuf>> = inputs.iter().map(|path| known(path)).collect();
+    for path in outputs.into_iter().flatten() {
+        let place = known(path);
+        if place.is_some() && taken.contains(&place) {
+            return Err(document(format!(
+                "`{}` would be written over an input or the other result",
+                path.display()
+            )));
+        }
+        taken.push(place);
+    }
+    Ok(())
+}
+
+/// A name without the characters that move the cursor or change colours.
+fn shown(name: &str) -> String {
+    name.replace(|c: char| c.is_control(), "\u{fffd}")
+}
+
 fn line(row: &Row) -> [String; 7] {
     let seen = |seen: Option<f64>| seen.map_or("–".to_owned(), |seen| format!("{seen:.2}"));
     let verdict = match row.verdict {
@@ -118,15 +151,15 @@ fn line(row: &Row) -> [String; 7] {
     };
     let unexplained = if row.explained { "" } else { " UNEXPLAINED" };
     [
-        row.library.clone(),
-        row.name.clone(),
+        shown(&row.library),
+        shown(&row.name),
         format!("{} {}", row.claim.order, row.claim.class),
         row.separable.order.to_string(),
         row.nystrom.order.to_string(),
         format!(
             "{}, {}",
-            seen(row.seen_relativistic),
-            seen(row.seen_quadratic)
+            seen(row.seen_quadratic),
+            seen(row.seen_relativistic)
         ),
         format!("{verdict}{unexplained}"),
     ]

@@ -4,20 +4,21 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use symplectic_compiler::{Error, Library, export, import};
+use symplectic_compiler::{Error, ImportOrigin, Library, export, import_with_origin};
 
 use crate::output::{self, OutputOptions};
+use crate::report;
 
 /// Read a table of another library, with the order in which that library steps its numbers.
 ///
 /// The file holds one table, in the language of the library: Julia's `1//2` and `big"0.5"`, C's `0x1.8p-1`, Fortran's `1.0d0` and
 /// `0.5_real64`, Mathematica's "1.5`20", Python's `Fraction(1, 2)`, Matlab's `[1 2; 3 4]`. Splittings have the library's letters for
 /// drifts and kicks, Runge–Kutta methods `A` or `a`, `b`, perhaps `c`, `a_tilde`, `b_tilde`. Where decimals are rounded, the result
-/// is the exact method that is proved to be near them.
+/// is the exact method that is proved to be near them, and standard error says how far away it is.
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// The library: sciml, sundials, petsc, petsc-kick-first, rungekutta.jl, odeint, nodepy, mathematica, principia, rebound or
-    /// pyhamsys.
+    /// The library: sciml, sundials, petsc, petsc-kick-first, rungekutta.jl, odeint, nodepy, mathematica, principia, rebound,
+    /// pyhamsys or pyhamsys-drift-first.
     #[arg(long, value_name = "LIBRARY")]
     from: String,
     /// The file.
@@ -34,7 +35,25 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let library = Library::find(&arguments.from)?;
     let text = export::read_text(&arguments.file)?;
     let file = arguments.file.display().to_string();
-    let mut tableau = import(library, &file, &text, &arguments.output.limits())?;
+    let limits = arguments.output.limits();
+    let (mut tableau, origin) = import_with_origin(library, &file, &text, &limits)?;
+    match origin {
+        ImportOrigin::Exact => {}
+        ImportOrigin::NearDecimals { distance } => {
+            let distance = distance.map(|distance| {
+                format!(", from which the decimals differ by at most {distance:.1e}")
+            });
+            let distance = distance.unwrap_or_default();
+            report::warning(&format!(
+                "the result is the exact method near the decimals{distance}"
+            ));
+        }
+        ImportOrigin::Decimals => {
+            report::warning(
+                "no exact method was found near the decimals, which are taken as they stand",
+            );
+        }
+    }
     if let Some(name) = &arguments.name {
         tableau = tableau.named(name);
     }
