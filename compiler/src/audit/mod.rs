@@ -69,7 +69,7 @@ impl Audit {
     /// ```
     ///
     /// # Errors
-    /// [`ErrorKind::Document`](crate::ErrorKind::Document) for what is no such file, among them a file without a `convention`;
+    /// [`ErrorKind::Document`](crate::ErrorKind::Document) for a file that is not of this form, for example without a `convention`;
     /// [`ErrorKind::Unknown`](crate::ErrorKind::Unknown) for a convention or a class that is not known;
     /// [`ErrorKind::Syntax`](crate::ErrorKind::Syntax) for the first text that is not a number. Each with its place.
     pub fn add(&mut self, file_name: &str, text: &str, limits: &Limits) -> Result<(), Error> {

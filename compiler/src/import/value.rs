@@ -231,7 +231,7 @@ impl Value {
     }
 }
 
-/// A rational number with so many decimal places.
+/// A rational number rounded to `places` decimal places.
 fn fixed_point(value: &BigRational, places: u32) -> String {
     let scaled = (value * BigRational::from_integer(BigInt::from(10).pow(places))).round();
     let digits = scaled.to_integer();

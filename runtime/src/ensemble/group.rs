@@ -331,7 +331,7 @@ where
         Attempt::Ended
     }
 
-    /// Takes steps until the first of the times is behind, and shows the states at all times in the last of them: so many.
+    /// Takes steps until the first of the times is behind, shows the states at all times in the last step, and returns their number.
     fn see_next<W>(
         &mut self,
         times: &[f64],
@@ -365,6 +365,7 @@ where
                 }
                 _ => present,
             };
+            // A zero of the sign that a run alone shows.
             shown.time = if time == present.time {
                 present.time
             } else {

@@ -44,7 +44,7 @@ where
         self.run(&Task::To(end), |_| (), |(), _| (), show)
     }
 
-    /// Takes so many steps of every trajectory, as [`Integrator::take_steps`] does. Else like [`integrate_to`](Self::integrate_to).
+    /// Takes `count` steps of every trajectory, as [`Integrator::take_steps`] does. Else like [`integrate_to`](Self::integrate_to).
     pub fn take_steps(&self, count: u64, show: impl FnMut(Row<V>) -> ControlFlow<()>) -> usize {
         self.run(&Task::Steps(count), |_| (), |(), _| (), show)
     }

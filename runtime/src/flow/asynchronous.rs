@@ -158,7 +158,7 @@ impl PartialEq for Kick {
 impl Eq for Kick {}
 
 impl<E: Elements> Asynchronous<E> {
-    /// The step of these elements, for positions of so many components.
+    /// The step of these elements, for positions with `dimension` components.
     ///
     /// # Errors
     ///
@@ -282,7 +282,8 @@ impl<E: Elements> Asynchronous<E> {
     }
 }
 
-/// The smallest number of equal steps that are no longer than `longest`, but for rounding.
+/// The smallest number of equal steps that are no longer than `longest`. A quotient that rounding has lifted above a whole number counts as
+/// that number.
 fn steps(size: f64, longest: f64) -> Result<u32, FlowError> {
     let ratio = size.abs() / longest * (1.0 - 4.0 * f64::EPSILON);
     if ratio < f64::from(u32::MAX) {

@@ -1,4 +1,4 @@
-//! What is made of many trajectories, against closed forms.
+//! Final states, states at given times, moments, histograms and files, against closed forms.
 
 use std::ops::ControlFlow;
 
@@ -80,7 +80,7 @@ fn numbers_are_in_their_bins() {
         histogram.add(-1.0 + 3.0 * (f64::from(k) + 0.5) / 7000.0);
     }
     assert_eq!(histogram.counts(), [1000; 7]);
-    // Every edge is in the bin that it begins, but for its rounding, and what is next below 2 in the last.
+    // The lower edge of a bin is in it, up to rounding; the number next below 2 is in the last bin.
     let mut edges = Histogram::new(-1.0, 2.0, 7).expect("bins");
     edges.add(-1.0);
     edges.add(2.0_f64.next_down());
@@ -231,7 +231,7 @@ fn a_file_for_numpy() {
 #[cfg(feature = "npz")]
 #[test]
 fn nothing_comes_after_an_array_in_part() {
-    /// A disk that is full after so many bytes.
+    /// A disk with room for this number of bytes.
     struct Full(usize);
 
     impl std::io::Write for Full {
