@@ -35,7 +35,7 @@
 //!     .method(Gauss4);
 //! # let settings = Settings {
 //! #     targets: vec![1e-3, 1e-6],
-//! #     budget: std::time::Duration::from_millis(5),
+//! #     budget: std::time::Duration::from_secs(60),
 //! #     repetitions: symplectic_report::Repetitions { least: 1, most: 1, enough: std::time::Duration::ZERO },
 //! # };
 //! # let _defaults =
