@@ -7,7 +7,7 @@ use num_traits::Zero;
 use crate::error::Error;
 use crate::integrator::validation::check_state;
 use crate::method::{check_no_constraints, check_no_friction};
-use crate::number::hyper_dual::HyperDual;
+use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
 use crate::state::State;
 use crate::system::Hamiltonian;
@@ -94,10 +94,7 @@ impl<S: Hamiltonian> Room<S> {
             let pairs = duals.as_mut_slice().iter_mut().zip(values.as_slice());
             pairs.for_each(|(dual, &value)| *dual = HyperDual::from_f64(value));
         }
-        let time = HyperDual {
-            first: 1.0,
-            ..HyperDual::from_f64(time)
-        };
+        let time = HyperDual::new(time, 1.0, 0.0);
         let energy = system.energy(time, &self.dual_q, &self.dual_p);
         energy.unwrap_or_else(|| HyperDual::from_f64(f64::NAN))
     }

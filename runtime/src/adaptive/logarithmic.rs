@@ -179,8 +179,8 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
         room.set_q(q);
         room.p.as_mut_slice().fill(0.0);
         let found = room.energy(&self.system, time);
-        let depth = self.positive(POTENTIAL, -found.value)?;
-        Some((depth, -found.first / depth))
+        let depth = self.positive(POTENTIAL, -found.real())?;
+        Some((depth, -found.first() / depth))
     }
 
     fn positive(&self, what: &'static str, value: f64) -> Option<f64> {

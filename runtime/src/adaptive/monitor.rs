@@ -1,6 +1,6 @@
 //! How long steps are where the positions are q.
 
-use crate::number::hyper_dual::HyperDual;
+use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
 use crate::system::{Hamiltonian, Separable};
 
@@ -239,14 +239,11 @@ impl<V: Vector<Scalar = f64>> Slopes<V> {
         }
         let duals = self.duals.as_mut_slice();
         for ((dual, &value), &first) in duals.iter_mut().zip(q).zip(direction) {
-            *dual = HyperDual {
-                first,
-                ..HyperDual::from_f64(value)
-            };
+            *dual = HyperDual::new(value, first, 0.0);
         }
         let found = monitor.value(duals);
-        if found.value > 0.0 {
-            found.first / found.value
+        if found.real() > 0.0 {
+            found.first() / found.real()
         } else {
             f64::NAN
         }
@@ -265,16 +262,16 @@ impl<V: Vector<Scalar = f64>> Slopes<V> {
             // Two components by one evaluation.
             for (pair, gradient) in gradient.chunks_mut(2).enumerate() {
                 let seed = |duals: &mut [HyperDual], slope: f64| {
-                    duals[2 * pair].first = slope;
+                    duals[2 * pair].set_first(slope);
                     if let Some(dual) = duals.get_mut(2 * pair + 1) {
-                        dual.second = slope;
+                        dual.set_second(slope);
                     }
                 };
                 seed(duals, 1.0);
                 let found = monitor.value(duals);
                 seed(duals, 0.0);
-                for (gradient, slope) in gradient.iter_mut().zip([found.first, found.second]) {
-                    *gradient = slope / found.value;
+                for (gradient, slope) in gradient.iter_mut().zip([found.first(), found.second()]) {
+                    *gradient = slope / found.real();
                 }
             }
         }

@@ -191,13 +191,13 @@ where
             let Room { q, p, slope, .. } = &mut room.of_system;
             let gradient = room.of_monitor.gradient(&self.monitor, q);
             Hamiltonian::force(&self.system, time, q, p, slope);
-            let excess = energy.value + momentum;
+            let excess = energy.real() + momentum;
             let (out, last) = parted_mut(force)?;
             let terms = slope.as_slice().iter().zip(gradient.as_slice());
             for (out, (f, g)) in out.iter_mut().zip(terms) {
                 *out = monitor * (f - excess * g);
             }
-            *last = -monitor * energy.first;
+            *last = -monitor * energy.first();
             Some(())
         });
         if found.flatten().is_none() {
@@ -211,7 +211,7 @@ where
         let fault = self.fault.get();
         let found = self.at_state((q, p), |monitor, room| {
             let energy = room.of_system.energy(&self.system, time);
-            monitor * (energy.value + momentum)
+            monitor * (energy.real() + momentum)
         });
         // It is no evaluation of a step.
         self.fault.set(fault);

@@ -234,6 +234,12 @@ macro_rules! lanes {
                 Self(self.0.abs())
             }
 
+            #[inline]
+            fn sign(self) -> Self {
+                let lanes = self.to_array();
+                Self::from_fn(|lane| lanes[lane].sign())
+            }
+
             elementary! { exp -> Self, ln -> Self, sin -> Self, cos -> Self, sin_cos -> (Self, Self) }
 
             lane_by_lane! { tan asin acos atan sinh cosh tanh }

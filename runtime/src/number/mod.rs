@@ -2,10 +2,10 @@
 
 pub(crate) mod array;
 pub(crate) mod coefficient;
+pub(crate) mod dual;
 pub(crate) mod elementary;
 #[cfg(feature = "alloc")]
 pub(crate) mod elimination;
-pub(crate) mod hyper_dual;
 pub(crate) mod lanes;
 pub(crate) mod linear_combination;
 #[cfg(feature = "alloc")]

@@ -152,6 +152,12 @@ pub trait Scalar:
     }
     /// |x|, whose derivative is the sign of x.
     fn abs(self) -> Self;
+    /// 1 with the sign of x, the derivative of |x|.
+    #[doc(hidden)]
+    #[inline]
+    fn sign(self) -> Self {
+        self.abs() / self
+    }
     /// Exponential function.
     fn exp(self) -> Self;
     /// Natural logarithm.
@@ -263,6 +269,11 @@ macro_rules! float {
             }
 
             forward! { sqrt recip abs tan asin acos atan sinh cosh tanh }
+
+            #[inline]
+            fn sign(self) -> Self {
+                Float::signum(self)
+            }
 
             #[inline]
             fn atan2(self, x: Self) -> Self {

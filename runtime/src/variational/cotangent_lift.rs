@@ -7,7 +7,7 @@ use num_traits::{Float, Zero};
 use super::regular::{Factors, Singular};
 use crate::error::Error;
 use crate::integrator::validation::check_state;
-use crate::number::hyper_dual::HyperDual;
+use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
 use crate::state::State;
 
@@ -77,17 +77,17 @@ pub fn cotangent_lift<F: PointTransformation>(
     // The largest entries of the rows, by which they are divided: units of q do not matter.
     let mut scales = vec![1.0; n];
     for (k, row) in transposed.chunks_exact_mut(n.max(1)).enumerate() {
-        position.as_mut_slice()[k].first = 1.0;
+        position.as_mut_slice()[k].set_first(1.0);
         image.as_mut_slice().fill(HyperDual::zero());
         map.map(&position, &mut image);
-        position.as_mut_slice()[k].first = 0.0;
+        position.as_mut_slice()[k].set_first(0.0);
         if image.dimension() != n {
             let (expected, found) = (n, image.dimension());
             return Err(Error::Length { expected, found });
         }
         let places = row.iter_mut().zip(new.q.as_mut_slice());
         for ((slope, value), dual) in places.zip(image.as_slice()) {
-            (*slope, *value) = (dual.first, dual.value);
+            (*slope, *value) = (dual.first(), dual.real());
         }
         let largest = row
             .iter()

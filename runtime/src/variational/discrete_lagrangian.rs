@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use num_traits::Zero;
 
 use crate::error::Error;
-use crate::number::hyper_dual::HyperDual;
+use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
 
 /// A discrete Lagrangian `Ld(q0, q1)`: about the action from `q0` at the time t to `q1` at t + h. It is written once for every scalar, and its
@@ -120,8 +120,8 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
         self.place(at);
         for k in 0..self.start.len() {
             let dual = self.along(lagrangian, at, k, k);
-            self.value = dual.value;
-            (self.start[k], self.end[k]) = (dual.first, dual.second);
+            self.value = dual.real();
+            (self.start[k], self.end[k]) = (dual.first(), dual.second());
         }
         self.add_forces(lagrangian, at);
     }
@@ -132,19 +132,19 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
         let n = self.start.len();
         for (row, column) in (0..n).flat_map(|row| (0..n).map(move |column| (row, column))) {
             let dual = self.along(lagrangian, at, row, column);
-            self.value = dual.value;
-            (self.start[row], self.end[column]) = (dual.first, dual.second);
-            self.mixed[row * n + column] = dual.mixed;
+            self.value = dual.real();
+            (self.start[row], self.end[column]) = (dual.first(), dual.second());
+            self.mixed[row * n + column] = dual.mixed();
         }
         if !L::FORCED {
             return;
         }
         for column in 0..n {
-            self.q1.as_mut_slice()[column].second = 1.0;
+            self.q1.as_mut_slice()[column].set_second(1.0);
             self.evaluate_forces(lagrangian, at);
-            self.q1.as_mut_slice()[column].second = 0.0;
+            self.q1.as_mut_slice()[column].set_second(0.0);
             for (row, force) in self.minus.as_slice().iter().enumerate() {
-                self.mixed[row * n + column] += force.second;
+                self.mixed[row * n + column] += force.second();
             }
         }
         self.add_forces(lagrangian, at);
@@ -164,24 +164,20 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
             row[..n].copy_from_slice(mixed);
         }
         let time = HyperDual::from_f64(at.time);
-        let size = |first: f64| HyperDual {
-            first,
-            second: 1.0,
-            ..HyperDual::from_f64(at.size)
-        };
+        let size = |first: f64| HyperDual::new(at.size, first, 1.0);
         for k in 0..n {
-            self.q0.as_mut_slice()[k].first = 1.0;
+            self.q0.as_mut_slice()[k].set_first(1.0);
             let dual = lagrangian.value(time, size(0.0), &self.q0, &self.q1);
-            rows[k * (n + 1) + n] = dual.mixed;
-            self.q0.as_mut_slice()[k].first = 0.0;
-            self.q1.as_mut_slice()[k].first = 1.0;
+            rows[k * (n + 1) + n] = dual.mixed();
+            self.q0.as_mut_slice()[k].set_first(0.0);
+            self.q1.as_mut_slice()[k].set_first(1.0);
             let dual = lagrangian.value(time, size(0.0), &self.q0, &self.q1);
-            rows[n * (n + 1) + k] = dual.mixed;
-            self.q1.as_mut_slice()[k].first = 0.0;
+            rows[n * (n + 1) + k] = dual.mixed();
+            self.q1.as_mut_slice()[k].set_first(0.0);
         }
         let dual = lagrangian.value(time, size(1.0), &self.q0, &self.q1);
-        rows[n * (n + 1) + n] = dual.mixed;
-        dual.first
+        rows[n * (n + 1) + n] = dual.mixed();
+        dual.first()
     }
 
     /// Whether everything that [`first`](Self::first) or [`second`](Self::second) has written is finite.
@@ -206,12 +202,12 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
         row: usize,
         column: usize,
     ) -> HyperDual {
-        self.q0.as_mut_slice()[row].first = 1.0;
-        self.q1.as_mut_slice()[column].second = 1.0;
+        self.q0.as_mut_slice()[row].set_first(1.0);
+        self.q1.as_mut_slice()[column].set_second(1.0);
         let [time, size] = [at.time, at.size].map(HyperDual::from_f64);
         let dual = lagrangian.value(time, size, &self.q0, &self.q1);
-        self.q0.as_mut_slice()[row].first = 0.0;
-        self.q1.as_mut_slice()[column].second = 0.0;
+        self.q0.as_mut_slice()[row].set_first(0.0);
+        self.q1.as_mut_slice()[column].set_second(0.0);
         dual
     }
 
@@ -231,7 +227,7 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
         self.evaluate_forces(lagrangian, at);
         for (sum, force) in [(&mut self.start, &self.minus), (&mut self.end, &self.plus)] {
             let pairs = sum.iter_mut().zip(force.as_slice());
-            pairs.for_each(|(sum, force)| *sum += force.value);
+            pairs.for_each(|(sum, force)| *sum += force.real());
         }
     }
 }

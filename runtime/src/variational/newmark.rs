@@ -13,7 +13,7 @@ use super::two_ends::dot;
 use crate::error::{Error, Quantity};
 use crate::integrator::validation::{check_state, check_step_size};
 use crate::method::storage::is_finite;
-use crate::number::hyper_dual::HyperDual;
+use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
 use crate::solver::FixedPoint;
 use crate::state::State;
@@ -314,7 +314,7 @@ impl<S: Hamiltonian> Room<S> {
             let position = self.position.as_mut_slice();
             let places = x.as_slice().iter().zip(self.q.as_slice());
             let left = places.zip(self.acceleration.as_slice());
-            let right = left.map(|((x, q), a)| x - (q.value - shift * a.value));
+            let right = left.map(|((x, q), a)| x - (q.real() - shift * a.real()));
             let correction = self.factors.correct(right, x.as_slice(), position);
             if correction.is_last {
                 return Ok(());
@@ -336,23 +336,23 @@ impl<S: Hamiltonian> Room<S> {
         pairs.for_each(|(dual, &value)| *dual = HyperDual::from_f64(value));
         for one in (0..n).step_by(2) {
             let other = one + 1;
-            self.q.as_mut_slice()[one].first = 1.0;
+            self.q.as_mut_slice()[one].set_first(1.0);
             if let Some(dual) = self.q.as_mut_slice().get_mut(other) {
-                dual.second = 1.0;
+                dual.set_second(1.0);
             }
             system.force(time, &self.q, &self.q, &mut self.force);
             system.velocity(time, &self.q, &self.force, &mut self.acceleration);
             let rows = self.matrix.chunks_exact_mut(n).enumerate();
             for ((i, row), a) in rows.zip(self.acceleration.as_slice()) {
                 let entry = |j: usize, slope: f64| f64::from(i == j) - shift * slope;
-                row[one] = entry(one, a.first);
+                row[one] = entry(one, a.first());
                 if let Some(place) = row.get_mut(other) {
-                    *place = entry(other, a.second);
+                    *place = entry(other, a.second());
                 }
             }
-            self.q.as_mut_slice()[one].first = 0.0;
+            self.q.as_mut_slice()[one].set_first(0.0);
             if let Some(dual) = self.q.as_mut_slice().get_mut(other) {
-                dual.second = 0.0;
+                dual.set_second(0.0);
             }
         }
     }

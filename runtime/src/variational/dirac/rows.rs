@@ -6,7 +6,7 @@ use num_traits::Zero;
 
 use super::DiracSystem;
 use crate::error::Error;
-use crate::number::hyper_dual::HyperDual;
+use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
 use crate::system::Gradients;
 
@@ -71,7 +71,7 @@ impl<L: DiracSystem> Rows<L> {
         component: usize,
     ) -> Option<impl Iterator<Item = Entry>> {
         place(&mut self.q, q);
-        self.q.as_mut_slice()[component].first = 1.0;
+        self.q.as_mut_slice()[component].set_first(1.0);
         self.evaluate(system)
     }
 
@@ -81,8 +81,8 @@ impl<L: DiracSystem> Rows<L> {
         let entry = |(constraint, component, entry): (usize, usize, HyperDual)| Entry {
             constraint,
             component,
-            value: entry.value,
-            slope: entry.first,
+            value: entry.real(),
+            slope: entry.first(),
         };
         settled.then(|| self.rows.entries().map(entry))
     }

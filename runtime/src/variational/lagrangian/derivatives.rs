@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use num_traits::Zero;
 
 use crate::error::Error;
-use crate::number::hyper_dual::HyperDual;
+use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
 use crate::system::Lagrangian;
 
@@ -65,13 +65,13 @@ impl<L: Lagrangian> Derivatives<L> {
         }
         self.place(q, v);
         for k in 0..q.len() {
-            self.q.as_mut_slice()[k].first = 1.0;
-            self.v.as_mut_slice()[k].second = 1.0;
+            self.q.as_mut_slice()[k].set_first(1.0);
+            self.v.as_mut_slice()[k].set_second(1.0);
             let dual = lagrangian.lagrangian(HyperDual::from_f64(time), &self.q, &self.v);
-            self.q.as_mut_slice()[k].first = 0.0;
-            self.v.as_mut_slice()[k].second = 0.0;
-            self.value = dual.value;
-            (self.rate[k], self.momentum[k]) = (dual.first, dual.second);
+            self.q.as_mut_slice()[k].set_first(0.0);
+            self.v.as_mut_slice()[k].set_second(0.0);
+            self.value = dual.real();
+            (self.rate[k], self.momentum[k]) = (dual.first(), dual.second());
         }
         if L::FORCED {
             self.add_value_of_force(lagrangian, time);
@@ -96,7 +96,7 @@ impl<L: Lagrangian> Derivatives<L> {
     fn add_value_of_force(&mut self, lagrangian: &L, time: f64) {
         self.evaluate_force(lagrangian, time);
         for (rate, force) in self.rate.iter_mut().zip(self.force.as_slice()) {
-            *rate += force.value;
+            *rate += force.real();
         }
     }
 
@@ -105,33 +105,33 @@ impl<L: Lagrangian> Derivatives<L> {
         self.place(q, v);
         let n = q.len();
         for row in 0..n {
-            self.q.as_mut_slice()[row].first = 1.0;
+            self.q.as_mut_slice()[row].set_first(1.0);
             for column in 0..n {
-                self.v.as_mut_slice()[column].second = 1.0;
+                self.v.as_mut_slice()[column].set_second(1.0);
                 let dual = lagrangian.lagrangian(HyperDual::from_f64(time), &self.q, &self.v);
-                self.v.as_mut_slice()[column].second = 0.0;
-                self.value = dual.value;
-                (self.rate[row], self.momentum[column]) = (dual.first, dual.second);
-                self.rate_by_velocity[row * n + column] = dual.mixed;
-                self.momentum_by_position[column * n + row] = dual.mixed;
+                self.v.as_mut_slice()[column].set_second(0.0);
+                self.value = dual.real();
+                (self.rate[row], self.momentum[column]) = (dual.first(), dual.second());
+                self.rate_by_velocity[row * n + column] = dual.mixed();
+                self.momentum_by_position[column * n + row] = dual.mixed();
             }
             for column in row..n {
-                self.q.as_mut_slice()[column].second = 1.0;
+                self.q.as_mut_slice()[column].set_second(1.0);
                 let dual = lagrangian.lagrangian(HyperDual::from_f64(time), &self.q, &self.v);
-                self.q.as_mut_slice()[column].second = 0.0;
-                self.rate_by_position[row * n + column] = dual.mixed;
-                self.rate_by_position[column * n + row] = dual.mixed;
+                self.q.as_mut_slice()[column].set_second(0.0);
+                self.rate_by_position[row * n + column] = dual.mixed();
+                self.rate_by_position[column * n + row] = dual.mixed();
             }
-            self.q.as_mut_slice()[row].first = 0.0;
-            self.v.as_mut_slice()[row].first = 1.0;
+            self.q.as_mut_slice()[row].set_first(0.0);
+            self.v.as_mut_slice()[row].set_first(1.0);
             for column in row..n {
-                self.v.as_mut_slice()[column].second = 1.0;
+                self.v.as_mut_slice()[column].set_second(1.0);
                 let dual = lagrangian.lagrangian(HyperDual::from_f64(time), &self.q, &self.v);
-                self.v.as_mut_slice()[column].second = 0.0;
-                self.momentum_by_velocity[row * n + column] = dual.mixed;
-                self.momentum_by_velocity[column * n + row] = dual.mixed;
+                self.v.as_mut_slice()[column].set_second(0.0);
+                self.momentum_by_velocity[row * n + column] = dual.mixed();
+                self.momentum_by_velocity[column * n + row] = dual.mixed();
             }
-            self.v.as_mut_slice()[row].first = 0.0;
+            self.v.as_mut_slice()[row].set_first(0.0);
         }
         if L::FORCED {
             self.add_force_and_slopes(lagrangian, time);
@@ -160,16 +160,16 @@ impl<L: Lagrangian> Derivatives<L> {
     fn add_force_and_slopes(&mut self, lagrangian: &L, time: f64) {
         let n = self.rate.len();
         for column in 0..n {
-            self.q.as_mut_slice()[column].first = 1.0;
-            self.v.as_mut_slice()[column].second = 1.0;
+            self.q.as_mut_slice()[column].set_first(1.0);
+            self.v.as_mut_slice()[column].set_second(1.0);
             self.evaluate_force(lagrangian, time);
-            self.q.as_mut_slice()[column].first = 0.0;
-            self.v.as_mut_slice()[column].second = 0.0;
+            self.q.as_mut_slice()[column].set_first(0.0);
+            self.v.as_mut_slice()[column].set_second(0.0);
             for (row, force) in self.force.as_slice().iter().enumerate() {
-                self.rate_by_position[row * n + column] += force.first;
-                self.rate_by_velocity[row * n + column] += force.second;
+                self.rate_by_position[row * n + column] += force.first();
+                self.rate_by_velocity[row * n + column] += force.second();
                 if column == 0 {
-                    self.rate[row] += force.value;
+                    self.rate[row] += force.real();
                 }
             }
         }
