@@ -30,6 +30,7 @@
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
 //! | What is seen of a run | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
 //! | Many trajectories, in lanes and on all cores | [`ensemble`] |
+//! | Is an orbit chaotic? MEGNO, Lyapunov exponent, tangent map | [`tangent`] |
 //! | How coupled stages are found | [`solver`] |
 //! | Which method to take | the package `symplectic-report` |
 //!
@@ -79,7 +80,7 @@ extern crate self as symplectic;
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
-#[cfg(feature = "npz")]
+#[cfg(any(feature = "npz", feature = "parallel"))]
 extern crate std;
 
 mod error;
@@ -96,6 +97,8 @@ pub mod output;
 pub mod rotation;
 pub mod solver;
 pub mod system;
+#[cfg(feature = "alloc")]
+pub mod tangent;
 #[cfg(feature = "alloc")]
 pub mod variational;
 
@@ -202,6 +205,8 @@ mod book {
     struct Restart;
     #[doc = include_str!("../../docs/src/guide/ensembles.md")]
     struct Ensembles;
+    #[doc = include_str!("../../docs/src/guide/chaos.md")]
+    struct Chaos;
     #[doc = include_str!("../../docs/src/reference/errors.md")]
     struct Errors;
 }

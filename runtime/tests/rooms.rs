@@ -12,7 +12,7 @@ const ROOMS: &[&[&str]] = &[
     &["method"],
     &["solver"],
     &["integrator"],
-    &["flow", "output", "rotation", "variational"],
+    &["flow", "output", "rotation", "tangent", "variational"],
     &["adaptive"],
     &["ensemble"],
 ];

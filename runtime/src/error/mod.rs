@@ -217,6 +217,12 @@ pub enum Error {
     #[error("the system gives no energy; implement `energy`, or add a closure by `with_energy`")]
     NoEnergy,
 
+    /// A displacement whose growth is asked for is zero.
+    #[error(
+        "the displacement is zero and stays so: take one in a general direction, of any length"
+    )]
+    NoDisplacement,
+
     /// The energy depends on time, and the method reads two clocks: there is no one Hamiltonian whose generating
     /// function could be given.
     #[error(

@@ -30,11 +30,12 @@ pub(super) fn check_masses<V: Vector, S: System<V>>(
     let mut velocity = p.zeros_like();
     system.velocity(V::Scalar::from_f64(*time), q, p, &mut velocity);
     first_difference(&velocity, p).map_or(Ok(()), |(component, velocity, momentum)| {
-        Err(Error::NotUnitMasses {
+        let error = Error::NotUnitMasses {
             component,
             velocity,
             momentum,
-        })
+        };
+        Err(system.explain(error, q))
     })
 }
 

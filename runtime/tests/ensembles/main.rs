@@ -9,3 +9,4 @@ mod failures;
 mod outputs;
 mod restart;
 mod systems;
+mod tangent;

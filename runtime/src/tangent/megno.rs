@@ -1,0 +1,120 @@
+//! Indicators of chaos.
+
+use crate::error::Error;
+use crate::integrator::validation::check_state;
+use crate::number::{Scalar, Vector};
+use crate::state::State;
+
+/// The mean exponential growth of nearby orbits, MEGNO, and the largest Lyapunov exponent, from the growth of a
+/// [displacement](super::Tangent) `δ(t)`:
+///
+/// ```text
+/// Y(t) = 2/t ∫₀ᵗ s d ln|δ(s)| = 2 (ln|δ(t)| − 1/t ∫₀ᵗ ln|δ(s)| ds)      Ȳ(t) = 1/t ∫₀ᵗ Y(s) ds      |δ(0)| = 1
+/// ```
+///
+/// | orbit | `|δ|` grows like | Ȳ tends to | λ tends to |
+/// |---|---|---|---|
+/// | quasi-periodic | t | 2 | 0 |
+/// | of linear oscillators | 1 | 0 | 0 |
+/// | chaotic, or near an unstable periodic one | `e^{λt}` | `λt/2` | λ |
+///
+/// The integrals are those of straight lines between the states that it is shown: show it some in every period, at any times.
+///
+/// Source: Cincotta, Giordano & Simó, Physica D 182 (2003) 151; the second form of Y is the first one integrated by parts.
+///
+/// See [`Tangent`](super::Tangent) for an example.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Megno {
+    begin: f64,
+    elapsed: f64,
+    /// ln|δ| at the start.
+    first: f64,
+    /// ln|δ| − `first`.
+    growth: f64,
+    /// The integral of `growth`.
+    area: f64,
+    value: f64,
+    /// The integral of `value`.
+    sum: f64,
+}
+
+impl Megno {
+    /// From the start of a run of a [`Tangent`](super::Tangent).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NonFiniteState`], [`Error::Dimension`]; [`Error::NoDisplacement`] where the displacement is zero.
+    pub fn new<W: Vector<Scalar = f64>>(start: &State<W>) -> Result<Self, Error> {
+        check_state(start.time, &start.q, &start.p, start.q.dimension())?;
+        let first = logarithm(start).ok_or(Error::NoDisplacement)?;
+        Ok(Self {
+            begin: start.time,
+            elapsed: 0.0,
+            first,
+            growth: 0.0,
+            area: 0.0,
+            value: 0.0,
+            sum: 0.0,
+        })
+    }
+
+    /// Looks at the next state of the run.
+    pub fn see<W: Vector<Scalar = f64>>(&mut self, state: &State<W>) {
+        let elapsed = (state.time - self.begin).abs();
+        let step = elapsed - self.elapsed;
+        let (Some(logarithm), true) = (logarithm(state), step != 0.0) else {
+            return;
+        };
+        let growth = logarithm - self.first;
+        self.area += step * (0.5 * (self.growth + growth));
+        let value = 2.0 * (growth - self.area / elapsed);
+        self.sum += step * (0.5 * (self.value + value));
+        (self.elapsed, self.growth, self.value) = (elapsed, growth, value);
+    }
+
+    /// Y, which oscillates: for quasi-periodic orbits around 2.
+    pub const fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// Ȳ, the indicator that is shown in maps.
+    pub fn mean(&self) -> f64 {
+        self.over_time(self.sum)
+    }
+
+    /// `λ = ln(|δ(t)|/|δ(0)|)/t`, which tends to the largest Lyapunov exponent; for regular orbits to zero, like `ln t/t`.
+    pub fn lyapunov_exponent(&self) -> f64 {
+        self.over_time(self.growth)
+    }
+
+    /// `ln(|δ(t)|/|δ(0)|)`.
+    pub const fn growth(&self) -> f64 {
+        self.growth
+    }
+
+    fn over_time(&self, quantity: f64) -> f64 {
+        match self.elapsed > 0.0 {
+            true => quantity / self.elapsed,
+            false => 0.0,
+        }
+    }
+}
+
+/// ln|δ| of a state of a tangent system, also where squares overflow or vanish; nothing where δ is zero.
+fn logarithm<W: Vector<Scalar = f64>>(state: &State<W>) -> Option<f64> {
+    let half = |vector: &W| vector.dimension() / 2;
+    let (q, p) = state.as_slices();
+    let parts = || {
+        let (q, p) = (&q[half(&state.q)..], &p[half(&state.p)..]);
+        q.iter().chain(p).map(|part| part.abs())
+    };
+    let largest = parts().fold(0.0, f64::max);
+    if largest == 0.0 {
+        return None;
+    }
+    let square = parts().fold(0.0, |sum, part| {
+        let part = part / largest;
+        sum + part * part
+    });
+    Some(Scalar::ln(largest) + 0.5 * Scalar::ln(square))
+}

@@ -1,0 +1,325 @@
+//! The tangent map and the indicators of chaos.
+
+use std::ops::ControlFlow;
+
+use symplectic::ensemble::Ensemble;
+use symplectic::nalgebra::{DVector, Matrix2, SVector, Vector1, Vector2};
+use symplectic::num_traits::Zero;
+use symplectic::tangent::{Megno, Tangent};
+use symplectic::{Compensated, Error, Integrator, Method, ProvedFor, Separable, State};
+
+use crate::common::dual::{Dual, dual};
+use crate::common::methods::{ForestRuth, Gauss4, StoermerVerlet};
+use crate::systems::{HenonHeiles, Pendulums, words};
+
+symplectic::hamiltonian! {
+    /// H = p²/2 + s q²/2: an oscillator for s = 1, a saddle for s = −1.
+    Linear { s }
+    q: [x], p: [px];
+    H = px^2/2 + s x^2/2
+}
+
+symplectic::hamiltonian! {
+    /// Not separable; its oscillations are not of one period.
+    Coupled
+    q: [x], p: [px];
+    H = (x^2 + 1) (px^2 + 1)/2
+}
+
+symplectic::hamiltonian! {
+    Pendulum
+    q: [a], p: [pa];
+    H = pa^2/2 - cos(a)
+}
+
+symplectic::hamiltonian! {
+    /// Two rows of a matrix for each of two bodies.
+    Plane<N> { k: 1 }
+    q: [N; 2], p: [N; 2];
+    H = sum(i: |p[i]|^2/2 + |q[i]|^4/4) + sum(i < j: k |q[i] - q[j]|^2/2)
+}
+
+type Four = SVector<f64, 4>;
+
+fn henon_heiles(y: f64, py: f64, energy: f64) -> State<Vector2<f64>> {
+    let kinetic = energy - y * y / 2.0 + y * y * y / 3.0;
+    State::from_arrays(0.0, [0.0, y], [(2.0 * kinetic - py * py).sqrt(), py])
+}
+
+const STILL: HenonHeiles = HenonHeiles { amplitude: 0.0 };
+
+/// The state has the bits of a run alone, and the displacement those of a run in dual numbers.
+#[test]
+fn the_displacement_is_the_derivative_of_the_step() -> Result<(), Error> {
+    fn check<M: Method + ProvedFor<Separable>>(method: M) -> Result<(), Error> {
+        let inner = STILL;
+        let system = Tangent::new(inner);
+        let begin = henon_heiles(0.1, 0.2, 0.1);
+        let (dq, dp) = (Vector2::new(0.6, 0.3), Vector2::new(-0.2, 0.7));
+        let start: State<Four> = system.start(&begin, (&dq, &dp))?;
+        let of_duals = |values: &Vector2<f64>, slopes: &Vector2<f64>| {
+            Vector2::new(dual(values[0], slopes[0]), dual(values[1], slopes[1]))
+        };
+        let in_duals: State<Vector2<Dual>> =
+            State::new(0.0, of_duals(&begin.q, &dq), of_duals(&begin.p, &dp));
+        let mut run = Integrator::new(method, system, start, 0.1)?;
+        let mut alone = Integrator::new(method, inner, begin, 0.1)?;
+        let mut duals = Integrator::new(method, inner, in_duals, 0.1)?;
+        for _ in 0..500 {
+            let found = run.step()?.clone();
+            assert_eq!(words(&system.state(&found)?), words(alone.step()?));
+            let expected = duals.step()?;
+            let (q, p) = system.displacement(&found)?;
+            for k in 0..2 {
+                assert_eq!(q[k], expected.q[k].derivative);
+                assert_eq!(p[k], expected.p[k].derivative);
+            }
+        }
+        assert_eq!(run.energy(), alone.energy());
+        Ok(())
+    }
+    check(StoermerVerlet)?;
+    check(ForestRuth)
+}
+
+/// Quotients of central differences of two runs, which have no tangent system.
+fn by_differences<M: Method + ProvedFor<symplectic::General>>(
+    method: M,
+    (q, p): (f64, f64),
+    (dq, dp): (f64, f64),
+) -> Result<[f64; 2], Error> {
+    let end = |sign: f64| {
+        let e = sign * 1e-5;
+        let start = State::from_arrays(0.0, [q + e * dq], [p + e * dp]);
+        let mut run = Integrator::new(method, Coupled, start, 0.05)?;
+        run.integrate_to(5.0)?;
+        Ok::<_, Error>([run.state().q[0], run.state().p[0]])
+    };
+    let (above, below) = (end(1.0)?, end(-1.0)?);
+    Ok([0, 1].map(|k| (above[k] - below[k]) / 2e-5))
+}
+
+#[test]
+fn implicit_methods_and_systems_that_are_not_separable() -> Result<(), Error> {
+    let system = Tangent::new(Coupled);
+    let begin = State::from_arrays(0.0, [0.4], [0.3]);
+    let ends = [(1.0, 0.0), (0.3, -2.0)].map(|(dq, dp)| {
+        let displacement = (&Vector1::new(dq), &Vector1::new(dp));
+        let start: State<Vector2<f64>> = system.start(&begin, displacement)?;
+        let mut run = Integrator::new(Gauss4, system, start, 0.05)?;
+        run.integrate_to(5.0)?;
+        let (q, p) = system.displacement(run.state())?;
+        let expected = by_differences(Gauss4, (0.4, 0.3), (dq, dp))?;
+        assert!((q[0] - expected[0]).abs() < 1e-8 * expected[0].abs().max(1.0));
+        assert!((p[0] - expected[1]).abs() < 1e-8 * expected[1].abs().max(1.0));
+        Ok::<_, Error>((q[0], p[0]))
+    });
+    let [a, b] = ends;
+    let ((q, p), (other_q, other_p)) = (a?, b?);
+    // The symplectic product is that of the start.
+    assert!((q * other_p - p * other_q + 2.0).abs() < 1e-13);
+    Ok(())
+}
+
+/// Bodies in the columns of a matrix, and vectors whose dimension is known at run time.
+#[test]
+fn vectors_of_every_kind() -> Result<(), Error> {
+    let system = Tangent::new(Plane::<2> { k: 1.0 });
+    let matrix = Matrix2::new;
+    let begin = State::new(0.0, matrix(1.0, 0.0, 0.2, 0.5), matrix(0.0, 0.1, 0.3, 0.0));
+    let displacement = (&matrix(0.1, 0.2, 0.3, 0.4), &matrix(0.5, -0.6, 0.7, 0.8));
+    let start: State<SVector<f64, 8>> = system.start(&begin, displacement)?;
+    assert_eq!(system.state(&start)?, begin);
+    assert_eq!(system.displacement(&start)?.1, *displacement.1);
+    let mut run = Integrator::new(ForestRuth, system, start, 0.01)?;
+    let before = run.energy();
+    run.integrate_to(10.0)?;
+    let (before, after) = (before.expect("H"), run.energy().expect("H"));
+    assert!((before - after).abs() < 1e-6);
+
+    let dynamic = Tangent::new(Pendulums);
+    let vector = |numbers: &[f64]| DVector::from_column_slice(numbers);
+    let begin = State::new(0.0, vector(&[0.5, 1.0]), vector(&[0.0, 0.0]));
+    let start: State<DVector<f64>> =
+        dynamic.start(&begin, (&vector(&[1.0, 0.0]), &vector(&[0.0, 1.0])))?;
+    let mut run = Integrator::new(ForestRuth, dynamic, start, 0.1)?;
+    run.integrate_to(20.0)?;
+    for (place, (angle, dq, dp)) in [(0.5, 1.0, 0.0), (1.0, 0.0, 1.0)].into_iter().enumerate() {
+        let system = Tangent::new(Pendulum);
+        let start: State<Vector2<f64>> = system.start(
+            &State::from_arrays(0.0, [angle], [0.0]),
+            (&Vector1::new(dq), &Vector1::new(dp)),
+        )?;
+        let mut one = Integrator::new(ForestRuth, system, start, 0.1)?;
+        one.integrate_to(20.0)?;
+        let (found, expected) = (run.state(), one.state());
+        assert!((found.q[2 + place] - expected.q[1]).abs() < 1e-12);
+        assert!((found.p[2 + place] - expected.p[1]).abs() < 1e-12);
+    }
+    Ok(())
+}
+
+fn megno<S>(system: S, start: State<Vector1<f64>>, end: f64, step: f64) -> Result<Megno, Error>
+where
+    S: symplectic::Hamiltonian<Vector<f64> = Vector1<f64>, Class = Separable>,
+{
+    let system = Tangent::new(system);
+    let displacement = (&Vector1::new(0.8), &Vector1::new(0.6));
+    let start: State<Vector2<f64>> = system.start(&start, displacement)?;
+    let mut megno = Megno::new(&start)?;
+    let mut run =
+        Integrator::<_, _, _, Compensated>::with_summation(ForestRuth, system, start, step)?;
+    while run.state().time < end {
+        megno.see(run.step()?);
+    }
+    Ok(megno)
+}
+
+/// Closed forms: a rotation, and the growth by eᵗ.
+#[test]
+fn linear_systems() -> Result<(), Error> {
+    let start = || State::from_arrays(0.0, [0.3], [0.1]);
+    let oscillator = megno(Linear { s: 1.0 }, start(), 1000.0, 0.05)?;
+    assert!(oscillator.mean().abs() < 1e-4, "{oscillator:?}");
+    assert!(oscillator.lyapunov_exponent().abs() < 1e-7);
+
+    // |δ|² = (a² e²ᵗ + b² e⁻²ᵗ) with a = (0.8 + 0.6)/√2.
+    let saddle = megno(
+        Linear { s: -1.0 },
+        State::from_arrays(0.0, [0.0], [0.0]),
+        100.0,
+        0.05,
+    )?;
+    let time = 100.0;
+    let growth = time + f64::ln(1.4 / f64::sqrt(2.0));
+    assert!((saddle.growth() - growth).abs() < 1e-3, "{saddle:?}");
+    assert!((saddle.lyapunov_exponent() - 1.0).abs() < 1e-3);
+    // Y = 2 (t + c − (t²/2 + ct + …)/t) = t + O(1/t).
+    assert!((saddle.value() - time).abs() < 0.05);
+    assert!((saddle.mean() - time / 2.0).abs() < 0.1);
+    Ok(())
+}
+
+/// The displacement of a pendulum that swings grows like t: 2.
+#[test]
+fn quasi_periodic_orbits_have_two() -> Result<(), Error> {
+    let pendulum = megno(
+        Pendulum,
+        State::from_arrays(0.0, [1.0], [0.0]),
+        20_000.0,
+        0.2,
+    )?;
+    assert!((pendulum.mean() - 2.0).abs() < 0.05, "{pendulum:?}");
+    assert!(pendulum.lyapunov_exponent() < 1e-3);
+    Ok(())
+}
+
+/// Lengths far beyond squares of doubles, backward in time, and at other times.
+#[test]
+fn megno_of_other_lengths_and_times() -> Result<(), Error> {
+    let system = Tangent::new(STILL);
+    let run = |length: f64, size: f64, every: usize| {
+        let displacement = (
+            &(Vector2::new(0.6, 0.3) * length),
+            &(Vector2::new(-0.2, 0.7) * length),
+        );
+        let start: State<Four> = system.start(&henon_heiles(-0.16, 0.0, 0.125), displacement)?;
+        let mut megno = Megno::new(&start)?;
+        let mut run = Integrator::new(ForestRuth, system, start, size)?;
+        for step in 0..4000 {
+            let state = run.step()?;
+            if step % every == 0 {
+                megno.see(state);
+            }
+        }
+        Ok::<_, Error>(megno)
+    };
+    let one = run(1.0, 0.05, 1)?;
+    // A power of two changes no bit of the displacement.
+    let far = run(f64::exp2(-1000.0), 0.05, 1)?;
+    assert!((one.mean() - far.mean()).abs() < 1e-10 * one.mean());
+    let sparse = run(1.0, 0.05, 10)?;
+    assert!((one.mean() - sparse.mean()).abs() < 0.02 * one.mean());
+    assert!(run(1.0, -0.05, 1)?.mean() > 4.0);
+    Ok(())
+}
+
+/// In lanes and alone, with the same bits; chaotic orbits apart from the others.
+#[test]
+fn in_ensembles() -> Result<(), Box<dyn std::error::Error>> {
+    let system = Tangent::new(STILL);
+    let displacement = (&Vector2::new(0.6, 0.3), &Vector2::new(-0.2, 0.7));
+    let begins: Vec<_> = (0..20)
+        .map(|k| henon_heiles(-0.25 + 0.025 * f64::from(k), 0.0, 0.125))
+        .collect();
+    let starts: Vec<State<Four>> = begins
+        .iter()
+        .map(|begin| system.start(begin, displacement))
+        .collect::<Result<_, _>>()?;
+    let times: Vec<f64> = (0..=1000).map(|k| 0.5 * f64::from(k)).collect();
+    let output = |trajectory: usize| Megno::new(&starts[trajectory]).expect("a displacement");
+    let indicators = |ensemble: Ensemble<_, _, Four, _, _, _>| {
+        let mut found = Vec::new();
+        ensemble.integrate_at(&times, output, Megno::see, |row| {
+            row.outcome.clone().expect("a bounded orbit");
+            found.push((row.output.mean().to_bits(), words(&row.state)));
+            ControlFlow::Continue(())
+        });
+        found
+    };
+    let ensemble = || Ensemble::new(ForestRuth, system, starts.clone(), 0.1);
+    let together = indicators(ensemble()?);
+    let mut alone = Vec::new();
+    ensemble()?
+        .one_by_one()
+        .integrate_at(&times, output, Megno::see, |row| {
+            alone.push((row.output.mean().to_bits(), words(&row.state)));
+            ControlFlow::Continue(())
+        });
+    assert_eq!(together, alone);
+    let means: Vec<f64> = together
+        .iter()
+        .map(|(bits, _)| f64::from_bits(*bits))
+        .collect();
+    let (sea, island) = means.split_at(10);
+    assert!(
+        sea.iter().filter(|mean| **mean > 4.0).count() >= 8,
+        "{sea:?}"
+    );
+    assert!(island.iter().all(|mean| *mean < 2.5), "{island:?}");
+    Ok(())
+}
+
+#[test]
+fn bad_input() -> Result<(), Error> {
+    let system = Tangent::new(STILL);
+    let begin = henon_heiles(0.1, 0.0, 0.1);
+    let (zero, some) = (Vector2::zero(), Vector2::new(1.0, 0.0));
+    let found: Result<State<Four>, Error> = system.start(&begin, (&zero, &zero));
+    assert_eq!(found, Err(Error::NoDisplacement));
+    let found: Result<State<Four>, Error> = system.start(&begin, (&some, &(some * f64::NAN)));
+    assert!(matches!(found, Err(Error::NonFiniteState { .. })));
+    let found: Result<State<SVector<f64, 6>>, Error> = system.start(&begin, (&some, &zero));
+    assert_eq!(
+        found,
+        Err(Error::Length {
+            expected: 6,
+            found: 4
+        })
+    );
+    let still: State<Vector2<f64>> = State::from_arrays(0.0, [1.0, 0.0], [1.0, 0.0]);
+    assert_eq!(Megno::new(&still), Err(Error::NoDisplacement));
+    // A state of another dimension.
+    let start = State::from_arrays(0.0, [0.1; 6], [0.1; 6]);
+    let run = Integrator::new(ForestRuth, system, start, 0.1);
+    assert_eq!(
+        run.err(),
+        Some(Error::Length {
+            expected: 4,
+            found: 6
+        })
+    );
+    let start = State::from_arrays(0.0, [0.1; 5], [0.1; 5]);
+    assert!(Integrator::new(ForestRuth, system, start, 0.1).is_err());
+    Ok(())
+}
