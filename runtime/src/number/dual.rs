@@ -44,7 +44,10 @@ impl HyperDual {
     pub(crate) const fn first(self) -> f64 {
         self.slope.value
     }
+}
 
+#[cfg(feature = "alloc")]
+impl HyperDual {
     /// The derivative by the second parameter.
     #[inline]
     pub(crate) const fn second(self) -> f64 {

@@ -132,11 +132,17 @@ impl<S: Hamiltonian> Tangent<S> {
     pub fn displacement<W: Vector<Scalar = f64>>(
         &self,
         state: &State<W>,
-    ) -> Result<(S::Vector<f64>, S::Vector<f64>), Error> {
+    ) -> Result<Displacement<S>, Error> {
         let q = S::Vector::from_slice(halves(&state.q).1)?;
         Ok((q, S::Vector::from_slice(halves(&state.p).1)?))
     }
 }
+
+/// The displacements `(δq, δp)` of a system.
+pub type Displacement<S> = (
+    <S as Hamiltonian>::Vector<f64>,
+    <S as Hamiltonian>::Vector<f64>,
+);
 
 /// The vectors of a system over dual numbers.
 type Duals<S, W> = <S as Hamiltonian>::Vector<Dual<<W as Vector>::Scalar>>;
