@@ -66,7 +66,7 @@ fn the_trees_are_counted_right() {
     assert_eq!(text, expected);
 }
 
-/// Every digit of ten certificates and tables, and some of others, changed.
+/// Every digit of ten certificates, and some of their tables and of other files, changed.
 #[test]
 fn a_wrong_digit_is_found() {
     let all = "symplectic-euler symplectic-euler-adjoint midpoint velocity-verlet position-verlet ruth-1983 \
@@ -81,7 +81,7 @@ fn a_wrong_digit_is_found() {
         return;
     };
     let tried = text.strip_suffix(" changes\n").map(str::parse::<usize>);
-    assert!(matches!(tried, Some(Ok(4000..))), "{text}");
+    assert!(matches!(tried, Some(Ok(2500..))), "{text}");
 }
 
 /// Files that claim more than they prove, and files that are no certificates: each is rejected in one line that says why.

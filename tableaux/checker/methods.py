@@ -6,7 +6,7 @@ with V_i = dH/dp and F_i = -dH/dq at (Q_i, P_i). What is multiplied with V has t
 
 from fractions import Fraction
 
-from .numbers import Roots, between, common_divisor, demand, enclosed, has_root, monic, product, rationals, reduced, trimmed, value
+from .numbers import Quotient, Roots, between, common_divisor, demand, enclosed, has_root, monic, product, rationals, reduced, trimmed, value
 from .trees import density
 
 
@@ -62,7 +62,7 @@ class Nodes:
 
     def __init__(self, polynomial, weights, matrices):
         self.m = monic(polynomial)
-        self.s = len(self.m) - 1
+        self.s, self.ring = len(self.m) - 1, Quotient(self.m)
         # Sums of powers of the nodes, by Newton's identities.
         self.powers = [Fraction(self.s)]
         for k in range(1, 3 * self.s):
@@ -84,7 +84,7 @@ class Nodes:
         return f + [Fraction(0)] * (self.s - len(f))
 
     def times(self, f, g):
-        return reduced(product(f, g), self.m)
+        return self.ring.product(f, g)
 
     def dot(self, f, g):
         return sum(x * self.dot_power(i, g) for i, x in enumerate(f) if x)
@@ -127,7 +127,7 @@ class Nodes:
         found, power = self.function([]), self.one
         for c in f:
             found = [x + c * y for x, y in zip(found, power)]
-            power = self.times(power, [Fraction(1), Fraction(-1)])
+            power = reduced(product(power, [Fraction(1), Fraction(-1)]), self.m)
         return found
 
     def can_be_turned(self):

@@ -90,6 +90,25 @@ def reduced(f, m):
     return rest + [Fraction(0)] * (len(m) - 1 - len(rest))
 
 
+class Quotient:
+    """Products in Q[x]/m, in whole numbers over one denominator."""
+
+    def __init__(self, m):
+        degree = len(m) - 1
+        powers = [reduced([Fraction(0)] * k + [Fraction(1)], m) for k in range(degree, 2 * degree - 1)]
+        self.denominator = math.lcm(*(c.denominator for power in powers for c in power))
+        self.powers = [[(i, int(c * self.denominator)) for i, c in enumerate(power) if c] for power in powers]
+
+    def product(self, f, g):
+        (f, d), (g, e) = over_one_denominator(f), over_one_denominator(g)
+        all_ = product(f, g, 0)
+        found = [x * self.denominator for x in all_[: len(f)]]
+        for x, power in zip(all_[len(f) :], self.powers):
+            for i, c in power if x else ():
+                found[i] += x * c
+        return [Fraction(x, d * e * self.denominator) for x in found]
+
+
 def common_divisor(f, g):
     while g:
         f, g = g, divided(f, g)[1]
@@ -129,7 +148,10 @@ class Roots:
         return sum(a != b for a, b in zip(signs, signs[1:]))
 
     def all(self):
-        found, rest = [], [(-self.bound, self.bound)]
+        return self.above(-self.bound)
+
+    def above(self, low):
+        found, rest = [], [(low, self.bound)]
         while rest:
             low, high = rest.pop()
             number, middle = self.count(low, high), (low + high) / 2
@@ -208,7 +230,7 @@ class Element(Number):
     def __mul__(self, other):
         if not isinstance(other, Element):
             return Element(self.field, [x * other for x in self.f])
-        return Element(self.field, self.field.product(self.f, other.f))
+        return Element(self.field, self.field.ring.product(self.f, other.f))
 
     def __eq__(self, other):
         return not (self - other)
@@ -225,11 +247,7 @@ class Field:
 
     def __init__(self, polynomial, root):
         self.m = monic(polynomial)
-        # Those of the root that are higher than the degree, as far as products have them.
-        degree = len(self.m) - 1
-        powers = [reduced([Fraction(0)] * k + [Fraction(1)], self.m) for k in range(degree, 2 * degree - 1)]
-        self.denominator = math.lcm(*(c.denominator for power in powers for c in power))
-        self.powers = [[(i, int(c * self.denominator)) for i, c in enumerate(power) if c] for power in powers]
+        self.ring = Quotient(self.m)
         if self.m == [0, 1] and root == "0":
             self.root = enclosed(0)
             return
@@ -237,16 +255,6 @@ class Field:
         one = roots.sign(low) * roots.sign(high) < 0 and roots.count(low, high) == 1
         demand(one, f"one root of the polynomial that rounds to {root}")
         self.root = between(*roots.narrowed(low, high))
-
-    def product(self, f, g):
-        """The remainder of the product, in whole numbers over one denominator."""
-        (f, d), (g, e) = over_one_denominator(f), over_one_denominator(g)
-        all_ = product(f, g, 0)
-        found = [x * self.denominator for x in all_[: len(f)]]
-        for x, power in zip(all_[len(f) :], self.powers):
-            for i, c in power if x else ():
-                found[i] += x * c
-        return [Fraction(x, d * e * self.denominator) for x in found]
 
     def number(self, f):
         f = rationals(f)

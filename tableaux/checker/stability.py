@@ -61,7 +61,7 @@ def stable_intervals(determinant, trace, turning):
     while cuts[0] == 0:
         cuts = cuts[1:]
     cuts = square_free(cuts)
-    roots = [root for root in Roots(cuts).all() if root[0] > 0]
+    roots = Roots(cuts).above(Fraction(0))
     singular, alone = (common_divisor(cuts, f) for f in (determinant, turning))
     # From zero to the first root, that root, from there to the next one, ...
     lows, highs = [Fraction(0)] + [root[1] for root in roots], [root[0] for root in roots]

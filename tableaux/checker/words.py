@@ -95,3 +95,9 @@ def check_perturbed(flows, orders, given):
 
 def is_palindrome(factors):
     return factors == factors[::-1]
+
+
+def check_palindrome(flows, claim):
+    pairs = zip(flows, flows[::-1])
+    differ = any(one != other or enclosed(x + y * -1).is_not_zero() for (one, x), (other, y) in pairs)
+    demand(is_palindrome(flows) if claim is True else claim is False and differ, f"palindrome = {claim}")
