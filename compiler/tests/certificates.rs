@@ -44,7 +44,7 @@ fn the_catalogue_is_right() {
     for line in [
         "gauss-3.json: right: doubles, symplectic, symmetric, general 6, separable 6, nystrom 6, stability, table",
         "gauss-4.json: right: doubles, symplectic, symmetric, general 6 of 8, separable 8, nystrom 8, stability, table",
-        "blanes-moan-2002-srkn14a.json: right: doubles, palindrome, general 1, separable 4, nystrom 6, stability not covered, table",
+        "blanes-moan-2002-srkn14a.json: right: doubles, palindrome, general 1, separable 4, nystrom 6, order (perturbed) not covered, stability not covered, table",
         "blanes-2013-aba-10-6-4.json: right: doubles, palindrome, general 1, separable 4, nystrom 4, perturbed [10, 6, 4], stability not covered, table",
     ] {
         assert!(text.contains(line), "{line}: {text}");
