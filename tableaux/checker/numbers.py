@@ -151,16 +151,17 @@ class Roots:
         return self.above(-self.bound)
 
     def above(self, low):
-        found, rest = [], [(low, self.bound)]
+        found, rest = [], [(low, self.bound, self.changes(low), self.changes(self.bound))]
         while rest:
-            low, high = rest.pop()
-            number, middle = self.count(low, high), (low + high) / 2
-            if number == 1 and not self.sign(high):
+            low, high, more, fewer = rest.pop()
+            if more - fewer == 1 and not self.sign(high):
                 found.append((high, high))
-            elif number == 1 and self.sign(low):
+            elif more - fewer == 1 and self.sign(low):
                 found.append(self.narrowed(low, high))
-            elif number > 0:
-                rest += [(low, middle), (middle, high)]
+            elif more > fewer:
+                middle = (low + high) / 2
+                here = self.changes(middle)
+                rest += [(low, middle, more, here), (middle, high, here, fewer)]
         return sorted(found)
 
     def narrowed(self, low, high):
