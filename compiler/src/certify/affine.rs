@@ -96,29 +96,3 @@ impl Certificate {
         self.solution().unknowns(bits)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::arithmetic::rational::ratio;
-    use crate::certify::{Splitting, certify};
-
-    #[test]
-    fn coefficients_of_a_triple_jump_are_half_sums_of_its_weights() {
-        // Three weights x, 1 − 2x, x: neither is rational.
-        let kick = ["0.67560360", "-0.17560360", "-0.17560360", "0.67560360"];
-        let drift = ["1.35120719", "-1.70241438", "1.35120719", "0"];
-        let splitting = Splitting::parse(&kick, &drift).expect("numbers");
-        let found = certify(&splitting, &Claim::Separable(4)).expect("a certificate");
-        let solved = found.solved().expect("irrational");
-        assert_eq!(solved.claim, Claim::SymmetricBase(4));
-        let weights = solved.weights.expect("a composition");
-        let outer = found.affine(Coefficient::Kick(0)).expect("a kick");
-        assert_eq!(outer, weights[0].scaled(&ratio(1, 2)));
-        let inner = found.affine(Coefficient::Kick(1)).expect("a kick");
-        let half_sum = weights[0].clone().plus(&weights[1], &ratio(1, 1));
-        assert_eq!(inner, half_sum.scaled(&ratio(1, 2)));
-        let zero = found.affine(Coefficient::Drift(3)).expect("a drift");
-        assert_eq!(zero.as_rational(), Some(&ratio(0, 1)));
-    }
-}
