@@ -1,11 +1,11 @@
-//! The files of `tableaux/` are what the tool writes now, no more and no fewer, and they check.
+//! The files of `tableaux/` and the certificates in it are what the tool writes now, no more and no fewer, and they check.
 //!
 //! `UPDATE_EXPECT=1 cargo test -p symplectic-compiler --test catalogue` writes them anew.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use symplectic_compiler::export::{DEFAULT_DIGITS, toml};
+use symplectic_compiler::export::{DEFAULT_DIGITS, certificate, toml};
 use symplectic_compiler::{Tableau, catalogue, check};
 
 fn folder() -> PathBuf {
@@ -24,17 +24,24 @@ fn the_files_are_those_that_the_tool_writes() {
     let mut known = BTreeSet::new();
     for entry in catalogue::entries() {
         let name = format!("{}.toml", entry.name);
-        let path = folder().join(&name);
         let tableau = entry.derive().expect(&name);
         assert_eq!(tableau.stages(), entry.stages, "{name}");
         let text = toml::write(&tableau, DEFAULT_DIGITS);
-        if update {
-            std::fs::write(&path, &text).expect("a folder that can be written to");
+        let mut written = vec![(name.clone(), text.clone())];
+        if let Ok(text) = certificate::write(&tableau) {
+            written.push((format!("certificates/{}.json", entry.name), text));
         }
-        match std::fs::read_to_string(&path) {
-            Ok(found) if found == text => {}
-            Ok(_) => wrong.push(format!("{name} is stale")),
-            Err(error) => wrong.push(format!("{name}: {error}")),
+        for (name, text) in written {
+            let path = folder().join(&name);
+            if update {
+                std::fs::write(&path, &text).expect("a folder that can be written to");
+            }
+            match std::fs::read_to_string(&path) {
+                Ok(found) if found == text => {}
+                Ok(_) => wrong.push(format!("{name} is stale")),
+                Err(error) => wrong.push(format!("{name}: {error}")),
+            }
+            known.insert(name);
         }
         // Both ways to read it give the tableau back, one of them from basis and nodes only.
         assert_eq!(
@@ -42,16 +49,14 @@ fn the_files_are_those_that_the_tool_writes() {
             Ok(tableau.clone())
         );
         assert_eq!(check(&name, &text, &entry.limits()), Ok(tableau));
-        known.insert(name);
     }
-    for file in std::fs::read_dir(folder()).expect("the folder") {
-        let name = file
-            .expect("a file")
-            .file_name()
-            .to_string_lossy()
-            .into_owned();
-        if name.ends_with(".toml") && !known.contains(&name) {
-            wrong.push(format!("{name} is not in the catalogue"));
+    for (subfolder, extension) in [("", ".toml"), ("certificates/", ".json")] {
+        for file in std::fs::read_dir(folder().join(subfolder)).expect("the folder") {
+            let file = file.expect("a file").file_name();
+            let name = format!("{subfolder}{}", file.to_string_lossy());
+            if name.ends_with(extension) && !known.contains(&name) {
+                wrong.push(format!("{name} is not in the catalogue"));
+            }
         }
     }
     assert!(

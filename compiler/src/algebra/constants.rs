@@ -185,6 +185,11 @@ impl Parts {
 }
 
 impl Constants {
+    /// The field.
+    pub(crate) fn field(&self) -> &ConstantField {
+        &self.field
+    }
+
     /// The smallest field that is known to hold all constants; `None` where they are not algebraic over one
     /// transcendental number, π, `e^{1/n}` or `tan(1/(2n))`, or where a degree exceeds the bounds of number
     /// fields, or that of rational functions among as many constants.

@@ -9,7 +9,7 @@ use num_traits::{One, Zero as _};
 use super::{Field, Number, Zero};
 use crate::arithmetic::interval::{Interval, more_places};
 use crate::arithmetic::rational::{add, length, multiply};
-use crate::certify::{Certificate, Coefficient};
+use crate::certify::{Affine, Certificate, Coefficient};
 use crate::symbolic::Constant;
 
 /// Binary places to which equations are verified, and to which a number is compared with zero when it is rounded.
@@ -110,6 +110,34 @@ impl Real {
         match &self.0.operation {
             Operation::Rational(value) => Some(value),
             _ => None,
+        }
+    }
+
+    /// The number as an affine function of the unknowns of one certificate, which is put in its place where none is known yet;
+    /// `None` where it is no such function.
+    pub(crate) fn affine(&self, certificate: &mut Option<Certificate>) -> Option<Affine> {
+        let one = BigRational::one();
+        match &self.0.operation {
+            Operation::Rational(value) => Some(Affine::rational(value.clone())),
+            Operation::Constant(_) | Operation::Inverse(_) => None,
+            Operation::Certified(own, name) => {
+                let known = certificate.get_or_insert_with(|| own.clone());
+                known.is(own).then(|| own.affine(*name))?
+            }
+            Operation::Add(x, y) => {
+                Some(x.affine(certificate)?.plus(&y.affine(certificate)?, &one))
+            }
+            Operation::Subtract(x, y) => {
+                Some(x.affine(certificate)?.plus(&y.affine(certificate)?, &-one))
+            }
+            Operation::Multiply(x, y) => {
+                let (x, y) = (x.affine(certificate)?, y.affine(certificate)?);
+                match (x.as_rational(), y.as_rational()) {
+                    (Some(factor), _) => Some(y.scaled(factor)),
+                    (_, Some(factor)) => Some(x.scaled(factor)),
+                    _ => None,
+                }
+            }
         }
     }
 

@@ -13,7 +13,7 @@ use super::newton::Equations;
 use super::printed::{MAX_DIGITS, Printed};
 use super::proof::{LOST_BITS, Proof};
 use super::structure::{Coefficient, Structure, Target};
-use super::system::System;
+use super::system::{Step, System};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::simplest_between;
 use crate::arithmetic::rounding::Decimal;
@@ -106,6 +106,11 @@ impl Enclosed {
         let known = proof.square.linear_values();
         Enclosed::with_known(proof, known)
     }
+
+    /// The steps whose product satisfies the conditions.
+    pub(super) fn steps(&self) -> &[Step] {
+        &self.proof.square.system.steps
+    }
 }
 
 impl<S: Equations> Enclosed<S> {
@@ -166,6 +171,14 @@ impl<S: Equations> Enclosed<S> {
 }
 
 impl Solution {
+    /// An unknown that is known to be rational.
+    pub fn known(&self, index: usize) -> Option<BigRational> {
+        match self {
+            Solution::Exact(values) => values.get(index).cloned(),
+            Solution::Enclosed(enclosed) => enclosed.known.get(index).cloned()?,
+        }
+    }
+
     /// Enclosures of all unknowns.
     pub fn unknowns(&self, bits: u32) -> Vec<Interval> {
         match self {
@@ -181,13 +194,9 @@ impl Solution {
 impl Target {
     /// The exact value, if that of each of its unknowns is known.
     pub(super) fn rational(&self, solution: &Solution) -> Option<BigRational> {
-        let known = |index: usize| match solution {
-            Solution::Exact(values) => values.get(index).cloned(),
-            Solution::Enclosed(enclosed) => enclosed.known.get(index).cloned()?,
-        };
         let mut terms = self.terms.iter();
         terms.try_fold(BigRational::zero(), |sum, (index, factor)| {
-            Some(sum + known(*index)? * factor)
+            Some(sum + solution.known(*index)? * factor)
         })
     }
 
@@ -202,6 +211,15 @@ impl Target {
 impl Certificate {
     pub(super) fn new(facts: Facts) -> Self {
         Certificate(Arc::new(facts))
+    }
+
+    pub(super) fn solution(&self) -> &Solution {
+        &self.0.solution
+    }
+
+    /// Whether both are one.
+    pub(crate) fn is(&self, other: &Certificate) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
     }
 
     /// What is proved.
@@ -302,7 +320,7 @@ impl Certificate {
         names.into_iter()
     }
 
-    fn target(&self, coefficient: Coefficient) -> Option<&Target> {
+    pub(super) fn target(&self, coefficient: Coefficient) -> Option<&Target> {
         self.0.targets.iter().find(|t| t.name == coefficient)
     }
 

@@ -32,6 +32,7 @@
 //! What is proved depends on none of the guesses: whatever structure was read and whatever was fixed, the
 //! method in the certificate has real coefficients that satisfy every order condition of the claim.
 
+mod affine;
 mod certificate;
 mod conditions;
 mod digits;
@@ -50,6 +51,7 @@ mod splitting;
 mod structure;
 mod system;
 
+pub(crate) use affine::Affine;
 pub(crate) use certificate::Enclosed;
 pub use certificate::{Certificate, Fixed};
 pub use conditions::{Claim, Condition, Conditions, MAX_ORDER, MAX_PERTURBED_ORDER};

@@ -5,12 +5,14 @@
 //! | text | [`text::write`] | | exact entries where short, decimals otherwise, the properties |
 //! | JSON | [`json::write`] | [`json::read`] | short exact forms, decimals, doubles, the properties |
 //! | TOML | [`toml::write`] | [`toml::read`] | all exact data, decimals, the properties |
+//! | certificate | [`certificate::write`] | `tableaux/check_certificate.py` | all exact data, doubles, what is proved |
 //! | LaTeX, C, Fortran, Julia, Python, SUNDIALS, PETSc, nodepy | [`Language::write`] | that language | the coefficients |
 
 use crate::coefficients::Coefficients;
 use crate::exact::Exact;
 use crate::tableau::{Tableau, left_out};
 
+pub mod certificate;
 mod columns;
 mod encoding;
 mod entries;

@@ -392,9 +392,11 @@ impl ViolatedCondition {
         // The same share of the wanted value at each stage, so that the sum is the residual.
         let share = &wanted / BigRational::from_integer(algebra.stages().into());
         let residual = algebra.subtract(terms, &algebra.constant(&share));
+        let number = algebra.sum(&residual);
         ViolatedCondition {
             value: short_sum(algebra, terms, value),
-            residual: short_sum(algebra, &residual, &algebra.sum(&residual)),
+            residual: short_sum(algebra, &residual, &number),
+            residual_decimal: number.decimal(12),
             wanted,
             tree,
         }

@@ -74,6 +74,8 @@ pub struct ViolatedCondition {
     pub wanted: BigRational,
     /// The value less what it should be, written like the value.
     pub residual: String,
+    /// The residual to 12 significant digits.
+    pub residual_decimal: Decimal,
 }
 
 impl fmt::Display for ViolatedCondition {
@@ -83,6 +85,7 @@ impl fmt::Display for ViolatedCondition {
             value,
             wanted,
             residual,
+            ..
         } = self;
         write!(
             f,

@@ -34,7 +34,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let limits = output::limits(arguments.max_stages);
     let mut audit = Audit::default();
     let inputs = files(&arguments.paths)?;
-    refuse_overwriting(&inputs, [&arguments.json, &arguments.html])?;
+    let results: Vec<&Path> = [&arguments.json, &arguments.html]
+        .into_iter()
+        .filter_map(Option::as_deref)
+        .collect();
+    output::refuse_overwriting(inputs.iter().map(PathBuf::as_path), &results)?;
     for path in inputs {
         let text = export::read_text(&path)?;
         audit.add(&path.display().to_string(), &text, &limits)?;
@@ -44,7 +48,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         (&arguments.html, Audit::html),
     ] {
         if let Some(path) = path {
-            write(path, &text(&audit))?;
+            output::write_file(path, &text(&audit))?;
         }
     }
     let header = [
@@ -104,37 +108,6 @@ fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
 
 fn document(message: String) -> Error {
     ErrorKind::Document { message }.into()
-}
-
-fn write(path: &Path, text: &str) -> Result<(), Error> {
-    std::fs::write(path, text)
-        .map_err(|error| document(format!("cannot write `{}`: {error}", path.display())))
-}
-
-/// Refuses a result that would replace a file of tables or the other result.
-fn refuse_overwriting(inputs: &[PathBuf], outputs: [&Option<PathBuf>; 2]) -> Result<(), Error> {
-    // A file that does not exist yet is known by its folder and name.
-    let known = |path: &Path| -> Option<PathBuf> {
-        path.canonicalize().ok().or_else(|| {
-            let folder = path
-                .parent()
-                .filter(|folder| !folder.as_os_str().is_empty());
-            let folder = folder.unwrap_or(Path::new(".")).canonicalize().ok()?;
-            Some(folder.join(path.file_name()?))
-        })
-    };
-    let mut taken: Vec<Option<PathBuf>> = inputs.iter().map(|path| known(path)).collect();
-    for path in outputs.into_iter().flatten() {
-        let place = known(path);
-        if place.is_some() && taken.contains(&place) {
-            return Err(document(format!(
-                "`{}` would be written over an input or the other result",
-                path.display()
-            )));
-        }
-        taken.push(place);
-    }
-    Ok(())
 }
 
 /// A name without the characters that move the cursor or change colours.

@@ -1,10 +1,11 @@
 //! The command line of the compiler: derive a tableau or the equations of a Hamiltonian, show and list known methods, check files,
-//! refine printed coefficients, read tables of other libraries and hold their claims
+//! write certificates, refine printed coefficients, read tables of other libraries and hold their claims
 //! against proofs.
 //!
 //! Exit status: 0; 1 where a file's entries do not fit, or its digits are not those of a method as claimed; 2 for bad input.
 
 mod audit;
+mod certify;
 mod check;
 mod choice;
 mod derive;
@@ -35,6 +36,7 @@ enum Command {
     List(list::Arguments),
     Show(show::Arguments),
     Check(check::Arguments),
+    Certify(certify::Arguments),
     Refine(refine::Arguments),
     Import(import::Arguments),
     Audit(audit::Arguments),
@@ -47,6 +49,7 @@ fn main() -> ExitCode {
         Command::List(arguments) => list::run(&arguments),
         Command::Show(arguments) => show::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Certify(arguments) => certify::run(&arguments),
         Command::Refine(arguments) => refine::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Audit(arguments) => audit::run(&arguments),

@@ -1,6 +1,7 @@
 //! What is written, and how it gets out.
 
 use std::io::{ErrorKind as IoErrorKind, Write};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
@@ -141,11 +142,47 @@ pub(crate) fn print(text: &str) -> Result<ExitCode, Error> {
     {
         Ok(()) => Ok(ExitCode::SUCCESS),
         Err(error) if error.kind() == IoErrorKind::BrokenPipe => Ok(ExitCode::SUCCESS),
-        Err(error) => {
-            let message = format!("cannot write the output: {error}");
-            Err(ErrorKind::Document { message }.into())
-        }
+        Err(error) => Err(document(format!("cannot write the output: {error}"))),
     }
+}
+
+/// Writes a file.
+pub(crate) fn write_file(path: &Path, text: &str) -> Result<(), Error> {
+    std::fs::write(path, text)
+        .map_err(|error| document(format!("cannot write `{}`: {error}", path.display())))
+}
+
+/// Refuses results that would replace an input or one another.
+pub(crate) fn refuse_overwriting<'a>(
+    inputs: impl IntoIterator<Item = &'a Path>,
+    results: &[&Path],
+) -> Result<(), Error> {
+    // A file that does not exist yet is known by its folder and name.
+    let known = |path: &Path| -> Option<PathBuf> {
+        path.canonicalize().ok().or_else(|| {
+            let folder = path
+                .parent()
+                .filter(|folder| !folder.as_os_str().is_empty());
+            let folder = folder.unwrap_or(Path::new(".")).canonicalize().ok()?;
+            Some(folder.join(path.file_name()?))
+        })
+    };
+    let mut taken: Vec<Option<PathBuf>> = inputs.into_iter().map(known).collect();
+    for path in results {
+        let place = known(path);
+        if place.is_some() && taken.contains(&place) {
+            return Err(document(format!(
+                "`{}` would be written over an input or the other result",
+                path.display()
+            )));
+        }
+        taken.push(place);
+    }
+    Ok(())
+}
+
+fn document(message: String) -> Error {
+    ErrorKind::Document { message }.into()
 }
 
 /// A table with its columns aligned.

@@ -46,7 +46,7 @@ pub(super) fn numbers(indent: &str, entries: &[Entry]) -> String {
 }
 
 /// A double as a hexadecimal floating constant, exactly: `0x1.8p-1`.
-pub(super) fn hexadecimal(value: f64) -> String {
+pub(in crate::export) fn hexadecimal(value: f64) -> String {
     let bits = value.to_bits();
     let sign = if value.is_sign_negative() { "-" } else { "" };
     let (exponent, fraction) = ((bits >> 52) & 0x7ff, bits & ((1 << 52) - 1));

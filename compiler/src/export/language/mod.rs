@@ -20,6 +20,8 @@ mod python;
 mod sundials;
 mod table;
 
+pub(in crate::export) use c::hexadecimal;
+
 use crate::error::{Error, ErrorKind};
 use crate::tableau::Tableau;
 use table::Table;

@@ -1,0 +1,56 @@
+//! `symplectic certify`
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use symplectic_compiler::{Error, Tableau, catalogue, check, export};
+
+use crate::output;
+
+/// Write the certificate of a method: all that is proved of it, for a program that shares no code with this one.
+///
+/// `python3 tableaux/check_certificate.py FILE` checks a certificate with nothing but Python's standard library.
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// A name, as in `symplectic list`, or a file named .toml or .json, as `symplectic derive` writes it.
+    #[arg(value_name = "NAME|FILE")]
+    method: PathBuf,
+    /// The file to write [default: standard output].
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// The most stages that a file may have [default: 36].
+    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    max_stages: Option<u16>,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
+    let text = export::certificate::write(&tableau(&arguments.method, arguments.max_stages)?)?;
+    match &arguments.out {
+        None => output::print(&text),
+        Some(path) => {
+            output::refuse_overwriting([arguments.method.as_path()], &[path])?;
+            output::write_file(path, &text)?;
+            Ok(ExitCode::SUCCESS)
+        }
+    }
+}
+
+/// The method of the catalogue with this name, or that of a file.
+fn tableau(method: &Path, max_stages: Option<u16>) -> Result<Tableau, Error> {
+    let name = method.display().to_string();
+    let is_file = ["toml", "json"]
+        .iter()
+        .any(|known| method.extension().is_some_and(|e| e == *known));
+    if !is_file {
+        let entry = catalogue::find(&name).ok_or_else(|| catalogue::unknown(&name))?;
+        return entry.derive();
+    }
+    let tableau = check(
+        &name,
+        &export::read_text(method)?,
+        &output::limits(max_stages),
+    )?;
+    output::warn_of_wrong_digits(&tableau);
+    Ok(tableau)
+}

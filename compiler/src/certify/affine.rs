@@ -1,0 +1,98 @@
+//! The coefficients of a certified method as affine functions of its irrational unknowns.
+
+use std::collections::BTreeMap;
+
+use num_rational::BigRational;
+use num_traits::Zero;
+
+use super::certificate::{Certificate, Solution};
+use super::conditions::Claim;
+use super::structure::Coefficient;
+use crate::arithmetic::interval::Interval;
+
+/// `c + Σ_i f_i x_i`
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Affine {
+    pub constant: BigRational,
+    /// The factors of the unknowns, by their indices; none is zero.
+    pub factors: BTreeMap<usize, BigRational>,
+}
+
+impl Affine {
+    pub fn rational(value: BigRational) -> Self {
+        Affine {
+            constant: value,
+            factors: BTreeMap::new(),
+        }
+    }
+
+    pub fn as_rational(&self) -> Option<&BigRational> {
+        self.factors.is_empty().then_some(&self.constant)
+    }
+
+    pub fn scaled(&self, factor: &BigRational) -> Self {
+        Affine::rational(BigRational::zero()).plus(self, factor)
+    }
+
+    /// The sum with a multiple of another one.
+    pub fn plus(mut self, other: &Affine, factor: &BigRational) -> Self {
+        self.constant += &other.constant * factor;
+        for (index, own) in &other.factors {
+            *self.factors.entry(*index).or_default() += own * factor;
+        }
+        self.factors.retain(|_, factor| !factor.is_zero());
+        self
+    }
+}
+
+/// What was solved, in the form that a certificate for other programs has.
+#[derive(Debug)]
+pub(crate) struct Solved {
+    /// What the conditions are sufficient for: an order with any symmetric base for a composition.
+    pub claim: Claim,
+    /// The fractions of a composition, in the order of its steps.
+    pub weights: Option<Vec<Affine>>,
+}
+
+impl Certificate {
+    /// A coefficient as an affine function of the unknowns that are not known to be rational.
+    pub(crate) fn affine(&self, coefficient: Coefficient) -> Option<Affine> {
+        let target = self.target(coefficient)?;
+        let terms = target.terms.iter();
+        Some(terms.fold(
+            Affine::rational(BigRational::zero()),
+            |sum, (index, factor)| sum.plus(&self.argument(*index), factor),
+        ))
+    }
+
+    /// An unknown: its value where that is known to be rational.
+    fn argument(&self, index: usize) -> Affine {
+        match self.solution().known(index) {
+            Some(value) => Affine::rational(value),
+            None => Affine {
+                constant: BigRational::zero(),
+                factors: BTreeMap::from([(index, num_traits::One::one())]),
+            },
+        }
+    }
+
+    /// The conditions that were solved; `None` for a method whose coefficients are all rational.
+    pub(crate) fn solved(&self) -> Option<Solved> {
+        let Solution::Enclosed(enclosed) = self.solution() else {
+            return None;
+        };
+        let composition = self.structure().composition();
+        let steps = enclosed.steps().iter();
+        let weights = composition.then(|| steps.map(|step| self.argument(step.argument)).collect());
+        let claim = match composition {
+            true => Claim::SymmetricBase(self.claim().order()),
+            false => self.claim().clone(),
+        };
+        Some(Solved { claim, weights })
+    }
+
+    /// Enclosures of all unknowns.
+    pub(crate) fn enclosed_unknowns(&self, bits: u32) -> Vec<Interval> {
+        self.solution().unknowns(bits)
+    }
+}

@@ -1,0 +1,130 @@
+//! What is proved of a method, and the names of what is not.
+
+use num_rational::BigRational;
+
+use crate::evidence::Evidence;
+use crate::export::facts::Fact;
+use crate::order::{ClassOrder, HamiltonianClass};
+use crate::pair::Staircase;
+use crate::stability::{Stability, StabilityInterval, StableSteps};
+use crate::tableau::Tableau;
+
+use Fact::{List, Literal, Table, Text};
+
+/// The significant digits of the ends of intervals.
+const DIGITS: usize = 40;
+
+/// The claims, and `not_covered` with the names of what is not among them.
+pub(super) fn of(tableau: &Tableau, staircase: Option<Staircase>) -> Vec<(&'static str, Fact)> {
+    let mut claims = Vec::new();
+    let mut missing: Vec<String> = Vec::new();
+    let properties = tableau.properties();
+    if staircase.is_some() {
+        // Symplectic by its layout.
+        let palindrome = tableau.separable_properties().symmetric;
+        note(
+            &mut claims,
+            &mut missing,
+            "palindrome",
+            palindrome.holds,
+            palindrome.evidence,
+        );
+    } else {
+        for (name, found) in [
+            ("symplectic", properties.symplectic),
+            ("symmetric", properties.symmetric),
+        ] {
+            note(&mut claims, &mut missing, name, found.holds, found.evidence);
+        }
+    }
+    let report = tableau.orders();
+    let mut orders = Vec::new();
+    for class in HamiltonianClass::ALL {
+        match class_order(report.class(class)) {
+            Some(order) => orders.push((class.name(), order)),
+            None => missing.push(format!("order ({class})")),
+        }
+    }
+    claims.push(("order", Table(orders)));
+    if let Some(found) = tableau.perturbed_order() {
+        let proved = found
+            .powers
+            .iter()
+            .all(|power| is_proved(power.evidence) && power.refuted_by.is_some());
+        match proved && staircase.is_some() {
+            true => {
+                let orders = found.orders().into_iter();
+                let orders = orders.map(|order| Literal(order.to_string()));
+                claims.push(("perturbed", List(orders.collect())));
+            }
+            false => missing.push("order (perturbed)".to_owned()),
+        }
+    }
+    match stability(tableau) {
+        Some(found) => claims.push(("stability", found)),
+        None => missing.push("stability".to_owned()),
+    }
+    claims.push(("not_covered", List(missing.into_iter().map(Text).collect())));
+    claims
+}
+
+fn is_proved(evidence: Evidence) -> bool {
+    matches!(
+        evidence,
+        Evidence::Proved | Evidence::Refuted | Evidence::Certified
+    )
+}
+
+/// Notes a property that holds or does not as a claim if that is proved.
+fn note(
+    claims: &mut Vec<(&'static str, Fact)>,
+    missing: &mut Vec<String>,
+    name: &'static str,
+    holds: bool,
+    evidence: Evidence,
+) {
+    match is_proved(evidence) {
+        true => claims.push((name, Literal(holds.to_string()))),
+        false => missing.push(name.to_owned()),
+    }
+}
+
+/// The order and a condition of the next one that does not hold.
+fn class_order(found: &ClassOrder) -> Option<Fact> {
+    let violated = found.refuted_by.as_ref()?;
+    is_proved(found.evidence).then(|| {
+        Table(vec![
+            ("order", Literal(found.order.to_string())),
+            ("violated", Text(violated.tree.to_string())),
+            ("residual", Text(violated.residual_decimal.to_string())),
+        ])
+    })
+}
+
+/// The trace and all stable steps, of a method with rational functions that preserves areas.
+fn stability(tableau: &Tableau) -> Option<Fact> {
+    let StableSteps::All(found) = tableau.stable_steps() else {
+        return None;
+    };
+    let Stability {
+        trace, intervals, ..
+    } = &*found;
+    let (numerator, denominator) = trace.rational.as_ref()?;
+    if !found.preserves_area || found.evidence != Evidence::Proved {
+        return None;
+    }
+    let list = |texts: Vec<BigRational>| List(texts.iter().map(|x| Text(x.to_string())).collect());
+    let interval = |i: &StabilityInterval| {
+        List(vec![
+            Text(i.low.decimal(DIGITS)),
+            Text(i.high.decimal(DIGITS)),
+            Literal(i.low_closed.to_string()),
+            Literal(i.high_closed.to_string()),
+        ])
+    };
+    Some(Table(vec![
+        ("numerator", list(numerator.coefficients())),
+        ("denominator", list(denominator.coefficients())),
+        ("intervals", List(intervals.iter().map(interval).collect())),
+    ]))
+}

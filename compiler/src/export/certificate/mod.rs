@@ -1,0 +1,108 @@
+//! Certificates: what is claimed of a method, in a form that a program can check which shares no code with this one.
+//!
+//! The format is in the chapter on file formats of the book; `tableaux/check_certificate.py` is such a program. Written is
+//! what is proved, and named what is not: there is nothing in a certificate that has to be believed.
+
+mod claims;
+mod numbers;
+
+use self::numbers::Numbers;
+use super::facts::Fact;
+use super::language::hexadecimal;
+use crate::error::{Error, ErrorKind};
+use crate::pair::Staircase;
+use crate::tableau::Tableau;
+
+use Fact::{List, Literal, Text};
+
+/// The version of the format.
+const VERSION: usize = 1;
+
+/// Writes the certificate of a tableau as JSON.
+///
+/// # Errors
+/// [`ErrorKind::NotCertified`] for a method whose coefficients are neither algebraic numbers of a known field nor the solution
+/// of order conditions: those with functions such as π, and long compositions of compositions.
+///
+/// ```
+/// use symplectic_compiler::{catalogue, export::certificate};
+///
+/// let method = |name| catalogue::find(name).expect("a known method").derive();
+/// let text = certificate::write(&method("gauss-2")?)?;
+/// assert!(text.contains("\"general\": {\"order\": 4, \"violated\": \"q[q^4]\", \"residual\": \"-0.000925925925926\"}"));
+/// assert!(certificate::write(&method("half-wave-gauss-4")?).is_err());
+/// # Ok::<(), symplectic_compiler::Error>(())
+/// ```
+pub fn write(tableau: &Tableau) -> Result<String, Error> {
+    let Some(numbers) = Numbers::of(tableau) else {
+        let message = "there is no certificate of this method: its coefficients are no algebraic numbers of a known field, and no solution of order conditions".to_owned();
+        return Err(ErrorKind::NotCertified { message }.into());
+    };
+    let mut members = vec![
+        ("format", Text("symplectic certificate".to_owned())),
+        ("version", Literal(VERSION.to_string())),
+        ("name", Text(tableau.name().unwrap_or_default().to_owned())),
+        ("stages", Literal(tableau.stages().to_string())),
+        ("layout", Text(layout(numbers.staircase).to_owned())),
+        ("numbers", numbers.kind),
+        ("b", numbers.b),
+        ("b_tilde", numbers.b_tilde),
+    ];
+    if let Some((a, a_tilde)) = numbers.matrices {
+        members.extend([("a", a), ("a_tilde", a_tilde)]);
+    }
+    members.push(("doubles", doubles(tableau, numbers.staircase)));
+    members.extend(claims::of(tableau, numbers.staircase));
+    let members: Vec<String> = members
+        .iter()
+        .map(|(key, value)| format!("  \"{key}\": {}", lines(value)))
+        .collect();
+    Ok(format!("{{\n{}\n}}\n", members.join(",\n")))
+}
+
+fn layout(staircase: Option<Staircase>) -> &'static str {
+    match staircase {
+        None => "matrices",
+        Some(Staircase::KicksFirst) => "kicks first",
+        Some(Staircase::DriftsFirst) => "drifts first",
+    }
+}
+
+/// The nearest doubles in hexadecimal; those of matrices only where the weights do not say them.
+fn doubles(tableau: &Tableau, staircase: Option<Staircase>) -> Fact {
+    let doubles = tableau.to_f64();
+    let vector = |list: &Vec<f64>| List(list.iter().map(|x| Text(hexadecimal(*x))).collect());
+    let mut members = vec![
+        ("c", vector(&doubles.c)),
+        ("c_tilde", vector(&doubles.c_tilde)),
+        ("b", vector(&doubles.b)),
+        ("b_tilde", vector(&doubles.b_tilde)),
+    ];
+    if staircase.is_none() {
+        let matrix = |rows: &Vec<Vec<f64>>| List(rows.iter().map(vector).collect());
+        members.push(("a", matrix(&doubles.a)));
+        members.push(("a_tilde", matrix(&doubles.a_tilde)));
+    }
+    Fact::Table(members)
+}
+
+/// A member as JSON, with the entries of lists of lists and of tables on lines of their own.
+fn lines(value: &Fact) -> String {
+    match value {
+        List(rows) if rows.iter().any(|row| matches!(row, List(_))) => {
+            let rows: Vec<String> = rows
+                .iter()
+                .map(|row| format!("    {}", row.json()))
+                .collect();
+            format!("[\n{}\n  ]", rows.join(",\n"))
+        }
+        Fact::Table(entries) => {
+            let entries: Vec<String> = entries
+                .iter()
+                .map(|(key, value)| format!("    \"{key}\": {}", value.json()))
+                .collect();
+            format!("{{\n{}\n  }}", entries.join(",\n"))
+        }
+        other => other.json(),
+    }
+}

@@ -1,0 +1,165 @@
+//! The coefficients as lists of rational numbers.
+
+use std::collections::BTreeSet;
+
+use num_rational::BigRational;
+
+use crate::algebra::field::FieldElement;
+use crate::algebra::{Constants, Dense, Field, NodeAlgebra, Real, Reals, Tensor};
+use crate::arithmetic::polynomial::Polynomial;
+use crate::arithmetic::rounding::Decimal;
+use crate::certify::{Affine, Certificate, Claim};
+use crate::exact::Exact;
+use crate::export::facts::Fact;
+use crate::pair::{Pair, Staircase};
+use crate::tableau::Tableau;
+
+use Fact::{List, Literal, Table, Text};
+
+/// The significant digits that tell a root from the others, and the solution of order conditions from all near it.
+const DIGITS: usize = 40;
+
+/// The coefficients of a method.
+pub(super) struct Numbers {
+    /// What the lists below are the coordinates in.
+    pub kind: Fact,
+    /// What the matrices are, if the weights say it.
+    pub staircase: Option<Staircase>,
+    pub b: Fact,
+    pub b_tilde: Fact,
+    pub matrices: Option<(Fact, Fact)>,
+}
+
+impl Numbers {
+    /// `None` where there is no exact form.
+    pub fn of(tableau: &Tableau) -> Option<Self> {
+        match &tableau.exact {
+            Exact::Nodes(pair) => Some(Numbers::of_nodes(pair)),
+            Exact::Field(pair) => Numbers::of_field(pair),
+            Exact::Reals(pair) => Numbers::of_solution(pair),
+        }
+    }
+
+    /// Functions of the nodes: polynomials.
+    fn of_nodes(pair: &Pair<NodeAlgebra>) -> Self {
+        let matrix = |tensor: &Tensor| List(tensor.columns().iter().map(coefficients).collect());
+        Numbers {
+            kind: Table(vec![
+                ("kind", text("nodes")),
+                ("polynomial", coefficients(pair.algebra.modulus())),
+            ]),
+            staircase: None,
+            b: coefficients(&pair.b),
+            b_tilde: coefficients(&pair.b_tilde),
+            matrices: Some((matrix(&pair.a), matrix(&pair.a_tilde))),
+        }
+    }
+
+    /// Elements of `Q(θ)`: polynomials in `θ`. There is no form for functions such as π.
+    fn of_field(pair: &Pair<Dense<Constants>>) -> Option<Self> {
+        let constants = pair.algebra.field();
+        let field = constants.field();
+        let number_field = field.algebraic();
+        let root = field.from_algebraic(&Polynomial::variable());
+        if field.generator().is_some() {
+            return None;
+        }
+        let kind = vec![
+            ("kind", text("field")),
+            ("polynomial", coefficients(number_field.modulus())),
+            ("root", text(constants.number(&root).decimal(DIGITS))),
+        ];
+        let element = |x: &FieldElement| {
+            let algebraic = x.as_algebraic().unwrap_or_else(Polynomial::zero);
+            coefficients(&algebraic)
+        };
+        let vector = |list: &Vec<FieldElement>| List(list.iter().map(element).collect());
+        let matrix = |rows: &Vec<Vec<FieldElement>>| List(rows.iter().map(vector).collect());
+        let staircase = pair.staircase();
+        Some(Numbers {
+            kind: Table(kind),
+            staircase,
+            b: vector(&pair.b),
+            b_tilde: vector(&pair.b_tilde),
+            matrices: match staircase {
+                Some(_) => None,
+                None => Some((matrix(&pair.a), matrix(&pair.a_tilde))),
+            },
+        })
+    }
+
+    /// The solution of order conditions: affine functions of its irrational coordinates.
+    fn of_solution(pair: &Pair<Dense<Reals>>) -> Option<Self> {
+        let mut certificate: Option<Certificate> = None;
+        let mut affine = |list: &[Real]| -> Option<Vec<Affine>> {
+            list.iter().map(|x| x.affine(&mut certificate)).collect()
+        };
+        let (b, b_tilde) = (affine(&pair.b)?, affine(&pair.b_tilde)?);
+        let certificate = certificate?;
+        let solved = certificate.solved()?;
+        let all = b
+            .iter()
+            .chain(&b_tilde)
+            .chain(solved.weights.iter().flatten());
+        let unknowns: BTreeSet<usize> = all.flat_map(|x| x.factors.keys().copied()).collect();
+        let list = |list: &[Affine]| List(list.iter().map(|x| coordinates(x, &unknowns)).collect());
+        let (class, orders) = claim(&solved.claim);
+        let orders = orders.iter().map(|order| Literal(order.to_string()));
+        let mut kind = vec![
+            ("kind", text("solution")),
+            ("class", text(class)),
+            ("orders", List(orders.collect())),
+            ("unknowns", decimals(&certificate, &unknowns)?),
+        ];
+        kind.extend(solved.weights.map(|weights| ("weights", list(&weights))));
+        Some(Numbers {
+            kind: Table(kind),
+            staircase: Some(pair.staircase()?),
+            b: list(&b),
+            b_tilde: list(&b_tilde),
+            matrices: None,
+        })
+    }
+}
+
+fn text(value: impl ToString) -> Fact {
+    Text(value.to_string())
+}
+
+/// The coefficients of `1, x, x², …`.
+fn coefficients(polynomial: &Polynomial) -> Fact {
+    List(polynomial.coefficients().iter().map(text).collect())
+}
+
+/// What the order conditions are for, and up to which orders.
+fn claim(claim: &Claim) -> (&'static str, Vec<usize>) {
+    match claim {
+        Claim::Separable(order) => ("separable", vec![*order]),
+        Claim::Nystrom(order) => ("nystrom", vec![*order]),
+        Claim::SymmetricBase(order) => ("composition", vec![*order]),
+        Claim::Perturbed(orders) => ("perturbed", orders.clone()),
+    }
+}
+
+/// The constant and the factors of the unknowns.
+fn coordinates(x: &Affine, unknowns: &BTreeSet<usize>) -> Fact {
+    let factor = |index| x.factors.get(index).cloned().unwrap_or_default();
+    let factors = unknowns.iter().map(factor);
+    let all = std::iter::once(x.constant.clone()).chain(factors);
+    List(all.map(text).collect())
+}
+
+/// The unknowns, correctly rounded.
+fn decimals(certificate: &Certificate, unknowns: &BTreeSet<usize>) -> Option<Fact> {
+    /// Far more than the digits take.
+    const BITS: u32 = 512;
+    let all = certificate.enclosed_unknowns(BITS);
+    let rounded = |index: &usize| {
+        let round = |end: BigRational| Decimal::round(&end, DIGITS);
+        let interval = all.get(*index)?;
+        let low = round(interval.low());
+        (low == round(interval.high())).then(|| text(low))
+    };
+    let list: Option<Vec<Fact>> = unknowns.iter().map(rounded).collect();
+    Some(List(list?))
+}

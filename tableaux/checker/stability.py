@@ -1,0 +1,82 @@
+"""Stability of the oscillator: for z = (h omega)^2, nu = h omega, one step is the matrix [[m11, nu m12], [-nu m21, m22]]."""
+
+from fractions import Fraction
+
+from .numbers import Roots, combined, common_divisor, demand, has_root, product, rational, rationals, rounded_from, square_free, trimmed, value
+
+
+def check_stability(of, claim):
+    """The trace, and all step sizes for which the stages exist and all powers of the step are bounded."""
+    determinant, step = one_step(of)
+    trace = combined(step["11"], 1, step["22"], 1)
+    turning = [Fraction(0)] + product(step["12"], step["21"])
+    area = combined(product(step["11"], step["22"]), 1, turning, 1)
+    demand(area == product(determinant, determinant), "a step of the oscillator that preserves areas")
+    numerator, denominator = (trimmed(rationals(claim[name])) for name in ("numerator", "denominator"))
+    demand(denominator and product(numerator, determinant) == product(trace, denominator), "the trace of a step of the oscillator")
+    found = stable_intervals(determinant, trace, common_divisor(step["12"], step["21"]))
+    demand(len(found) == len(claim["intervals"]), f"{len(claim['intervals'])} intervals of stable steps")
+    for interval, ends in zip(claim["intervals"], found):
+        demand(interval[2:] == [closed for _, closed in ends], f"the stable ends of {interval[:2]}")
+        for text, (square, _) in zip(interval, ends):
+            if isinstance(square, str):
+                demand(text == square, f"the end {square} of stable steps, not {text}")
+            else:
+                low, high = rounded_from(text)
+                demand(0 < low and low**2 <= square[0] and square[1] <= high**2, f"the end {text} of stable steps")
+
+
+def one_step(of):
+    """The determinant of the equations of the stages, and the numerators of m11, m12, m21, m22 over it."""
+    # Q = q0 u + nu p0 A v and P = p0 v - nu q0 A~ u with u = (1 + z A A~)^-1 1 and v = (1 + z A~ A)^-1 1, as series in z.
+    series, u, v = {"11": [Fraction(1)], "12": [], "21": [], "22": [Fraction(1)]}, of.one, of.one
+    for _ in range(of.s + 1):
+        p_u, q_v = of.apply("p", u), of.apply("q", v)
+        for name, colour, f, sign in (("11", "q", p_u, -1), ("12", "q", v, 1), ("21", "p", u, 1), ("22", "p", q_v, -1)):
+            series[name].append(sign * rational(of.dot(of.weights[colour], f)))
+        u, v = ([x * -1 for x in of.apply(colour, f)] for colour, f in (("q", p_u), ("p", q_v)))
+    determinant = determinant_of(of) if of.matrices else [Fraction(1)]
+    # Numerators have degree s at most.
+    return determinant, {name: trimmed(product(determinant, f)[: of.s + 1]) for name, f in series.items()}
+
+
+def determinant_of(of):
+    """det(1 + z A A~) by the method of Leverrier and Faddeev."""
+    columns = [of.apply("q", of.apply("p", f)) for f in of.basis]
+    matrix = [[rational(x) for x in row] for row in zip(*columns)]
+    found, power = [Fraction(1)], [[Fraction(0)] * of.s] * of.s
+    for k in range(1, of.s + 1):
+        # M (power + c), and the next c = -tr/k
+        power = [[x + found[-1] * (i == j) for j, x in enumerate(row)] for i, row in enumerate(power)]
+        power = [[sum(x * y for x, y in zip(row, column)) for column in zip(*power)] for row in matrix]
+        found.append(-sum(power[i][i] for i in range(of.s)) / k)
+    return trimmed((-1) ** k * c for k, c in enumerate(found))
+
+
+def stable_intervals(determinant, trace, turning):
+    """Where |trace| < 2, or the step is 1 or -1: pairs of ends, each the square of the step size there and whether it is stable."""
+    inside = product(combined(determinant, 2, trace, -1), combined(determinant, 2, trace, 1))
+    cuts = product(inside, determinant)
+    demand(any(cuts), "a trace that is not 2 or -2 for all step sizes")
+    while cuts[0] == 0:
+        cuts = cuts[1:]
+    cuts = square_free(cuts)
+    roots = Roots(cuts).above(Fraction(0))
+    singular, alone = (common_divisor(cuts, f) for f in (determinant, turning))
+    # From zero to the first root, that root, from there to the next one, ...
+    lows, highs = [Fraction(0)] + [root[1] for root in roots], [root[0] for root in roots]
+    samples = [(low + high) / 2 for low, high in zip(lows, highs + [lows[-1] + 2])]
+    stable = [value(inside, samples[0]) > 0]
+    for root, sample in zip(roots, samples[1:]):
+        stable += [has_root(alone, root) and not has_root(singular, root), value(inside, sample) > 0]
+    found, start = [], None
+    for k, here in enumerate(stable + [False]):
+        if here and start is None:
+            start = k
+        elif not here and start is not None:
+            # A cell ends at the root beside it, a root at itself.
+            low = ("0", False) if start == 0 else (roots[(start - 1) // 2], start % 2 == 1)
+            high = ("infinity", False) if k == len(stable) else (roots[(k - 1) // 2], k % 2 == 0)
+            found.append((low, high))
+            start = None
+    return found
