@@ -1,7 +1,7 @@
 (** * What is claimed of a symplectic partitioned Runge-Kutta method
 
     The theorems in the files of `symplectic show NAME --format coq` speak of these definitions: read this file to know what is
-    proved. Orders.v, Tables.v and Nodes.v prove that the check is sound. They use Coq's standard library, and no axiom.
+    proved. The other files prove that the check is sound. They use Coq's standard library, and no axiom.
 
     Hairer, Lubich & Wanner, Geometric Numerical Integration: III.2 (trees), VI.4 and VI.6 (symplecticity), V.2 (symmetry). *)
 

@@ -3,7 +3,7 @@
     A sum over the nodes is a rational number, by Newton's identities: no node is ever computed. *)
 
 From Coq Require Import Arith Bool Lia List Permutation QArith Ring.
-From SPRK Require Export Definitions Orders Tables.
+From SPRK Require Export Definitions Orders Symplectic Tables.
 Import ListNotations.
 
 (** ** 1. Newton's identities *)
@@ -384,10 +384,16 @@ End NodeTables.
 
 (** Proves what a file claims of a table in the nodes, by computation. *)
 Ltac prove_nodes :=
-  intros K nodes Hnodes;
+  intros K nodes Hnodes; cbv zeta;
   repeat match goal with |- _ /\ _ => split end;
   lazymatch goal with
-  | |- has_order (node_method ?T nodes) _ _ => apply (check_order_sound (node_code T nodes Hnodes))
+  | |- has_order (node_method ?T nodes) ?k ?p =>
+      let symplectic := eval vm_compute in (nodes_symplectic T) in
+      match constr:((symplectic, k)) with
+      | (true, general) =>
+          refine (symplectic_order_sound _ (nodes_symplectic_sound T nodes Hnodes _) (node_code T nodes Hnodes) p _)
+      | _ => apply (all_trees_sound (node_code T nodes Hnodes))
+      end
   | |- is_symplectic _ => apply (nodes_symplectic_sound _ nodes Hnodes)
   | |- is_symplectic_for_separable _ => apply (nodes_symplectic_for_separable_sound _ nodes Hnodes)
   | |- _ -> is_symmetric _ => apply (nodes_symmetric_sound _ nodes Hnodes)

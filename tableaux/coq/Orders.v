@@ -104,6 +104,13 @@ End SearchTree.
 Lemma order_positive t : (1 <= order t)%nat.
 Proof. induction t; simpl; lia. Qed.
 
+(** The number of vertices of the largest branch of the root. *)
+Fixpoint widest (t : tree) : nat :=
+  match t with vertex _ => 0 | join t u => Nat.max (widest t) (order u) end.
+
+Lemma widest_bound t : (widest t < order t)%nat.
+Proof. induction t; simpl; lia. Qed.
+
 (** How functions of the stages are computed with. [apply c n f] is n sum_j a_ij f_j; [total c f v] decides sum_i b_i f_i = v. *)
 Record Code {K : Algebra} (M : Method K) := {
   F : Type;
@@ -122,8 +129,15 @@ Record Code {K : Algebra} (M : Method K) := {
     sum (fun i => b M c i * at_stage f i)%K (stages M) = rational v
 }.
 
+Lemma in_firstn {A} (l : list A) d i h : (i < h)%nat -> (i < length l)%nat -> In (nth i l d) (firstn h l).
+Proof.
+  revert i h; induction l as [|x l IH]; intros [|i] [|h]; simpl; try lia; [auto|].
+  intros Hi Hl. right. apply IH; lia.
+Qed.
+
 Section Orders.
-  Context {K : Algebra} {M : Method K} (C : Code M) (k : class).
+  (** Only trees whose root has branches of at most [most] vertices are looked at. *)
+  Context {K : Algebra} {M : Method K} (C : Code M) (k : class) (most : nat).
   Add Ring K_ring : (ring_laws K).
 
   (** What is kept of a tree: the colour of its root, whether it is bare, and its weights at the stages times its density over its
@@ -166,7 +180,7 @@ Section Orders.
 
   (** An entry with what it gives to a tree that it is joined to. *)
   Definition with_branch (n : nat) (x : entry) : entry * F M C :=
-    let '(c, _, f) := x in (x, apply M C c (inject_Z (Z.of_nat n)) f).
+    let '(c, _, f) := x in (x, if (n <=? most)%nat then apply M C c (inject_Z (Z.of_nat n)) f else f).
 
   Definition joined (x y : entry * F M C) : list entry :=
     let '((c, s, f), _) := x in
@@ -175,7 +189,7 @@ Section Orders.
 
   (** The trees of n + 1 vertices, from those of n, n - 1, ..., 1. *)
   Definition next (levels : list (list (entry * F M C))) : list entry :=
-    flat_map (fun '(ts, us) => flat_map (fun t => flat_map (joined t) us) ts) (combine levels (rev levels)).
+    flat_map (fun '(ts, us) => flat_map (fun t => flat_map (joined t) us) ts) (firstn most (combine levels (rev levels))).
 
   Definition fits (n : nat) (x : entry) : bool :=
     let '(c, _, f) := x in total M C c f (/ inject_Z (Z.of_nat n)).
@@ -197,34 +211,39 @@ Section Orders.
   Definition check_order (p : nat) : bool :=
     check_from p 1 [(position, true, unit M C); (momentum, true, unit M C)] [].
 
+  Definition is_seen (t : tree) : Prop := in_class k t = true /\ (widest t <= most)%nat.
+
   Definition complete (n : nat) (levels : list (list (entry * F M C))) : Prop :=
-    length levels = n /\ forall t, in_class k t = true -> (order t <= n)%nat ->
+    length levels = n /\ forall t, is_seen t -> (order t <= n)%nat ->
     In (with_branch (order t) (entry_of t)) (nth (n - order t) levels []).
 
-  Lemma next_complete n levels t : (1 <= n)%nat -> complete n levels -> in_class k t = true -> order t = S n ->
+  Lemma next_complete n levels t : (1 <= n)%nat -> complete n levels -> is_seen t -> order t = S n ->
     In (entry_of t) (next levels).
   Proof.
     intros Hn [Hlength H] Ht Horder.
     destruct t as [c | t u]; simpl in Horder; [lia|].
-    simpl in Ht; apply andb_prop in Ht; destruct Ht as [Ht Hjoin].
+    destruct Ht as [Ht Hwidest]; simpl in Ht, Hwidest; apply andb_prop in Ht; destruct Ht as [Ht Hjoin].
     apply andb_prop in Ht; destruct Ht as [Ht Hu].
-    pose proof (order_positive t); pose proof (order_positive u).
+    pose proof (order_positive t); pose proof (order_positive u); pose proof (widest_bound u).
     apply in_flat_map.
     exists (nth (order u - 1) (combine levels (rev levels)) ([], [])); split.
-    - apply nth_In. rewrite combine_length, rev_length. lia.
+    - apply in_firstn; [lia | rewrite combine_length, rev_length; lia].
     - rewrite combine_nth by now rewrite rev_length.
       rewrite rev_nth by lia.
       apply in_flat_map; exists (with_branch (order t) (entry_of t)); split.
-      { replace (order u - 1)%nat with (n - order t)%nat by lia. apply H; [assumption | lia]. }
+      { replace (order u - 1)%nat with (n - order t)%nat by lia.
+        apply H; [split; [assumption | lia] | lia]. }
       apply in_flat_map; exists (with_branch (order u) (entry_of u)); split.
-      { replace (length levels - S (order u - 1))%nat with (n - order u)%nat by lia. apply H; [assumption | lia]. }
-      unfold joined, with_branch, entry_of. rewrite Hjoin. now left.
+      { replace (length levels - S (order u - 1))%nat with (n - order u)%nat by lia.
+        apply H; [split; [assumption | lia] | lia]. }
+      unfold joined, with_branch, entry_of. replace (order u <=? most)%nat with true by (symmetry; apply Nat.leb_le; lia).
+      rewrite Hjoin. now left.
   Qed.
 
   Lemma check_from_sound steps n entries levels :
-    complete n levels -> (forall t, in_class k t = true -> order t = S n -> In (entry_of t) entries) ->
+    complete n levels -> (forall t, is_seen t -> order t = S n -> In (entry_of t) entries) ->
     check_from steps (S n) entries levels = true ->
-    forall t, in_class k t = true -> (n < order t <= n + steps)%nat -> fits (order t) (entry_of t) = true.
+    forall t, is_seen t -> (n < order t <= n + steps)%nat -> fits (order t) (entry_of t) = true.
   Proof.
     revert n entries levels; induction steps as [|steps IH]; intros n entries levels Hlevels Hentries Hcheck t Ht Horder;
       simpl in Hcheck; [lia|].
@@ -254,9 +273,10 @@ Section Orders.
     destruct (Qmult_integral _ _ H') as [H'' | H'']; [now apply (Hsize u) | tauto].
   Qed.
 
-  Theorem check_order_sound p : check_order p = true -> has_order M k p.
+  Theorem check_order_sound p t : check_order p = true -> is_seen t -> (order t <= p)%nat ->
+    weight M t = rational (/ density t).
   Proof.
-    intros Hcheck t Ht Hp.
+    intros Hcheck Ht Hp.
     assert (Hfits : fits (order t) (entry_of t) = true).
     { apply (check_from_sound p 0 _ [] ) with (3 := Hcheck); try assumption.
       - split; [reflexivity|]. intros u _ Hu. pose proof (order_positive u). lia.
@@ -276,6 +296,12 @@ Section Orders.
       unfold density. rewrite Qinv_mult_distr. apply Qmult_comm.
   Qed.
 End Orders.
+
+Theorem all_trees_sound {K} {M : Method K} (C : Code M) k p : check_order C k p p = true -> has_order M k p.
+Proof.
+  intros H t Ht Hp. apply (check_order_sound C k p p); [assumption | | assumption].
+  split; [assumption|]. pose proof (widest_bound t). lia.
+Qed.
 
 (** The smaller the class, the fewer conditions. *)
 Theorem order_of_smaller_class {K} (M : Method K) p :

@@ -1,7 +1,7 @@
 (** * The check of a table whose entries are polynomials in one number *)
 
 From Coq Require Import Arith Bool Lia List Permutation QArith Ring.
-From SPRK Require Export Definitions Orders.
+From SPRK Require Export Definitions Orders Symplectic.
 Import ListNotations.
 
 (** ** 1. Polynomials modulo x^d = r_0 + r_1 x + ... *)
@@ -301,14 +301,23 @@ Section Tables.
   Qed.
 End Tables.
 
+Definition no_images : list nat := [].
+
 (** Proves by computation what a file claims of a table; [images] are the images of the stages under the symmetry. *)
 Ltac compute_claims Hx images :=
+  cbv zeta;
   repeat match goal with |- _ /\ _ => split end;
   lazymatch goal with
-  | |- has_order (method ?T ?x) _ _ => apply (check_order_sound (table_code T x Hx))
-  | |- is_symplectic _ => apply (table_symplectic_sound _ _ Hx)
-  | |- is_symplectic_for_separable _ => apply (table_symplectic_for_separable_sound _ _ Hx)
-  | |- is_symmetric _ => apply (table_symmetric_sound _ _ images)
+  | |- has_order (method ?T ?x) ?k ?p =>
+      let symplectic := eval vm_compute in (table_symplectic T) in
+      match constr:((symplectic, k)) with
+      | (true, general) =>
+          refine (symplectic_order_sound _ (table_symplectic_sound T x Hx _) (table_code T x Hx) p _)
+      | _ => apply (all_trees_sound (table_code T x Hx))
+      end
+  | |- is_symplectic (method ?T ?x) => apply (table_symplectic_sound T x Hx)
+  | |- is_symplectic_for_separable (method ?T ?x) => apply (table_symplectic_for_separable_sound T x Hx)
+  | |- is_symmetric (method ?T ?x) => apply (table_symmetric_sound T x images)
   end;
   vm_cast_no_check (eq_refl true).
 Ltac prove_table images := intros K x Hx; compute_claims Hx images.

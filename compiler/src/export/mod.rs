@@ -5,7 +5,7 @@
 //! | text | [`text::write`] | | exact entries where short, decimals otherwise, the properties |
 //! | JSON | [`json::write`] | [`json::read`] | short exact forms, decimals, doubles, the properties |
 //! | TOML | [`toml::write`] | [`toml::read`] | all exact data, decimals, the properties |
-//! | LaTeX, C, Fortran, Julia, Python, SUNDIALS, PETSc, nodepy | [`Language::write`] | that language | the coefficients |
+//! | LaTeX, C, Fortran, Julia, Python, SUNDIALS, PETSc, nodepy, Coq | [`Language::write`] | that language | the coefficients |
 
 use crate::coefficients::Coefficients;
 use crate::exact::Exact;
