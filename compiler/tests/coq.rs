@@ -28,6 +28,14 @@ fn form() {
     }
 }
 
+/// 18 stages in a field of degree 15.
+#[test]
+fn an_order_that_takes_too_long_is_lowered() {
+    let text = theorem("triple-jump-6");
+    let claim = "has_order M general 4 (* of 6; higher orders take Coq too long *) /\\\n";
+    assert!(text.contains(claim));
+}
+
 #[test]
 fn what_is_not_known_exactly_is_refused() {
     for (method, reason) in [

@@ -8,13 +8,15 @@ use crate::algebra::NodeAlgebra;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::error::{Error, ErrorKind};
 use crate::evidence::Evidence;
-use crate::order::HamiltonianClass;
+use crate::order::{HamiltonianClass, TreeRule, Trees};
 use crate::pair::Pair;
 use crate::properties::{Property, images};
 use crate::tableau::left_out;
 
 /// Lists that are wider than this have one item a line.
 const WIDEST: usize = 100;
+/// Coq takes about a minute for so many trees, times the squares of the stages and of the degree of the field.
+const MOST_WORK: usize = 6_000_000;
 
 pub(super) fn write(table: &Table<'_>) -> Result<String, Error> {
     let no_theorem = |reason| Error::from(ErrorKind::NoTheorem { reason });
@@ -92,7 +94,8 @@ fn in_number(
     let images = symmetric
         .then(|| images(&table.tableau.numbers()))
         .flatten();
-    let mut claims = claims(table);
+    let each = (coefficients.b[0].len() * degree).pow(2);
+    let mut claims = claims(table, |class, order| affordable(class, order, each));
     if images.is_some() {
         claims.push("is_symmetric M".to_owned());
     }
@@ -138,7 +141,8 @@ fn in_nodes(table: &Table<'_>, pair: &Pair<NodeAlgebra>) -> Theorem {
     let function = |f: &Polynomial| polynomial(f, degree);
     let [a, a_tilde] = [&pair.a, &pair.a_tilde].map(|m| list(m.columns().iter().map(function), 4));
     let [b, b_tilde] = [&pair.b, &pair.b_tilde].map(function);
-    let mut claims = claims(table);
+    // Most trees have equal weights there.
+    let mut claims = claims(table, |_, order| order);
     if is_mirrored(table, pair) {
         claims.push("(are_mirrored nodes -> is_symmetric M)".to_owned());
     }
@@ -176,16 +180,23 @@ fn is_proved(property: &Property) -> bool {
     property.holds && property.evidence == Evidence::Proved
 }
 
-/// The orders and whether it is symplectic, as far as proved. An order that a larger class has too is not repeated.
-fn claims(table: &Table<'_>) -> Vec<String> {
+/// The orders and whether it is symplectic, as far as proved. An order that a larger class has too is not repeated; one that Coq would
+/// take too long for is lowered, and a comment says so.
+fn claims(table: &Table<'_>, lowered: impl Fn(HamiltonianClass, usize) -> usize) -> Vec<String> {
     let orders = table.tableau.orders();
     let mut claims = Vec::new();
     let mut known = 0;
     for class in HamiltonianClass::ALL {
         let found = orders.class(class);
-        if found.evidence == Evidence::Proved && found.order > known {
-            claims.push(format!("has_order M {class} {}", found.order));
-            known = found.order;
+        let order = lowered(class, found.order);
+        if found.evidence == Evidence::Proved && order > known {
+            let remark = if order < found.order {
+                format!(" (* of {}; higher orders take Coq too long *)", found.order)
+            } else {
+                String::new()
+            };
+            claims.push(format!("has_order M {class} {order}{remark}"));
+            known = order;
         }
     }
     if is_proved(&table.tableau.properties().symplectic) {
@@ -194,6 +205,21 @@ fn claims(table: &Table<'_>) -> Vec<String> {
         claims.push("is_symplectic_for_separable M".to_owned());
     }
     claims
+}
+
+/// The highest order up to `order` whose trees Coq can check, where each tree takes this much work.
+fn affordable(class: HamiltonianClass, order: usize, each: usize) -> usize {
+    let mut trees = Trees::up_to(TreeRule::Class(class), 1);
+    let mut number = trees.count(1);
+    while trees.order() < order {
+        let next = trees.order() + 1;
+        number += trees.count(next);
+        if number.saturating_mul(each) > MOST_WORK {
+            break;
+        }
+        trees.grow(next);
+    }
+    trees.order().min(order)
 }
 
 /// Lines as a comment.
