@@ -306,19 +306,20 @@ Definition no_images : list nat := [].
 (** Proves by computation what a file claims of a table; [images] are the images of the stages under the symmetry. *)
 Ltac compute_claims Hx images :=
   cbv zeta;
+  lazymatch goal with
+  | |- context [is_symplectic (method ?T ?x)] =>
+      assert (is_symplectic (method T x)) by (apply (table_symplectic_sound T x Hx); vm_cast_no_check (eq_refl true))
+  | _ => idtac
+  end;
   repeat match goal with |- _ /\ _ => split end;
   lazymatch goal with
-  | |- has_order (method ?T ?x) ?k ?p =>
-      let symplectic := eval vm_compute in (table_symplectic T) in
-      match constr:((symplectic, k)) with
-      | (true, general) =>
-          refine (symplectic_order_sound _ (table_symplectic_sound T x Hx _) (table_code T x Hx) p _)
-      | _ => apply (all_trees_sound (table_code T x Hx))
-      end
-  | |- is_symplectic (method ?T ?x) => apply (table_symplectic_sound T x Hx)
-  | |- is_symplectic_for_separable (method ?T ?x) => apply (table_symplectic_for_separable_sound T x Hx)
-  | |- is_symmetric (method ?T ?x) => apply (table_symmetric_sound T x images)
-  end;
-  vm_cast_no_check (eq_refl true).
+  | H : is_symplectic ?M |- is_symplectic ?M => exact H
+  | H : is_symplectic (method ?T ?x) |- has_order (method ?T ?x) general ?p =>
+      apply (symplectic_order_sound _ H (table_code T x Hx) p); vm_cast_no_check (eq_refl true)
+  | |- has_order (method ?T ?x) _ _ => apply (all_trees_sound (table_code T x Hx)); vm_cast_no_check (eq_refl true)
+  | |- is_symplectic_for_separable (method ?T ?x) =>
+      apply (table_symplectic_for_separable_sound T x Hx); vm_cast_no_check (eq_refl true)
+  | |- is_symmetric (method ?T ?x) => apply (table_symmetric_sound T x images); vm_cast_no_check (eq_refl true)
+  end.
 Ltac prove_table images := intros K x Hx; compute_claims Hx images.
 Ltac prove_rational_table images := intros K; compute_claims (@zero_is_root K) images.
