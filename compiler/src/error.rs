@@ -48,6 +48,12 @@ pub enum ErrorKind {
         /// Why.
         reason: &'static str,
     },
+    /// A method of which no theorem can be written for a proof assistant.
+    #[error("no theorem of this method can be written for Coq: {reason}")]
+    NoTheorem {
+        /// Why.
+        reason: &'static str,
+    },
     /// A parenthesis or bracket without its partner.
     #[error("`{bracket}` has no matching `{partner}`")]
     Unbalanced {

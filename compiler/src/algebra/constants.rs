@@ -350,6 +350,12 @@ impl Constants {
         Some(self.field.from_algebraic(&value))
     }
 
+    /// The field, if it is one of algebraic numbers.
+    pub fn number_field(&self) -> Option<&NumberField> {
+        let algebraic = self.field.generator().is_none();
+        algebraic.then(|| self.field.algebraic())
+    }
+
     /// Whether an element is zero.
     pub fn is_zero(&self, x: &FieldElement) -> bool {
         x.is_zero()

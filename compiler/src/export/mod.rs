@@ -6,7 +6,7 @@
 //! | JSON | [`json::write`] | [`json::read`] | short exact forms, decimals, doubles, the properties |
 //! | TOML | [`toml::write`] | [`toml::read`] | all exact data, decimals, the properties |
 //! | certificate | [`certificate::write`] | `tableaux/check_certificate.py` | all exact data, doubles, what is proved |
-//! | LaTeX, C, Fortran, Julia, Python, SUNDIALS, PETSc, nodepy | [`Language::write`] | that language | the coefficients |
+//! | LaTeX, C, Fortran, Julia, Python, SUNDIALS, PETSc, nodepy, Coq | [`Language::write`] | that language | the coefficients |
 
 use crate::coefficients::Coefficients;
 use crate::exact::Exact;

@@ -19,7 +19,7 @@ use std::fmt;
 
 pub(crate) use self::constrained::multiplier_matrix;
 pub use self::separable::SeparableProperties;
-pub(crate) use self::symmetric::Symmetry;
+pub(crate) use self::symmetric::{Symmetry, images};
 use crate::algebra::{Number, StageAlgebra, Zero};
 use crate::coefficients::{Coefficients, subscript};
 use crate::evidence::Evidence;

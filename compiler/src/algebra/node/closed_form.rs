@@ -36,6 +36,17 @@ impl ClosedForm {
         }
     }
 
+    /// The numbers `p` and `q` of `p + q√d`, if it is one with this `d`.
+    pub fn over(&self, radicand: &BigInt) -> Option<[BigRational; 2]> {
+        let known = self.factor.is_zero() || self.radicand == *radicand;
+        known.then(|| [self.rational.clone(), self.factor.clone()])
+    }
+
+    /// The `d` of `p + q√d`; `None` for a rational number.
+    pub fn radicand(&self) -> Option<&BigInt> {
+        (!self.factor.is_zero()).then_some(&self.radicand)
+    }
+
     /// `rational ± √square` for a positive `square`.
     fn surd(rational: BigRational, square: &BigRational, sign: Ordering) -> Self {
         // √(n/d) = √(n·d)/d, and square factors leave the root.

@@ -119,6 +119,16 @@ impl NodeAlgebra {
         element.inverse_modulo(&self.modulus)
     }
 
+    /// Short exact forms of the values of an element at all nodes, where there are any.
+    pub(crate) fn closed_values(&self, element: &Polynomial) -> Vec<Option<ClosedForm>> {
+        closed_form::of_element(self, element)
+    }
+
+    /// Short exact forms of the entries of a matrix, where there are any.
+    pub(crate) fn closed_entries(&self, matrix: &Tensor) -> Vec<Vec<Option<ClosedForm>>> {
+        closed_form::of_tensor(self, matrix)
+    }
+
     /// The trace `Σ_i f(c_i)`.
     pub fn trace(&self, element: &Polynomial) -> BigRational {
         if element.degree() < Some(2 * self.dimension() - 1) {

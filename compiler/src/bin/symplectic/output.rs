@@ -36,6 +36,8 @@ pub(crate) enum Format {
     Petsc,
     /// Python: a RungeKuttaMethod with entries of SymPy.
     Nodepy,
+    /// A theorem for the proof assistant Coq.
+    Coq,
 }
 
 /// Significant digits that tell doubles apart.
@@ -97,6 +99,7 @@ impl OutputOptions {
             Format::Python => in_language(Language::Python, DEFAULT_DIGITS)?,
             Format::Sundials => in_language(Language::Sundials, DOUBLE_DIGITS)?,
             Format::Petsc => in_language(Language::Petsc, DOUBLE_DIGITS)?,
+            Format::Coq => in_language(Language::Coq, DEFAULT_DIGITS)?,
             Format::Nodepy => in_language(Language::Nodepy, DEFAULT_DIGITS)?,
         })
     }

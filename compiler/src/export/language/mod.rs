@@ -9,13 +9,16 @@
 //! | SUNDIALS | a function that makes a table of ARKODE | splittings; Runge–Kutta methods whose stages follow one another |
 //! | PETSc | a function that registers the method | splittings; Runge–Kutta methods with a regular matrix |
 //! | nodepy | a `RungeKuttaMethod` with entries of SymPy | Runge–Kutta methods |
+//! | Coq | the exact table, and a theorem of its orders, symplecticity and symmetry | exact ones with algebraic coefficients |
 
 mod c;
+mod coq;
 mod fortran;
 mod julia;
 mod latex;
 mod nodepy;
 mod petsc;
+mod polynomials;
 mod python;
 mod sundials;
 mod table;
@@ -45,11 +48,13 @@ pub enum Language {
     Petsc,
     /// Python for nodepy.
     Nodepy,
+    /// A theorem for Coq.
+    Coq,
 }
 
 impl Language {
     /// All of them.
-    pub const ALL: [Language; 8] = [
+    pub const ALL: [Language; 9] = [
         Language::Latex,
         Language::C,
         Language::Fortran,
@@ -58,6 +63,7 @@ impl Language {
         Language::Sundials,
         Language::Petsc,
         Language::Nodepy,
+        Language::Coq,
     ];
 
     /// Writes a tableau. Decimals, where they are the numbers or stand beside them, have `digits ≥ 1` significant digits.
@@ -73,7 +79,8 @@ impl Language {
     /// ```
     ///
     /// # Errors
-    /// [`ErrorKind::NotExpressible`] for a method that the library cannot run.
+    /// [`ErrorKind::NotExpressible`] for a method that the library cannot run, and [`ErrorKind::NoTheorem`] for one whose
+    /// coefficients are not algebraic numbers that are known exactly.
     pub fn write(self, tableau: &Tableau, digits: usize) -> Result<String, Error> {
         let table = Table::new(tableau, digits);
         match self {
@@ -85,6 +92,7 @@ impl Language {
             Language::Sundials => sundials::write(&table),
             Language::Petsc => petsc::write(&table),
             Language::Nodepy => nodepy::write(&table),
+            Language::Coq => coq::write(&table),
         }
     }
 }

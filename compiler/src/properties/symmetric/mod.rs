@@ -29,6 +29,12 @@ const SEARCH_BUDGET: u32 = 100_000;
 /// Binary places of the enclosures by which permutations are excluded.
 const SEARCH_BITS: u32 = 512;
 
+/// The images of the stages, counted from 0, under a permutation for which enclosures do not exclude that a tableau is equal to its
+/// adjoint.
+pub(crate) fn images(numbers: &Coefficients<Number<'_>>) -> Option<Vec<usize>> {
+    search(numbers).ok().map(|Permutation(images)| images)
+}
+
 /// A permutation of the stages that enclosures do not exclude: the images of the stages.
 struct Permutation(Vec<usize>);
 

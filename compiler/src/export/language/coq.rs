@@ -1,0 +1,275 @@
+//! A theorem for Coq, which `tableaux/coq` proves by computation.
+
+use num_rational::BigRational;
+
+use super::polynomials::{Halves, Polynomials};
+use super::table::Table;
+use crate::algebra::NodeAlgebra;
+use crate::arithmetic::polynomial::Polynomial;
+use crate::error::{Error, ErrorKind};
+use crate::evidence::Evidence;
+use crate::order::{HamiltonianClass, TreeRule, Trees};
+use crate::pair::Pair;
+use crate::properties::{Property, images};
+use crate::tableau::left_out;
+
+/// Lists that are wider than this have one item a line.
+const WIDEST: usize = 100;
+/// Coq takes about a minute for so many trees, times the squares of the stages and of the degree of the field.
+const MOST_WORK: usize = 6_000_000;
+
+pub(super) fn write(table: &Table<'_>) -> Result<String, Error> {
+    let no_theorem = |reason| Error::from(ErrorKind::NoTheorem { reason });
+    if left_out(table.tableau).is_some() {
+        return Err(no_theorem("its matrices are too large to be written"));
+    }
+    let polynomials = Polynomials::of(table.tableau).map_err(no_theorem)?;
+    let theorem = match &polynomials {
+        Polynomials::InNumber {
+            modulus,
+            number,
+            coefficients,
+        } => in_number(table, modulus, number, coefficients),
+        Polynomials::InNodes(pair) => in_nodes(table, pair),
+    };
+    if theorem.claims.is_empty() {
+        let reason = "nothing is proved of it: no order, not that it is symplectic or symmetric";
+        return Err(no_theorem(reason));
+    }
+    Ok(theorem.text(table))
+}
+
+/// What differs between tables in a number and tables in the nodes.
+struct Theorem {
+    /// The file of `tableaux/coq` that it needs.
+    library: &'static str,
+    remark: String,
+    record: &'static str,
+    /// The parts of the record with their values.
+    fields: Vec<(&'static str, String)>,
+    /// What the theorem supposes: `forall (K : Algebra) (x : K), is_root … x ->`.
+    hypothesis: String,
+    /// The method that it is about.
+    method: String,
+    claims: Vec<String>,
+    tactic: String,
+}
+
+impl Theorem {
+    fn text(&self, table: &Table<'_>) -> String {
+        let name = &table.name;
+        let fields = self
+            .fields
+            .iter()
+            .map(|(field, value)| format!("  {field} := {value}"));
+        let fields: Vec<String> = fields.collect();
+        format!(
+            "{}\nFrom Coq Require Import List QArith.\nFrom SPRK Require Import {}.\nImport ListNotations.\nOpen Scope Q_scope.\n\n\
+             (** {} *)\nDefinition {name}_table : {} := {{|\n{}\n|}}.\n\n\
+             Theorem {name}_is_proved : {}\n  let M := {} in\n  {}.\nProof. {}. Qed.\n\nPrint Assumptions {name}_is_proved.\n",
+            comment(&table.description()),
+            self.library,
+            self.remark,
+            self.record,
+            fields.join(";\n"),
+            self.hypothesis,
+            self.method,
+            self.claims.join(" /\\\n  "),
+            self.tactic,
+        )
+    }
+}
+
+fn in_number(
+    table: &Table<'_>,
+    modulus: &Polynomial,
+    number: &str,
+    coefficients: &Halves<Polynomial>,
+) -> Theorem {
+    let degree = modulus.degree().unwrap_or(1);
+    let row = |row: &Vec<Polynomial>| list(row.iter().map(|f| polynomial(f, degree)), 4);
+    let [a, a_tilde] = [0, 1].map(|half| list(coefficients.a[half].iter().map(row), 4));
+    let [b, b_tilde] = [0, 1].map(|half| row(&coefficients.b[half]));
+    let symmetric = is_proved(&table.tableau.properties().symmetric);
+    let images = symmetric
+        .then(|| images(&table.tableau.numbers()))
+        .flatten();
+    let each = (coefficients.b[0].len() * degree).pow(2);
+    let mut claims = claims(table, |class, order| affordable(class, order, each));
+    if images.is_some() {
+        claims.push("is_symmetric M".to_owned());
+    }
+    let images = images.map_or("no_images".to_owned(), |images| {
+        let images: Vec<String> = images.iter().map(ToString::to_string).collect();
+        format!("[{}]%nat", images.join("; "))
+    });
+    let name = &table.name;
+    let (remark, hypothesis, method, tactic) = if degree == 1 {
+        (
+            "The entries are rational: polynomials in x = 0.".to_owned(),
+            "forall K : Algebra,".to_owned(),
+            format!("method {name}_table (@zero K)"),
+            format!("prove_rational_table {images}"),
+        )
+    } else {
+        (
+            format!("The entries are polynomials in x = {number}; coefficients of 1, x, ..."),
+            format!("forall (K : Algebra) (x : K), is_root (reduction {name}_table) x ->"),
+            format!("method {name}_table x"),
+            format!("prove_table {images}"),
+        )
+    };
+    Theorem {
+        library: "Tables",
+        remark,
+        record: "Table",
+        fields: vec![
+            ("reduction", reduction(modulus)),
+            ("matrix c", halves(a, a_tilde)),
+            ("weights c", halves(b, b_tilde)),
+        ],
+        hypothesis,
+        method,
+        claims,
+        tactic,
+    }
+}
+
+fn in_nodes(table: &Table<'_>, pair: &Pair<NodeAlgebra>) -> Theorem {
+    let (name, modulus) = (&table.name, pair.algebra.modulus());
+    let degree = pair.algebra.dimension();
+    let function = |f: &Polynomial| polynomial(f, degree);
+    let [a, a_tilde] = [&pair.a, &pair.a_tilde].map(|m| list(m.columns().iter().map(function), 4));
+    let [b, b_tilde] = [&pair.b, &pair.b_tilde].map(function);
+    // Most trees have equal weights there.
+    let mut claims = claims(table, |_, order| order);
+    if is_mirrored(table, pair) {
+        claims.push("(are_mirrored nodes -> is_symmetric M)".to_owned());
+    }
+    let text = modulus.display("x").to_string().replace('−', "-");
+    Theorem {
+        library: "Nodes",
+        remark: format!("The nodes are the roots of {text}; the entries are polynomials in them."),
+        record: "NodeTable",
+        fields: vec![
+            ("node_reduction", reduction(modulus)),
+            ("columns c", halves(a, a_tilde)),
+            ("node_weights c", halves(b, b_tilde)),
+        ],
+        hypothesis: format!(
+            "forall (K : Algebra) (nodes : list K), are_roots (node_reduction {name}_table) nodes ->"
+        ),
+        method: format!("node_method {name}_table nodes"),
+        claims,
+        tactic: "prove_nodes".to_owned(),
+    }
+}
+
+/// Whether it is equal to its adjoint with the stages in reverse: `c` goes to `1 − c`.
+fn is_mirrored(table: &Table<'_>, pair: &Pair<NodeAlgebra>) -> bool {
+    let properties = table.tableau.properties();
+    let (modulus, node) = (pair.algebra.modulus(), pair.algebra.variable());
+    let reflection = Polynomial::from_integers(&[1, -1]);
+    is_proved(&properties.symmetric)
+        && properties.consistent.holds
+        && [pair.c(), pair.c_tilde()].contains(&node)
+        && modulus.compose(&reflection).primitive() == *modulus
+}
+
+fn is_proved(property: &Property) -> bool {
+    property.holds && property.evidence == Evidence::Proved
+}
+
+/// The orders and whether it is symplectic, as far as proved. An order that a larger class has too is not repeated; one that Coq would
+/// take too long for is lowered, and a comment says so.
+fn claims(table: &Table<'_>, lowered: impl Fn(HamiltonianClass, usize) -> usize) -> Vec<String> {
+    let orders = table.tableau.orders();
+    let mut claims = Vec::new();
+    let mut known = 0;
+    for class in HamiltonianClass::ALL {
+        let found = orders.class(class);
+        let order = lowered(class, found.order);
+        if found.evidence == Evidence::Proved && order > known {
+            let remark = if order < found.order {
+                format!(" (* of {}; higher orders take Coq too long *)", found.order)
+            } else {
+                String::new()
+            };
+            claims.push(format!("has_order M {class} {order}{remark}"));
+            known = order;
+        }
+    }
+    if is_proved(&table.tableau.properties().symplectic) {
+        claims.push("is_symplectic M".to_owned());
+    } else if is_proved(&table.tableau.separable_properties().symplectic) {
+        claims.push("is_symplectic_for_separable M".to_owned());
+    }
+    claims
+}
+
+/// The highest order up to `order` whose trees Coq can check, where each tree takes this much work.
+fn affordable(class: HamiltonianClass, order: usize, each: usize) -> usize {
+    let mut trees = Trees::up_to(TreeRule::Class(class), 1);
+    let mut number = trees.count(1);
+    while trees.order() < order {
+        let next = trees.order() + 1;
+        number += trees.count(next);
+        if number.saturating_mul(each) > MOST_WORK {
+            break;
+        }
+        trees.grow(next);
+    }
+    trees.order().min(order)
+}
+
+/// Lines as a comment.
+fn comment(lines: &[String]) -> String {
+    // Coq reads texts in quotation marks and comments in comments.
+    let plain = |line: &String| {
+        line.replace("(*", "( *")
+            .replace("*)", "* )")
+            .replace('"', "'")
+    };
+    let lines: Vec<String> = lines.iter().map(plain).collect();
+    format!("(* {} *)\n", lines.join("\n   "))
+}
+
+/// The values for positions and for momenta.
+fn halves(position: String, momentum: String) -> String {
+    if position == momentum {
+        return position;
+    }
+    format!("match c with\n  | position => {position}\n  | momentum => {momentum}\n  end")
+}
+
+/// `r` of `x^d = r_0 + r_1 x + …`, where the modulus vanishes.
+fn reduction(modulus: &Polynomial) -> String {
+    let degree = modulus.degree().unwrap_or(0);
+    let coefficients =
+        (0..degree).map(|k| rational(&-(modulus.coefficient(k) / modulus.leading())));
+    list(coefficients, 4)
+}
+
+/// The coefficients of `1, x, …`, this many of them.
+fn polynomial(f: &Polynomial, count: usize) -> String {
+    list((0..count).map(|k| rational(&f.coefficient(k))), 6)
+}
+
+fn rational(value: &BigRational) -> String {
+    if value.is_integer() {
+        value.to_string()
+    } else {
+        format!("{}#{}", value.numer(), value.denom())
+    }
+}
+
+/// A list, with one item a line if it is wide.
+fn list(items: impl Iterator<Item = String>, indent: usize) -> String {
+    let items: Vec<String> = items.collect();
+    let in_line = items.join("; ");
+    if in_line.len() <= WIDEST && !in_line.contains('\n') {
+        return format!("[{in_line}]");
+    }
+    let separator = format!(";\n{}", " ".repeat(indent + 1));
+    format!("[{}]", items.join(&separator))
+}
