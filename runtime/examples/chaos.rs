@@ -73,7 +73,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             Ok(())
         },
         |row| {
-            let (Ok(()), (Ok(megno), points)) = (row.outcome, row.output) else {
+            // An orbit whose displacement overflows has failed, and has its indicator.
+            let (Ok(megno), points) = row.output else {
                 return ControlFlow::Continue(());
             };
             let mut path = String::new();

@@ -7,7 +7,6 @@ from functools import lru_cache
 from .numbers import demand
 
 
-
 @lru_cache(maxsize=None)
 def trees(order, kind):
     """All trees with so many vertices for a class of Hamiltonians."""
@@ -44,12 +43,15 @@ def density(tree):
 
 
 def rootings(tree):
-    """The same tree with each of its vertices as the root."""
+    """Trees whose conditions are equivalent for a symplectic method, those of lower orders given: each vertex is the root of one.
+
+    By b_i a_ij + b~_j a~_ji = b_i b~_j, for a child of colour q, the old root becomes a child of colour p, and the other way round.
+    """
     found, rest = {tree}, [tree]
     while rest:
-        colour, children = rest.pop()
+        _, children = rest.pop()
         for i, (other, grandchildren) in enumerate(children):
-            left = (colour, children[:i] + children[i + 1 :])
+            left = ("p" if other == "q" else "q", children[:i] + children[i + 1 :])
             moved = (other, tuple(sorted(grandchildren + (left,))))
             if moved not in found:
                 found.add(moved)

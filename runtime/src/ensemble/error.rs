@@ -49,6 +49,12 @@ pub enum EnsembleError {
         bins: usize,
     },
 
+    /// Histograms that cannot be merged.
+    #[error(
+        "the histograms have other ends or another number of bins: only like ones can be merged"
+    )]
+    OtherBins,
+
     /// What is read is no such thing.
     #[error("the file does not hold {0}; it is damaged, or of something else")]
     Written(&'static str),

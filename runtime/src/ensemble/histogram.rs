@@ -111,6 +111,21 @@ impl Histogram {
         } += 1;
     }
 
+    /// Counts what another one has counted: that of another part of an ensemble.
+    ///
+    /// # Errors
+    ///
+    /// [`EnsembleError::OtherBins`] if its bins are others.
+    pub fn merge(&mut self, other: &Self) -> Result<(), EnsembleError> {
+        if (&self.range, self.counts.len()) != (&other.range, other.counts.len()) {
+            return Err(EnsembleError::OtherBins);
+        }
+        let pairs = self.counts.iter_mut().zip(&other.counts);
+        let outside = self.outside.iter_mut().zip(&other.outside);
+        pairs.chain(outside).for_each(|(own, other)| *own += other);
+        Ok(())
+    }
+
     /// The counts of the bins.
     pub fn counts(&self) -> &[u64] {
         &self.counts

@@ -105,6 +105,41 @@ impl Moments {
         Ok(())
     }
 
+    /// Takes what others have taken: those of another part of an ensemble (Chan, Golub & LeVeque, Am. Stat. 37, 1983, 242).
+    ///
+    /// ```text
+    /// m = m₁ + d n₂/n      s = s₁ + s₂ + d² n₁n₂/n      d = m₂ − m₁      n = n₁ + n₂
+    /// ```
+    ///
+    /// Rounding is another than that of one vector after another: for the same bits join the same parts in the same order.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] if they are of another dimension.
+    pub fn merge(&mut self, other: &Self) -> Result<(), Error> {
+        let (expected, found) = (self.mean.len(), other.mean.len());
+        if expected != found {
+            return Err(Error::Length { expected, found });
+        }
+        if self.count == 0 || other.count == 0 {
+            if self.count == 0 {
+                self.clone_from(other);
+            }
+            return Ok(());
+        }
+        let (own, others) = (self.count as f64, other.count as f64);
+        let part = others / (own + others);
+        let sums = self.mean.iter_mut().zip(&mut self.squares);
+        let theirs = other.mean.iter().zip(&other.squares);
+        for ((mean, squares), (their_mean, their_squares)) in sums.zip(theirs) {
+            let apart = their_mean - *mean;
+            *mean += apart * part;
+            *squares += their_squares + apart * apart * own * part;
+        }
+        self.count += other.count;
+        Ok(())
+    }
+
     /// The number of vectors.
     pub const fn count(&self) -> u64 {
         self.count

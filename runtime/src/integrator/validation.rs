@@ -30,12 +30,11 @@ pub(super) fn check_masses<V: Vector, S: System<V>>(
     let mut velocity = p.zeros_like();
     system.velocity(V::Scalar::from_f64(*time), q, p, &mut velocity);
     first_difference(&velocity, p).map_or(Ok(()), |(component, velocity, momentum)| {
-        let error = Error::NotUnitMasses {
+        Err(Error::NotUnitMasses {
             component,
             velocity,
             momentum,
-        };
-        Err(system.explain(error, q))
+        })
     })
 }
 

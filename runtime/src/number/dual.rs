@@ -305,8 +305,8 @@ impl<T: Scalar> Scalar for Dual<T> {
     }
 
     fn tanh(self) -> Self {
-        let tangent = self.value.tanh();
-        self.chain(tangent, T::one() - tangent * tangent)
+        let inverse = self.value.cosh().recip();
+        self.chain(self.value.tanh(), inverse * inverse)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Vectors of dual numbers, from vectors of values and slopes.
+//! Vectors of dual numbers, and the vectors of both their parts.
 
 use alloc::vec;
 
@@ -7,11 +7,16 @@ use num_traits::Zero;
 use crate::number::Vector;
 use crate::number::dual::Dual;
 
-/// Both halves of the components: values and slopes.
+/// Both halves of the components.
 #[inline(always)]
-pub(super) fn halves<W: Vector>(vector: &W) -> (&[W::Scalar], &[W::Scalar]) {
-    let components = vector.as_slice();
+pub(super) fn halves<T>(components: &[T]) -> (&[T], &[T]) {
     components.split_at(components.len() / 2)
+}
+
+/// [`halves`], to be written.
+#[inline(always)]
+pub(super) fn halves_mut<T>(components: &mut [T]) -> (&mut [T], &mut [T]) {
+    components.split_at_mut(components.len() / 2)
 }
 
 /// The zero vector of a dimension; nothing where such vectors have another one.
@@ -24,11 +29,13 @@ pub(super) fn zeros<V: Vector>(dimension: usize) -> Option<V> {
     V::from_slice(&vec![V::Scalar::zero(); dimension]).ok()
 }
 
-/// The dual numbers of values and slopes.
+/// The dual numbers of values and slopes; nothing where there are not as many of both as the vector has components.
 #[inline(always)]
-pub(super) fn joined<W: Vector, V: Vector<Scalar = Dual<W::Scalar>>>(vector: &W) -> Option<V> {
-    let (values, slopes) = halves(vector);
-    let mut duals: V = zeros(values.len())?;
+pub(super) fn joined<T: Copy, V: Vector<Scalar = Dual<T>>>(
+    values: &[T],
+    slopes: &[T],
+) -> Option<V> {
+    let mut duals: V = zeros(values.len()).filter(|_| values.len() == slopes.len())?;
     let parts = values.iter().zip(slopes);
     for (dual, (&value, &slope)) in duals.as_mut_slice().iter_mut().zip(parts) {
         *dual = Dual { value, slope };
@@ -38,10 +45,9 @@ pub(super) fn joined<W: Vector, V: Vector<Scalar = Dual<W::Scalar>>>(vector: &W)
 
 /// Writes values and slopes of dual numbers.
 #[inline(always)]
-pub(super) fn part<V: Vector<Scalar = Dual<W::Scalar>>, W: Vector>(duals: &V, out: &mut W) {
-    let (values, slopes) = out.as_mut_slice().split_at_mut(duals.dimension());
+pub(super) fn part<T: Copy>(duals: &[Dual<T>], values: &mut [T], slopes: &mut [T]) {
     let places = values.iter_mut().zip(slopes);
-    for (dual, (value, slope)) in duals.as_slice().iter().zip(places) {
+    for (dual, (value, slope)) in duals.iter().zip(places) {
         (*value, *slope) = (dual.value, dual.slope);
     }
 }

@@ -1,5 +1,7 @@
 //! Indicators of chaos.
 
+use super::check_even;
+use super::dual_vector::halves;
 use crate::error::Error;
 use crate::integrator::validation::check_state;
 use crate::number::{Scalar, Vector};
@@ -18,7 +20,8 @@ use crate::state::State;
 /// | of linear oscillators | 1 | 0 | 0 |
 /// | chaotic, or near an unstable periodic one | `e^{λt}` | `λt/2` | λ |
 ///
-/// The integrals are those of straight lines between the states that it is shown: show it some in every period, at any times.
+/// Ȳ tends to 2 from below, slowly near stable periodic orbits. The integrals are those of straight lines between the states that it is
+/// shown: show it one state in a period or more, at any times.
 ///
 /// Source: Cincotta, Giordano & Simó, Physica D 182 (2003) 151; the second form of Y is the first one integrated by parts.
 ///
@@ -26,6 +29,7 @@ use crate::state::State;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Megno {
     begin: f64,
+    /// Negative in a run backward.
     elapsed: f64,
     /// ln|δ| at the start.
     first: f64,
@@ -43,8 +47,9 @@ impl Megno {
     ///
     /// # Errors
     ///
-    /// [`Error::NonFiniteState`], [`Error::Dimension`]; [`Error::NoDisplacement`] where the displacement is zero.
+    /// [`Error::NonFiniteState`], [`Error::Dimension`], [`Error::Length`] where it is odd; [`Error::NoDisplacement`] where the displacement is zero.
     pub fn new<W: Vector<Scalar = f64>>(start: &State<W>) -> Result<Self, Error> {
+        check_even(&start.q)?;
         check_state(start.time, &start.q, &start.p, start.q.dimension())?;
         let first = logarithm(start).ok_or(Error::NoDisplacement)?;
         Ok(Self {
@@ -58,16 +63,19 @@ impl Megno {
         })
     }
 
-    /// Looks at the next state of the run.
+    /// Looks at the next state of the run, forward or backward in time. One that is not behind the last one in that direction is ignored.
     pub fn see<W: Vector<Scalar = f64>>(&mut self, state: &State<W>) {
-        let elapsed = (state.time - self.begin).abs();
-        let step = elapsed - self.elapsed;
-        let (Some(logarithm), true) = (logarithm(state), step != 0.0) else {
+        let elapsed = state.time - self.begin;
+        let (time, step) = (elapsed.abs(), elapsed.abs() - self.elapsed.abs());
+        let Some(logarithm) = logarithm(state) else {
             return;
         };
+        if !(step > 0.0 && elapsed * self.elapsed >= 0.0) {
+            return;
+        }
         let growth = logarithm - self.first;
         self.area += step * (0.5 * (self.growth + growth));
-        let value = 2.0 * (growth - self.area / elapsed);
+        let value = 2.0 * (growth - self.area / time);
         self.sum += step * (0.5 * (self.value + value));
         (self.elapsed, self.growth, self.value) = (elapsed, growth, value);
     }
@@ -93,20 +101,19 @@ impl Megno {
     }
 
     fn over_time(&self, quantity: f64) -> f64 {
-        match self.elapsed > 0.0 {
-            true => quantity / self.elapsed,
-            false => 0.0,
+        match self.elapsed.abs() {
+            0.0 => 0.0,
+            time => quantity / time,
         }
     }
 }
 
 /// ln|δ| of a state of a tangent system, also where squares overflow or vanish; nothing where δ is zero.
 fn logarithm<W: Vector<Scalar = f64>>(state: &State<W>) -> Option<f64> {
-    let half = |vector: &W| vector.dimension() / 2;
     let (q, p) = state.as_slices();
     let parts = || {
-        let (q, p) = (&q[half(&state.q)..], &p[half(&state.p)..]);
-        q.iter().chain(p).map(|part| part.abs())
+        let (dq, dp) = (halves(q).1, halves(p).0);
+        dq.iter().chain(dp).map(|part| part.abs())
     };
     let largest = parts().fold(0.0, f64::max);
     if largest == 0.0 {

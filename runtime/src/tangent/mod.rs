@@ -10,7 +10,7 @@ pub use megno::Megno;
 
 use alloc::vec;
 
-use dual_vector::{halves, joined, part, zeros};
+use dual_vector::{halves, halves_mut, joined, part, zeros};
 
 use crate::error::Error;
 use crate::integrator::validation::check_state;
@@ -20,22 +20,27 @@ use crate::solver::Automatic;
 use crate::state::State;
 use crate::system::{Class, Conservative, Hamiltonian, LaneWork, OverEveryScalar, System};
 
-/// A system together with its variational equations, for positions `(q, δq)` and momenta `(p, δp)`:
+/// A system together with its variational equations, for positions `(q, δq)` and momenta `(δp, p)`:
 ///
 /// ```text
-/// q' = ∂H/∂p     δq' = D(∂H/∂p)·(δq, δp)      p' = −∂H/∂q     δp' = −D(∂H/∂q)·(δq, δp)
+/// q' = ∂H/∂p     δq' = D(∂H/∂p)·(δq, δp)      δp' = −D(∂H/∂q)·(δq, δp)     p' = −∂H/∂q
 /// ```
 ///
-/// The derivatives are exact, by dual numbers through the code of the system. A step of an explicit method maps the displacement
-/// `(δq, δp)` by the derivative of the step itself: two displacements keep their symplectic product, and `(q, p)` has the bits that it has
-/// without a displacement.
+/// In this order it is a Hamiltonian system, with `K = DH·(δq, δp)`, which is its [energy](System::energy); so all that steps, events and
+/// solvers suppose of a system holds for it. The derivatives are exact, by dual numbers through the code of the system. A step of an
+/// explicit method maps the displacement `(δq, δp)` by the derivative of the step itself: two displacements keep their symplectic
+/// product, and `(q, p)` has the bits that it has without a displacement.
 ///
-/// The vectors have twice the dimension: `SVector<f64, 4>` for two positions. It runs like any other system, in the lanes of an
-/// [`Ensemble`](crate::ensemble::Ensemble) too. Dynamic vectors are allocated in every evaluation: prefer fixed ones.
+/// The vectors have twice the dimension: `SVector<f64, 4>` for two positions. It runs like any other system in steps of fixed size, in the
+/// lanes of an [`Ensemble`](crate::ensemble::Ensemble) too. With a monitor of [`adaptive`](crate::adaptive) the displacement would choose
+/// the steps. Systems with friction or constraints, closures and chains have none. Dynamic vectors are allocated in every
+/// evaluation: prefer fixed ones. Where velocity or force has no derivative, as `|x|` at zero written as a root, a step fails with
+/// [`Error::NonFinite`].
 ///
-/// A displacement is a direction, and explicit methods do not care how long it is: one of length 10⁻³⁰⁰ may grow by 10⁶⁰⁰ before a run
-/// ends with [`Error::NonFinite`]. With implicit methods it should not be much smaller than the state, for the iteration stops where
-/// the largest numbers do not change any more.
+/// A displacement is a direction. Take it no longer than the state: what is tried when an integrator is made, whether the velocity is
+/// linear in the momentum, is relative to the largest component. Explicit methods do not care how short it is; one of length 10⁻³⁰⁰ may
+/// grow by 10⁶⁰⁰ before a run ends with [`Error::NonFinite`]. An implicit method stops to iterate where the largest components do not
+/// change any more: take a displacement about as long as the state and compensated sums, which stay right until it has grown by 10²⁰.
 ///
 /// ```
 /// use symplectic::nalgebra::{SVector, Vector2};
@@ -103,11 +108,11 @@ impl<S: Hamiltonian> Tangent<S> {
         if parts.all(|&part| part == 0.0) {
             return Err(Error::NoDisplacement);
         }
-        let both = |vector: &S::Vector<f64>, displacement: &S::Vector<f64>| {
-            W::from_slice(&[vector.as_slice(), displacement.as_slice()].concat())
+        let both = |one: &S::Vector<f64>, other: &S::Vector<f64>| {
+            W::from_slice(&[one.as_slice(), other.as_slice()].concat())
         };
         let q = both(&state.q, dq)?;
-        Ok(State::new(state.time, q, both(&state.p, dp)?))
+        Ok(State::new(state.time, q, both(dp, &state.p)?))
     }
 
     /// The state without its displacement.
@@ -119,8 +124,10 @@ impl<S: Hamiltonian> Tangent<S> {
         &self,
         state: &State<W>,
     ) -> Result<State<S::Vector<f64>>, Error> {
-        let q = S::Vector::from_slice(halves(&state.q).0)?;
-        let p = S::Vector::from_slice(halves(&state.p).0)?;
+        check_even(&state.q)?;
+        check_even(&state.p)?;
+        let q = S::Vector::from_slice(halves(state.q.as_slice()).0)?;
+        let p = S::Vector::from_slice(halves(state.p.as_slice()).1)?;
         Ok(State::new(state.time, q, p))
     }
 
@@ -133,8 +140,21 @@ impl<S: Hamiltonian> Tangent<S> {
         &self,
         state: &State<W>,
     ) -> Result<Displacement<S>, Error> {
-        let q = S::Vector::from_slice(halves(&state.q).1)?;
-        Ok((q, S::Vector::from_slice(halves(&state.p).1)?))
+        check_even(&state.q)?;
+        check_even(&state.p)?;
+        let dq = S::Vector::from_slice(halves(state.q.as_slice()).1)?;
+        Ok((dq, S::Vector::from_slice(halves(state.p.as_slice()).0)?))
+    }
+}
+
+/// Checks that a vector has two halves.
+fn check_even<W: Vector>(vector: &W) -> Result<(), Error> {
+    match vector.dimension() {
+        found if found % 2 == 1 => Err(Error::Length {
+            expected: found + 1,
+            found,
+        }),
+        _ => Ok(()),
     }
 }
 
@@ -147,71 +167,95 @@ pub type Displacement<S> = (
 /// The vectors of a system over dual numbers.
 type Duals<S, W> = <S as Hamiltonian>::Vector<Dual<<W as Vector>::Scalar>>;
 
-/// Writes what `function` gives at positions and momenta; NaN where the system has vectors of another dimension.
+/// The dual positions of `(q, δq)` and momenta of `(δp, p)`, and zeros; nothing where the system has vectors of another dimension.
 #[inline(always)]
-fn evaluate<S: Hamiltonian, W: Vector>(
-    (q, p): (&W, &W),
-    out: &mut W,
-    function: impl FnOnce(&Duals<S, W>, &Duals<S, W>, &mut Duals<S, W>),
-) {
-    let dimension = out.dimension();
-    let found = zeros::<Duals<S, W>>(dimension / 2).filter(|_| dimension.is_multiple_of(2));
-    let (Some(q), Some(p), Some(mut found)) = (joined(q), joined(p), found) else {
-        out.as_mut_slice().fill(W::Scalar::from_f64(f64::NAN));
-        return;
-    };
-    function(&q, &p, &mut found);
-    part(&found, out);
+fn duals<S: Hamiltonian, W: Vector>(q: &W, p: &W) -> Option<[Duals<S, W>; 3]> {
+    let (values, slopes) = halves(q.as_slice());
+    let q = joined(values, slopes)?;
+    let (slopes, values) = halves(p.as_slice());
+    Some([q, joined(values, slopes)?, zeros(values.len())?])
+}
+
+/// Writes a velocity, `(v, δv)`.
+#[inline(always)]
+fn write_velocity<W: Vector>(duals: &[Dual<W::Scalar>], out: &mut W) {
+    let (values, slopes) = halves_mut(out.as_mut_slice());
+    part(duals, values, slopes);
+}
+
+/// Writes a force, `(δf, f)`.
+#[inline(always)]
+fn write_force<W: Vector>(duals: &[Dual<W::Scalar>], out: &mut W) {
+    let (slopes, values) = halves_mut(out.as_mut_slice());
+    part(duals, values, slopes);
+}
+
+/// What is no velocity and no force: the first step then fails, and [`System::explain`] says why.
+fn write_nothing<W: Vector>(out: &mut W) {
+    out.as_mut_slice().fill(W::Scalar::from_f64(f64::NAN));
 }
 
 impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
     type Class = S::Class;
     type Solver = Automatic;
 
-    const UNIT_MASSES: bool = S::UNIT_MASSES;
     const FORCED: bool = S::FORCED;
 
     #[inline(always)]
     fn velocity(&self, time: W::Scalar, q: &W, p: &W, velocity: &mut W) {
         // What it does not depend on is any vector at hand.
         let q = if S::Class::SEPARABLE { p } else { q };
-        evaluate::<S, W>((q, p), velocity, |q, p, velocity| {
-            self.0.velocity(Dual::constant(time), q, p, velocity);
-        });
+        let Some([q, p, mut found]) = duals::<S, W>(q, p) else {
+            return write_nothing(velocity);
+        };
+        self.0.velocity(Dual::constant(time), &q, &p, &mut found);
+        write_velocity(found.as_slice(), velocity);
     }
 
     #[inline(always)]
     fn force(&self, time: W::Scalar, q: &W, p: &W, force: &mut W) {
         let p = if S::Class::SEPARABLE { q } else { p };
-        evaluate::<S, W>((q, p), force, |q, p, force| {
-            self.0.force(Dual::constant(time), q, p, force);
-        });
+        let Some([q, p, mut found]) = duals::<S, W>(q, p) else {
+            return write_nothing(force);
+        };
+        self.0.force(Dual::constant(time), &q, &p, &mut found);
+        write_force(found.as_slice(), force);
     }
 
     #[inline(always)]
     fn slopes(&self, time: W::Scalar, q: &W, p: &W, (velocity, force): (&mut W, &mut W)) {
-        evaluate::<S, W>((q, p), force, |q, p, found| {
-            let mut rates = found.zeros_like();
-            let both = (&mut rates, found);
-            self.0.slopes(Dual::constant(time), q, p, both);
-            part(&rates, velocity);
-        });
+        let Some([q, p, mut rates]) = duals::<S, W>(q, p) else {
+            write_nothing(velocity);
+            return write_nothing(force);
+        };
+        let mut found = rates.zeros_like();
+        let both = (&mut rates, &mut found);
+        self.0.slopes(Dual::constant(time), &q, &p, both);
+        write_velocity(rates.as_slice(), velocity);
+        write_force(found.as_slice(), force);
     }
 
+    /// `K = DH·(δq, δp)`; H is the energy of the [system](Self::system) at the [state](Self::state).
     fn energy(&self, time: W::Scalar, q: &W, p: &W) -> Option<W::Scalar> {
-        let (q, p): (Duals<S, W>, Duals<S, W>) = (joined(q)?, joined(p)?);
+        let [q, p, _] = duals::<S, W>(q, p)?;
         let energy = self.0.energy(Dual::constant(time), &q, &p)?;
-        Some(energy.value)
+        Some(energy.slope)
     }
 
     fn applied_force(&self, time: W::Scalar, q: &W, p: &W, applied: &mut W) {
-        evaluate::<S, W>((q, p), applied, |q, p, applied| {
-            self.0.applied_force(Dual::constant(time), q, p, applied);
-        });
+        let Some([q, p, mut found]) = duals::<S, W>(q, p) else {
+            return write_nothing(applied);
+        };
+        self.0
+            .applied_force(Dual::constant(time), &q, &p, &mut found);
+        write_force(found.as_slice(), applied);
     }
 
     /// Where the system has vectors of another dimension, that is what is wrong.
     fn explain(&self, error: Error, q: &W) -> Error {
+        if let Err(odd) = check_even(q) {
+            return odd;
+        }
         match S::Vector::from_slice(&vec![0.0; q.dimension() / 2]) {
             Err(Error::Length { expected, .. }) => Error::Length {
                 expected: 2 * expected,

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use symplectic::ensemble::{Ensemble, Histogram, Moments};
+use symplectic::ensemble::{Ensemble, EnsembleError, Histogram, Moments};
 use symplectic::nalgebra::Vector1;
 use symplectic::{Error, State};
 
@@ -70,6 +70,21 @@ fn moments_of_numbers_that_are_exact() {
         }
     ));
     assert_eq!(moments.count(), 100);
+    // Of three parts, one of them empty.
+    let mut merged = Moments::new(2);
+    for part in [0..0, 0..13, 13..100] {
+        let mut moments = Moments::new(2);
+        for x in &numbers[part] {
+            moments.add(&[*x, 1e9 + *x]).expect("two components");
+        }
+        merged.merge(&moments).expect("two components");
+    }
+    merged.merge(&Moments::new(2)).expect("two components");
+    assert_eq!(merged.count(), 100);
+    assert!((merged.mean()[0] - mean).abs() < 1e-14);
+    assert!((merged.variance()[0] - variance).abs() < 1e-13);
+    assert!((merged.variance()[1] - variance).abs() < 1e-4);
+    assert!(merged.merge(&Moments::new(1)).is_err());
     assert!(Moments::new(1).variance()[0].is_nan());
 }
 
@@ -89,6 +104,11 @@ fn numbers_are_in_their_bins() {
     assert_eq!((edges.counts()[0], edges.counts()[6]), (1, 1));
     assert_eq!((edges.below(), edges.above(), edges.nan()), (1, 1, 0));
     assert_eq!((edges.edge(0), edges.edge(7)), (-1.0, 2.0));
+    edges.merge(&histogram).expect("the same bins");
+    assert_eq!((edges.counts()[0], edges.counts()[1]), (1001, 1000));
+    assert_eq!((edges.below(), edges.above()), (1, 1));
+    let others = Histogram::new(-1.0, 2.0, 8).expect("bins");
+    assert_eq!(edges.merge(&others), Err(EnsembleError::OtherBins));
     for (low, high, bins) in [
         (0.0, 1.0, 0),
         (1.0, 1.0, 3),

@@ -6,7 +6,8 @@ use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{DVector, Matrix2, SVector, Vector1, Vector2};
 use symplectic::num_traits::Zero;
 use symplectic::tangent::{Megno, Tangent};
-use symplectic::{Compensated, Error, Integrator, Method, ProvedFor, Separable, State};
+use symplectic::variational::generating_function;
+use symplectic::{Compensated, Error, Integrator, Method, ProvedFor, Separable, State, System};
 
 use crate::common::dual::{Dual, dual};
 use crate::common::methods::{ForestRuth, Gauss4, StoermerVerlet};
@@ -75,49 +76,124 @@ fn the_displacement_is_the_derivative_of_the_step() -> Result<(), Error> {
                 assert_eq!(p[k], expected.p[k].derivative);
             }
         }
-        assert_eq!(run.energy(), alone.energy());
         Ok(())
     }
     check(StoermerVerlet)?;
     check(ForestRuth)
 }
 
-/// Quotients of central differences of two runs, which have no tangent system.
-fn by_differences<M: Method + ProvedFor<symplectic::General>>(
-    method: M,
-    (q, p): (f64, f64),
-    (dq, dp): (f64, f64),
-) -> Result<[f64; 2], Error> {
-    let end = |sign: f64| {
-        let e = sign * 1e-5;
-        let start = State::from_arrays(0.0, [q + e * dq], [p + e * dp]);
-        let mut run = Integrator::new(method, Coupled, start, 0.05)?;
+/// The derivative of the state at the time 5 along a displacement, by central differences of two runs without a tangent system.
+fn by_differences<M, S, const N: usize>(
+    (method, system): (M, S),
+    begin: &State<SVector<f64, N>>,
+    (dq, dp): (SVector<f64, N>, SVector<f64, N>),
+) -> Result<[SVector<f64, N>; 2], Error>
+where
+    M: Method + ProvedFor<S::Class>,
+    S: System<SVector<f64, N>> + Copy,
+{
+    let end = |e: f64| {
+        let start = State::new(begin.time, begin.q + dq * e, begin.p + dp * e);
+        let mut run = Integrator::new(method, system, start, 0.05)?;
         run.integrate_to(5.0)?;
-        Ok::<_, Error>([run.state().q[0], run.state().p[0]])
+        Ok::<_, Error>((run.state().q, run.state().p))
     };
-    let (above, below) = (end(1.0)?, end(-1.0)?);
-    Ok([0, 1].map(|k| (above[k] - below[k]) / 2e-5))
+    let (above, below) = (end(1e-5)?, end(-1e-5)?);
+    Ok([(above.0 - below.0) / 2e-5, (above.1 - below.1) / 2e-5])
 }
 
+fn near<const N: usize>(found: &SVector<f64, N>, expected: &SVector<f64, N>) {
+    let error = (found - expected).amax();
+    assert!(
+        error < 1e-8 * expected.amax().max(1.0),
+        "{found} {expected}"
+    );
+}
+
+/// Systems that are not separable, by a fixed-point iteration and by Newton's.
 #[test]
-fn implicit_methods_and_systems_that_are_not_separable() -> Result<(), Error> {
+fn implicit_methods() -> Result<(), Error> {
     let system = Tangent::new(Coupled);
     let begin = State::from_arrays(0.0, [0.4], [0.3]);
     let ends = [(1.0, 0.0), (0.3, -2.0)].map(|(dq, dp)| {
-        let displacement = (&Vector1::new(dq), &Vector1::new(dp));
-        let start: State<Vector2<f64>> = system.start(&begin, displacement)?;
-        let mut run = Integrator::new(Gauss4, system, start, 0.05)?;
+        let displacement = (Vector1::new(dq), Vector1::new(dp));
+        let start: State<Vector2<f64>> =
+            system.start(&begin, (&displacement.0, &displacement.1))?;
+        let mut run = Integrator::new(Gauss4, system, start.clone(), 0.05)?;
+        // DH·δ is conserved.
+        let energy = run.energy().expect("K is known");
         run.integrate_to(5.0)?;
+        assert!((run.energy().expect("K is known") - energy).abs() < 1e-12);
+        let mut newton = Integrator::new(Gauss4, system, start, 0.05)?.by_newton();
+        newton.integrate_to(5.0)?;
+        let (q, p) = system.displacement(newton.state())?;
+        let [expected_q, expected_p] = by_differences((Gauss4, Coupled), &begin, displacement)?;
+        near(&q, &expected_q);
+        near(&p, &expected_p);
         let (q, p) = system.displacement(run.state())?;
-        let expected = by_differences(Gauss4, (0.4, 0.3), (dq, dp))?;
-        assert!((q[0] - expected[0]).abs() < 1e-8 * expected[0].abs().max(1.0));
-        assert!((p[0] - expected[1]).abs() < 1e-8 * expected[1].abs().max(1.0));
+        near(&q, &expected_q);
+        near(&p, &expected_p);
         Ok::<_, Error>((q[0], p[0]))
     });
     let [a, b] = ends;
     let ((q, p), (other_q, other_p)) = (a?, b?);
     // The symplectic product is that of the start.
     assert!((q * other_p - p * other_q + 2.0).abs() < 1e-13);
+    Ok(())
+}
+
+/// Newton's iteration needs as many iterations as alone, however long the displacement is: the tangent system is Hamiltonian.
+#[test]
+fn newton_has_the_right_matrix() -> Result<(), Error> {
+    let system = Tangent::new(Coupled);
+    let begin = State::from_arrays(0.0, [0.4], [0.3]);
+    let mut alone = Integrator::new(Gauss4, Coupled, begin.clone(), 0.2)?.by_newton();
+    alone.take_steps(50)?;
+    for length in [1e-3, 1.0, 1e3] {
+        let displacement = (&Vector1::new(length), &Vector1::new(-length));
+        let start: State<Vector2<f64>> = system.start(&begin, displacement)?;
+        let mut run = Integrator::new(Gauss4, system, start, 0.2)?.by_newton();
+        run.take_steps(50)?;
+        let [found, expected] = [run.statistics(), alone.statistics()].map(|s| s.iterations as f64);
+        assert!(found < 1.5 * expected, "{length}: {found} {expected}");
+    }
+    Ok(())
+}
+
+/// The derivatives of the generating function are the momentum at the start and the position at the end.
+#[test]
+fn the_generating_function_is_that_of_the_step() -> Result<(), Error> {
+    let system = Tangent::new(Coupled);
+    let (q0, p1) = (Vector2::new(0.4, 1.0), Vector2::new(0.5, 0.3));
+    let at = |q0: &Vector2<f64>, p1: &Vector2<f64>| {
+        generating_function(Gauss4, &system, 0.0, q0, p1, 0.1)
+    };
+    let found = at(&q0, &p1)?;
+    for k in 0..2 {
+        let mut e = Vector2::zeros();
+        e[k] = 1e-5;
+        let by_q = (at(&(q0 + e), &p1)?.value - at(&(q0 - e), &p1)?.value) / 2e-5;
+        let by_p = (at(&q0, &(p1 + e))?.value - at(&q0, &(p1 - e))?.value) / 2e-5;
+        assert!((by_q - found.p0[k]).abs() < 1e-9, "{by_q} {}", found.p0[k]);
+        assert!((by_p - found.q1[k]).abs() < 1e-9, "{by_p} {}", found.q1[k]);
+    }
+    Ok(())
+}
+
+/// A force that depends on time.
+#[test]
+fn driven_systems() -> Result<(), Error> {
+    let driven = HenonHeiles { amplitude: 0.1 };
+    let system = Tangent::new(driven);
+    let begin = henon_heiles(0.1, 0.2, 0.1);
+    let displacement = (Vector2::new(0.6, 0.3), Vector2::new(-0.2, 0.7));
+    let start: State<Four> = system.start(&begin, (&displacement.0, &displacement.1))?;
+    let mut run = Integrator::new(ForestRuth, system, start, 0.05)?;
+    run.integrate_to(5.0)?;
+    let (q, p) = system.displacement(run.state())?;
+    let [expected_q, expected_p] = by_differences((ForestRuth, driven), &begin, displacement)?;
+    near(&q, &expected_q);
+    near(&p, &expected_p);
     Ok(())
 }
 
@@ -134,7 +210,7 @@ fn vectors_of_every_kind() -> Result<(), Error> {
     let mut run = Integrator::new(ForestRuth, system, start, 0.01)?;
     let before = run.energy();
     run.integrate_to(10.0)?;
-    let (before, after) = (before.expect("H"), run.energy().expect("H"));
+    let (before, after) = (before.expect("K"), run.energy().expect("K"));
     assert!((before - after).abs() < 1e-6);
 
     let dynamic = Tangent::new(Pendulums);
@@ -154,7 +230,7 @@ fn vectors_of_every_kind() -> Result<(), Error> {
         one.integrate_to(20.0)?;
         let (found, expected) = (run.state(), one.state());
         assert!((found.q[2 + place] - expected.q[1]).abs() < 1e-12);
-        assert!((found.p[2 + place] - expected.p[1]).abs() < 1e-12);
+        assert!((found.p[place] - expected.p[0]).abs() < 1e-12);
     }
     Ok(())
 }
@@ -300,26 +376,31 @@ fn bad_input() -> Result<(), Error> {
     let found: Result<State<Four>, Error> = system.start(&begin, (&some, &(some * f64::NAN)));
     assert!(matches!(found, Err(Error::NonFiniteState { .. })));
     let found: Result<State<SVector<f64, 6>>, Error> = system.start(&begin, (&some, &zero));
-    assert_eq!(
-        found,
-        Err(Error::Length {
-            expected: 6,
-            found: 4
-        })
-    );
-    let still: State<Vector2<f64>> = State::from_arrays(0.0, [1.0, 0.0], [1.0, 0.0]);
+    let length = |expected, found| Error::Length { expected, found };
+    assert_eq!(found, Err(length(6, 4)));
+    let still: State<Vector2<f64>> = State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.0]);
     assert_eq!(Megno::new(&still), Err(Error::NoDisplacement));
-    // A state of another dimension.
-    let start = State::from_arrays(0.0, [0.1; 6], [0.1; 6]);
-    let run = Integrator::new(ForestRuth, system, start, 0.1);
-    assert_eq!(
-        run.err(),
-        Some(Error::Length {
-            expected: 4,
-            found: 6
-        })
-    );
-    let start = State::from_arrays(0.0, [0.1; 5], [0.1; 5]);
-    assert!(Integrator::new(ForestRuth, system, start, 0.1).is_err());
+    // Of odd and of other dimensions.
+    let odd = State::from_arrays(0.0, [0.1; 5], [0.1; 5]);
+    assert_eq!(Megno::new(&odd), Err(length(6, 5)));
+    assert_eq!(system.state(&odd), Err(length(6, 5)));
+    let mut run = Integrator::new(ForestRuth, system, odd, 0.1)?;
+    assert_eq!(run.step().err(), Some(length(6, 5)));
+    let other = State::from_arrays(0.0, [0.1; 6], [0.1; 6]);
+    let mut run = Integrator::new(ForestRuth, system, other, 0.1)?;
+    assert_eq!(run.step().err(), Some(length(4, 6)));
+    // States that are not behind the last one.
+    let start: State<Four> = system.start(&begin, (&some, &zero))?;
+    let mut run = Integrator::new(ForestRuth, system, start.clone(), 0.1)?;
+    let mut megno = Megno::new(&start)?;
+    run.take_steps(100)?;
+    megno.see(run.state());
+    let seen = megno;
+    megno.see(run.state());
+    megno.see(&start);
+    let mut back = Integrator::new(ForestRuth, system, run.into_state(), -0.1)?;
+    back.take_steps(250)?;
+    megno.see(back.state());
+    assert_eq!(megno, seen);
     Ok(())
 }

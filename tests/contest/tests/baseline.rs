@@ -24,13 +24,15 @@ fn failures(share: usize, shares: usize) -> Result<Vec<String>, Error> {
 fn library_and_baseline_go_to_the_same_states() -> Result<(), Error> {
     // Without optimisation they take minutes.
     let shares = thread::available_parallelism().map_or(1, NonZero::get);
-    thread::scope(|scope| {
+    let found = thread::scope(|scope| {
         let start = |share| scope.spawn(move || failures(share, shares));
         let threads: Vec<_> = (0..shares).map(start).collect();
-        for thread in threads {
-            let failures = thread.join().expect("a panic is printed")?;
-            assert!(failures.is_empty(), "{failures:#?}");
-        }
-        Ok(())
-    })
+        let threads = threads.into_iter();
+        threads
+            .map(|thread| thread.join().expect("a panic is printed"))
+            .collect::<Result<Vec<_>, _>>()
+    })?;
+    let failures = found.concat();
+    assert!(failures.is_empty(), "{failures:#?}");
+    Ok(())
 }

@@ -46,6 +46,11 @@ impl Scalar for Dual64 {
     }
 
     #[inline]
+    fn sign(self) -> Self {
+        Self::from_f64(self.re.signum())
+    }
+
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         DualNum::atan2(&self, x)
     }
