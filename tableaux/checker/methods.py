@@ -6,7 +6,7 @@ with V_i = dH/dp and F_i = -dH/dq at (Q_i, P_i). What is multiplied with V has t
 
 from fractions import Fraction
 
-from .numbers import Quotient, Roots, between, common_divisor, demand, enclosed, has_root, monic, product, rationals, reduced, trimmed, value
+from .numbers import Quotient, Roots, between, common_divisor, demand, enclosed, has_root, is_zero, monic, product, rationals, reduced, trimmed, value
 from .trees import density
 
 
@@ -44,11 +44,11 @@ class Stages:
     def entries(self, colour):
         return self.matrices.get(colour) or [list(row) for row in zip(*(self.apply(colour, f) for f in self.basis))]
 
-    def flows(self, zero=0):
+    def flows(self, is_zero=is_zero):
         """The flows of a splitting one after another, with their fractions of the step."""
         first = "pq" if self.layout == "kicks first" else "qp"
         pairs = zip(*(self.weights[colour] for colour in first))
-        return [(colour, x) for pair in pairs for colour, x in zip(first, pair) if x != zero]
+        return [(colour, x) for pair in pairs for colour, x in zip(first, pair) if not is_zero(x)]
 
     def turned(self, f):
         return f[::-1]

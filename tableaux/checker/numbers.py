@@ -7,7 +7,8 @@ from fractions import Fraction
 UNIT = 1 << 400  # The ends of intervals are whole multiples of 1/UNIT.
 NARROW = 1 << 250  # Roots are enclosed between multiples of 1/NARROW.
 TIE = Fraction(1, 1 << 240)  # What is nearer to the middle between two decimals may be rounded to both.
-MOST_DEGREE = 100  # Of polynomials that define nodes and fields.
+MOST_DEGREE = 100  # Of polynomials that define nodes and fields,
+MOST_DIGITS = 3000  # and of their coefficients, all as long as the longest.
 
 
 class Rejected(Exception):
@@ -22,7 +23,7 @@ def demand(holds, claim):
 def rationals(texts):
     demand(isinstance(texts, list) and len(texts) <= 1000, "a list of rational numbers")
     for text in texts:
-        known = isinstance(text, str) and re.fullmatch(r"-?[0-9]{1,2000}(/[0-9]{1,2000})?", text)
+        known = isinstance(text, str) and re.fullmatch(r"-?[0-9]{1,500}(/[0-9]{1,500})?", text)
         demand(known, f"a rational number, not {str(text):.40}")
     return [Fraction(text) for text in texts]
 
@@ -36,6 +37,7 @@ def monic(texts):
     """A polynomial with whole coefficients without a common factor, which is one of its multiples, divided by the last of them."""
     f = rationals(texts)
     demand(1 < len(f) <= MOST_DEGREE, f"a polynomial of degree 1 to {MOST_DEGREE - 1}")
+    demand(len(f) * max(map(len, texts)) <= MOST_DIGITS, f"a polynomial with at most {MOST_DIGITS} digits")
     primitive = all(c.denominator == 1 for c in f) and math.gcd(*(c.numerator for c in f)) == 1
     demand(f[-1] > 0 and primitive, "a polynomial with coprime whole coefficients")
     return [c / f[-1] for c in f]
@@ -295,6 +297,12 @@ class Interval(Number):
         return self.low > 0 or self.high < 0
 
 
+def is_zero(x):
+    """Whether a number is zero. An element of a field that is not may still have the value zero if its polynomial is a product."""
+    demand(not isinstance(x, Element) or not x or enclosed(x).is_not_zero(), "a number that is zero or not")
+    return x == 0 if isinstance(x, (Element, Fraction)) else False
+
+
 def between(low, high):
     return Interval(math.floor(low * UNIT), math.ceil(high * UNIT))
 
@@ -318,6 +326,7 @@ def rounded_from(decimal):
     """The numbers that round to a decimal: half a unit of its last place to both sides."""
     known = isinstance(decimal, str) and re.fullmatch(r"-?[0-9]{1,99}(?:\.([0-9]{1,99}))?(?:e(-?[0-9]{1,3}))?", decimal)
     demand(known, f"a decimal, not {str(decimal):.40}")
+    demand(re.search("[1-9]", decimal.partition("e")[0]), f"a decimal that is not zero, not {decimal}")
     half = Fraction(10) ** (int(known[2] or 0) - len(known[1] or "")) / 2
     return Fraction(decimal) - half, Fraction(decimal) + half
 

@@ -40,9 +40,12 @@ class Solution:
         decimals = numbers["unknowns"]
         demand(self.kind in MOST_ORDER and 0 < len(self.orders) <= 24, "conditions of a class that is known")
         demand(0 < min(self.orders) and max(self.orders) <= MOST_ORDER[self.kind], "conditions of an order that is bounded")
+        demand(self.orders == sorted(self.orders, reverse=True), "orders that do not grow with the power of eps")
+        demand(len(self.orders) == 1 or self.kind == "perturbed", "one order")
+        demand(layout != "matrices", "a splitting")
         demand(0 < len(decimals) <= MOST_UNKNOWNS, f"between 1 and {MOST_UNKNOWNS} unknowns")
         self.layout, self.affine = layout, {colour: [self.vector(x, decimals) for x in list_] for colour, list_ in weights.items()}
-        flows = Stages(layout, self.affine, {}).flows(zero=(0,) * (len(decimals) + 1))
+        flows = Stages(layout, self.affine, {}).flows(is_zero=lambda x: not any(x))
         self.factors = flows
         if self.kind == "composition":
             self.factors = [(None, self.vector(x, decimals)) for x in numbers["weights"]]

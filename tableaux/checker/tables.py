@@ -20,6 +20,8 @@ def check_table(text, certificate, rows):
     table = tomllib.loads(text)
     demand(table["stages"] == certificate["stages"], f"{table['stages']} stages")
     decimals = table["decimals"]
+    needed = {"c", "c_tilde", "b", "b_tilde"} | ({"a", "a_tilde"} if certificate["layout"] == "matrices" else set())
+    demand(needed <= decimals.keys(), "decimals of all coefficients")
     # Long splittings have no matrices.
     rows = {name: numbers for name, numbers in rows.items() if name.partition("[")[0] in decimals}
     for name, numbers in rows.items():
@@ -41,4 +43,4 @@ def check_table(text, certificate, rows):
     for kind, claim in certificate["order"].items():
         found = table["order"][kind]
         demand((found["order"], found["refuted_by"]) == (claim["order"], claim["violated"]), f"the order of the certificate ({kind})")
-        demand(Fraction(found["wanted"]) == Fraction(1, density(read_tree(claim["violated"]))), f"1/gamma ({kind})")
+        demand(rationals([found["wanted"]])[0] == Fraction(1, density(read_tree(claim["violated"]))), f"1/gamma ({kind})")

@@ -6,16 +6,18 @@ from functools import lru_cache
 
 from .numbers import demand
 
+MOST_VERTICES = 60  # Of a tree in a file.
+
 
 @lru_cache(maxsize=None)
 def trees(order, kind):
-    """All trees with so many vertices for a class of Hamiltonians."""
+    """All trees with this number of vertices for a class of Hamiltonians."""
     return [(colour, children) for colour in "qp" for children in forests(order - 1, kind, colour)]
 
 
 @lru_cache(maxsize=None)
 def forests(size, kind, parent):
-    """All multisets of trees with so many vertices together that may hang on a vertex of this colour."""
+    """All multisets of trees with this number of vertices together that may hang on a vertex of this colour."""
     found = set()
 
     def extend(chosen, rest, least):
@@ -42,17 +44,24 @@ def density(tree):
     return size(tree) * math.prod(density(child) for child in tree[1])
 
 
-def rootings(tree):
-    """Trees whose conditions are equivalent for a symplectic method, those of lower orders given: each vertex is the root of one.
+def turned_over(tree, i):
+    """The tree with its child i as the root. For a symplectic method, and conditions of lower orders, the conditions of both are equivalent.
 
-    By b_i a_ij + b~_j a~_ji = b_i b~_j, for a child of colour q, the old root becomes a child of colour p, and the other way round.
+    By b_i a_ij + b~_j a~_ji = b_i b~_j, where the child has the colour q, the old root becomes a child of the colour p, and the other way
+    round.
     """
+    _, children = tree
+    other, grandchildren = children[i]
+    left = ("p" if other == "q" else "q", children[:i] + children[i + 1 :])
+    return (other, tuple(sorted(grandchildren + (left,))))
+
+
+def rootings(tree):
+    """The same tree with each of its vertices as the root."""
     found, rest = {tree}, [tree]
     while rest:
-        _, children = rest.pop()
-        for i, (other, grandchildren) in enumerate(children):
-            left = ("p" if other == "q" else "q", children[:i] + children[i + 1 :])
-            moved = (other, tuple(sorted(grandchildren + (left,))))
+        tree = rest.pop()
+        for moved in (turned_over(tree, i) for i in range(len(tree[1]))):
             if moved not in found:
                 found.add(moved)
                 rest.append(moved)
@@ -72,19 +81,25 @@ def unrooted(order, kind):
 
 def read_tree(text):
     """`q[p^2,q[p]]`"""
-    tokens = re.findall(r"[qp\[\],]|\^\d{1,2}", text) + ["end"]
+    demand(isinstance(text, str) and re.fullmatch(r"([qp\[\],]|\^[1-9][0-9]?)*", text), f"a tree, not {text}")
+    tokens = re.findall(r"[qp\[\],]|\^[0-9]+", text) + ["end"]
 
     def tree():
-        colour, children = tokens.pop(0), []
-        demand(colour in "qp", f"a tree, not {text}")
-        if tokens[0] == "[":
-            while tokens.pop(0) in ("[", ","):
-                child = tree()
-                copies = int(tokens.pop(0)[1:]) if tokens[0].startswith("^") else 1
-                children += [child] * copies
-        return (colour, tuple(sorted(children)))
+        """A tree and the number of its vertices."""
+        colour, children, vertices = tokens.pop(0), [], 1
+        demand(colour in ("q", "p"), f"a tree, not {text}")
+        separator = tokens.pop(0) if tokens[0] == "[" else None
+        while separator in ("[", ","):
+            child, size = tree()
+            copies = int(tokens.pop(0)[1:]) if tokens[0].startswith("^") else 1
+            vertices += size * copies
+            demand(vertices <= MOST_VERTICES, f"a tree with at most {MOST_VERTICES} vertices")
+            children += [child] * copies
+            separator = tokens.pop(0)
+        demand(separator in (None, "]"), f"a tree, not {text}")
+        return (colour, tuple(sorted(children))), vertices
 
-    found = tree()
+    found, _ = tree()
     demand(tokens == ["end"], f"a tree, not {text}")
     return found
 

@@ -12,6 +12,8 @@ from itertools import combinations
 
 from .numbers import demand, enclosed
 
+MOST_WORDS = 20000  # Of one length, and of all that an order needs.
+
 
 def coefficient(word, factors):
     """Of a word in a product: the sum over all ways to cut it into blocks, one for each factor."""
@@ -47,7 +49,8 @@ def is_lyndon(word):
 
 @lru_cache(maxsize=None)
 def splitting_words(degree, kicks):
-    """The Lyndon words with so many letters, so many of them 'p'."""
+    """The Lyndon words of this length with this number of 'p'."""
+    demand(math.comb(degree, kicks) <= MOST_WORDS, "orders with fewer words")
     chosen = combinations(range(degree), kicks)
     words = (tuple("p" if k in places else "q" for k in range(degree)) for places in chosen)
     return [word for word in words if is_lyndon(word)]
@@ -55,10 +58,15 @@ def splitting_words(degree, kicks):
 
 def splitting_conditions(orders, step):
     """The words for the order (s_1, s_2, ...) for H_A + eps H_B: degrees up to s_k with k kicks. One order is that for T(p) + U(q)."""
-    for degree in range(1, orders[0] + 1, step):
-        for kicks in range(degree + 1):
-            if degree == 1 or (0 < kicks < degree and degree <= orders[min(kicks, len(orders)) - 1]):
-                yield from splitting_words(degree, kicks)
+    kinds = [
+        (degree, kicks)
+        for degree in range(1, orders[0] + 1, step)
+        for kicks in range(degree + 1)
+        if degree == 1 or (0 < kicks < degree and degree <= orders[min(kicks, len(orders)) - 1])
+    ]
+    demand(sum(math.comb(*kind) for kind in kinds) <= MOST_WORDS, "orders with fewer words")
+    for kind in kinds:
+        yield from splitting_words(*kind)
 
 
 @lru_cache(maxsize=None)

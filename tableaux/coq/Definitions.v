@@ -3,10 +3,9 @@
     The theorems in the files of `symplectic show NAME --format coq` speak of these definitions: read this file to know what is
     proved. The other files prove that the check is sound. They use Coq's standard library, and no axiom.
 
-    Hairer, Lubich & Wanner, Geometric Numerical Integration: III.2 (trees), VI.4 and VI.6 (symplecticity), V.2 (symmetry). *)
+    Hairer, Lubich & Wanner, Geometric Numerical Integration: III.2 (trees), VI.4, VI.6 and VI.7 (symplecticity), V.2 (symmetry). *)
 
 From Coq Require Import List Permutation QArith Ring.
-From Coq Require Qcanon.
 Import ListNotations.
 
 (** ** 1. Numbers: a commutative ring that contains the rationals, such as the real numbers *)
@@ -42,16 +41,6 @@ Infix "+" := plus : algebra_scope.
 Infix "*" := times : algebra_scope.
 Infix "-" := minus : algebra_scope.
 Notation "- x" := (opposite x) : algebra_scope.
-
-(** The rational numbers themselves. *)
-Definition rationals : Algebra.
-Proof.
-  refine {| carrier := Qcanon.Qc; rational := Qcanon.Q2Qc; ring_laws := Qcanon.Qcrt |}.
-  - intros x y; apply Qcanon.Q2Qc_eq_iff.
-  - reflexivity.
-  - intros x y; apply Qcanon.Q2Qc_eq_iff; simpl; now rewrite !Qred_correct.
-  - intros x y; apply Qcanon.Q2Qc_eq_iff; simpl; now rewrite !Qred_correct.
-Defined.
 
 Fixpoint power {K : Algebra} (x : K) (n : nat) : K :=
   match n with O => 1%K | S n => (x * power x n)%K end.
@@ -172,6 +161,7 @@ Record Table := {
 
 Definition is_root {K : Algebra} (r : polynomial) (x : K) : Prop := power x (length r) = value r x.
 
+(** Read a file as it is: missing entries count as 0, and what is beyond the weights for [position] does not count. *)
 Definition method {K : Algebra} (T : Table) (x : K) : Method K := {|
   label := nat;
   stages := seq 0 (length (weights T position));

@@ -40,7 +40,7 @@ use crate::system::{Class, Conservative, Hamiltonian, LaneWork, OverEveryScalar,
 /// A displacement is a direction. Take it no longer than the state: what is tried when an integrator is made, whether the velocity is
 /// linear in the momentum, is relative to the largest component. Explicit methods do not care how short it is; one of length 10⁻³⁰⁰ may
 /// grow by 10⁶⁰⁰ before a run ends with [`Error::NonFinite`]. An implicit method stops to iterate where the largest components do not
-/// change any more: take a displacement about as long as the state and compensated sums, which stay right until it has grown by 10²⁰.
+/// change any more: take a displacement about as long as the state and compensated sums, which stay right when it has grown by 10¹⁰.
 ///
 /// ```
 /// use symplectic::nalgebra::{SVector, Vector2};

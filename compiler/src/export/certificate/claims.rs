@@ -30,11 +30,25 @@ pub(super) fn of(tableau: &Tableau, staircase: Option<Staircase>) -> Vec<(&'stat
             palindrome.evidence,
         );
     } else {
-        for (name, found) in [
-            ("symplectic", properties.symplectic),
-            ("symmetric", properties.symmetric),
-        ] {
-            note(&mut claims, &mut missing, name, found.holds, found.evidence);
+        let found = properties.symplectic;
+        note(
+            &mut claims,
+            &mut missing,
+            "symplectic",
+            found.holds,
+            found.evidence,
+        );
+        let found = properties.symmetric;
+        // In a certificate it means: with the stages in reverse order. A witness is another order.
+        match found.holds && found.witness.is_some() {
+            true => missing.push("symmetric".to_owned()),
+            false => note(
+                &mut claims,
+                &mut missing,
+                "symmetric",
+                found.holds,
+                found.evidence,
+            ),
         }
     }
     let report = tableau.orders();

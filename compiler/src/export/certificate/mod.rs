@@ -1,7 +1,7 @@
 //! Certificates: what is claimed of a method, in a form that a program can check which shares no code with this one.
 //!
-//! The format is in the chapter on file formats of the book; `tableaux/check_certificate.py` is such a program. Written is
-//! what is proved, and named what is not: there is nothing in a certificate that has to be believed.
+//! The format is in the chapter on file formats of the book; `tableaux/check_certificate.py` is such a program. It has
+//! what is proved, and names what is not. The program proves all of it anew but orders with very many trees, and says so.
 
 mod claims;
 mod numbers;
@@ -29,13 +29,13 @@ const VERSION: usize = 1;
 ///
 /// let method = |name| catalogue::find(name).expect("a known method").derive();
 /// let text = certificate::write(&method("gauss-2")?)?;
-/// assert!(text.contains("\"general\": {\"order\": 4, \"violated\": \"q[q^4]\", \"residual\": \"-0.000925925925926\"}"));
+/// assert!(text.contains("\"general\": {\"order\": 4, \"violated\": \"q[q^4]\", \"residual\": \"-0.00555555555556\"}"));
 /// assert!(certificate::write(&method("half-wave-gauss-4")?).is_err());
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
 pub fn write(tableau: &Tableau) -> Result<String, Error> {
     let Some(numbers) = Numbers::of(tableau) else {
-        let message = "there is no certificate of this method: its coefficients are no algebraic numbers of a known field, and no solution of order conditions".to_owned();
+        let message = "there is no certificate of this method: its coefficients are neither algebraic numbers of a known field nor the solution of order conditions".to_owned();
         return Err(ErrorKind::NotCertified { message }.into());
     };
     let mut members = vec![

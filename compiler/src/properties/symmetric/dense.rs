@@ -41,6 +41,6 @@ impl<F: Field> Symmetry for Dense<F> {
                 }
             }
         }
-        Property::holding(evidence, None)
+        Property::holding(evidence, order.unusual())
     }
 }

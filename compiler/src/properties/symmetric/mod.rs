@@ -39,6 +39,12 @@ pub(crate) fn images(numbers: &Coefficients<Number<'_>>) -> Option<Vec<usize>> {
 struct Permutation(Vec<usize>);
 
 impl Permutation {
+    /// The order of the stages, for a message, if it is not the reverse one.
+    fn unusual(&self) -> Option<String> {
+        let reverse = (0..self.0.len()).rev();
+        (!reverse.eq(self.0.iter().copied())).then(|| self.witness())
+    }
+
     /// The order of the stages, for a message.
     fn witness(&self) -> String {
         let images: Vec<String> = self.0.iter().map(|i| (i + 1).to_string()).collect();
