@@ -177,7 +177,7 @@ fn what_is_not_proved_and_what_is_no_certificate_is_rejected() {
             "orders with fewer words",
         ),
         (
-            edited(&solution, "\"drifts first\"", "\"matrices\""),
+            edited(&solution, "\"kicks first\"", "\"matrices\""),
             "the member 'a' is missing",
         ),
         (
