@@ -75,8 +75,8 @@ def symmetric(of):
 
 def check_property(name, claim, residuals):
     """All residuals are zero, or the value of one is not."""
-    zero = all(not x for x in residuals) if claim is True else any(enclosed(x).is_not_zero() for x in residuals)
-    demand(type(claim) is bool and zero, f"{name} = {claim}")
+    holds = all(not x for x in residuals) if claim is True else any(enclosed(x).is_not_zero() for x in residuals)
+    demand(type(claim) is bool and holds, f"{name} = {claim}")
 
 
 def coefficients(of):

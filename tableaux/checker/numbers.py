@@ -299,7 +299,7 @@ class Interval(Number):
 
 def is_zero(x):
     """Whether a number is zero. An element of a field that is not may still have the value zero if its polynomial is a product."""
-    demand(not isinstance(x, Element) or not x or enclosed(x).is_not_zero(), "a number that is zero or not")
+    demand(not isinstance(x, Element) or not x or enclosed(x).is_not_zero(), "a number that is not zero, or whose coordinates are")
     return x == 0 if isinstance(x, (Element, Fraction)) else False
 
 

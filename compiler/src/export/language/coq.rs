@@ -15,7 +15,7 @@ use crate::tableau::left_out;
 
 /// Lists that are wider than this have one item a line.
 const WIDEST: usize = 100;
-/// Coq takes about a minute for so many trees, times the squares of the stages and of the degree of the field.
+/// Trees, times the squares of the stages and of the degree of the field: beyond this number Coq would take minutes.
 const MOST_WORK: usize = 6_000_000;
 
 pub(super) fn write(table: &Table<'_>) -> Result<String, Error> {
