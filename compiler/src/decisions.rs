@@ -12,7 +12,7 @@ use crate::schedule::{Class, StepGraph};
 use crate::stability::Stability;
 use crate::{Definition, Limits, Tableau};
 
-#[path = "../tests/extreme/seeds.rs"]
+#[path = "../tests/methods/extreme/seeds.rs"]
 mod seeds;
 use seeds::seeds;
 

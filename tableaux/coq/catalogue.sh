@@ -5,7 +5,7 @@ cd "$(dirname "$0")/../.."
 library=$(mktemp -d)
 trap 'rm -r "$library"' EXIT
 cp tableaux/coq/*.v "$library"
-cargo build --quiet --release -p symplectic-compiler
+cargo build --quiet --release -p symplectic-cli
 cd "$library"
 for file in Definitions Orders Symplectic Tables Nodes; do coqc -R . SPRK "$file.v"; done
 TIMEFORMAT=%U

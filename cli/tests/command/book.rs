@@ -1,13 +1,9 @@
 //! The catalogue in the book is the output of `symplectic list --facts`.
-//!
-//! `UPDATE_EXPECT=1 cargo test -p symplectic-compiler --test book` writes it anew.
-
-mod command;
 
 use std::fs;
 use std::path::PathBuf;
 
-use command::stdout;
+use crate::run::stdout;
 
 #[test]
 fn the_catalogue_of_the_book_is_what_the_tool_lists() {

@@ -1,10 +1,8 @@
 //! Definitions with extreme constants: an answer in time, and files that are accepted again.
 
-mod extreme;
-
 use std::time::Duration;
 
-use extreme::{Random, definition, seeds, within};
+use crate::extreme::{Random, definition, seeds, within};
 use num_bigint::BigInt;
 use symplectic_compiler::export::{json, text, toml};
 use symplectic_compiler::{Definition, Key, Limits, check};

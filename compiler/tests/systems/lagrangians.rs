@@ -1,10 +1,8 @@
 //! Lagrangians: the Hamiltonians that follow from them, what is emitted, and what is refused.
 
-mod formula;
-
+use crate::formula::{Wide, code, read, refused};
 use expect_test::{expect, expect_file};
 use f256::f256;
-use formula::{Wide, code, read, refused};
 use proptest::prelude::*;
 use symplectic_compiler::formula::derivative::gradient;
 use symplectic_compiler::formula::display::Notation;
@@ -45,7 +43,7 @@ fn forces_of_velocities() {
 #[test]
 fn the_code_of_the_double_pendulum() {
     let (read, structure) = lagrangian(DOUBLE_PENDULUM);
-    expect_file!["emission/lagrangian_double_pendulum.rs"].assert_eq(&code(&read, &structure));
+    expect_file!["emitted/lagrangian_double_pendulum.rs"].assert_eq(&code(&read, &structure));
 }
 
 /// Without the function for momenta, nothing shows that it was a Lagrangian.
@@ -148,7 +146,7 @@ fn lagrangians_without_a_hamiltonian() {
         L = -m c^2 sqrt(1 - (vx^2 + vy^2)/c^2) - (x^2 + y^2)/2
         force: { x = -drag vx, y = -drag vy }";
     let (read, structure) = lagrangian(text);
-    expect_file!["emission/lagrangian_particle.rs"].assert_eq(&code(&read, &structure));
+    expect_file!["emitted/lagrangian_particle.rs"].assert_eq(&code(&read, &structure));
     expect![[r#"
         Particle
 

@@ -1,11 +1,9 @@
 //! What certificates and tables claim, checked by a program in Python that shares no code with the compiler.
 
-mod command;
-
 use std::path::PathBuf;
 use std::process::Command;
 
-use command::{failure, stdout};
+use crate::run::{failure, stdout};
 
 fn root() -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
@@ -69,7 +67,8 @@ fn the_trees_are_counted_right() {
 /// The equation behind one condition for all rootings of a tree, with random coefficients.
 #[test]
 fn rootings_are_equivalent_for_symplectic_methods() {
-    let Some((_, text)) = python(&["compiler/tests/certificates/rootings.py", "tableaux"]) else {
+    let Some((_, text)) = python(&["cli/tests/command/certificates/rootings.py", "tableaux"])
+    else {
         return;
     };
     assert_eq!(text, "476 of 476\n");
@@ -84,7 +83,7 @@ fn a_wrong_digit_is_found() {
                    blanes-moan-2002-srkn6b mclachlan-1995-aba-8-4 kahan-li-1997-s9odr6-a yoshida-1990-order-6-b \
                    sampled 13 mclachlan-atela-1992-order-4-optimal";
     let arguments = format!(
-        "compiler/tests/certificates/mutations.py tableaux all-of {all} sampled 97 {sampled}"
+        "cli/tests/command/certificates/mutations.py tableaux all-of {all} sampled 97 {sampled}"
     );
     let arguments: Vec<&str> = arguments.split_whitespace().collect();
     let Some((_, text)) = python(&arguments) else {

@@ -131,7 +131,7 @@ fn definitions_and_files_come_back() {
 #[test]
 fn methods_of_the_literature_are_derived() {
     let data: Value =
-        serde_json::from_str(include_str!("data/explicit-methods.json")).expect("JSON");
+        serde_json::from_str(include_str!("../data/explicit-methods.json")).expect("JSON");
     let mut count = 0;
     for method in data["methods"].as_array().expect("a list") {
         let name = method["name"].as_str().expect("a name");

@@ -1,11 +1,9 @@
 //! Refining printed coefficients on the command line.
 
-mod command;
-
 use std::path::Path;
 use std::sync::LazyLock;
 
-use command::{failure, stdout};
+use crate::run::{failure, stdout};
 use expect_test::expect;
 use serde_json::Value;
 
@@ -13,8 +11,10 @@ use serde_json::Value;
 static FILES: LazyLock<Vec<(String, String)>> = LazyLock::new(files);
 
 fn files() -> Vec<(String, String)> {
-    let data: Value =
-        serde_json::from_str(include_str!("data/explicit-methods.json")).expect("JSON");
+    let data: Value = serde_json::from_str(include_str!(
+        "../../../compiler/tests/data/explicit-methods.json"
+    ))
+    .expect("JSON");
     let methods = data["methods"].as_array().expect("a list").iter();
     let file = |method: &Value| {
         let entry = symplectic_compiler::catalogue::find(method["name"].as_str()?)?;
@@ -110,7 +110,7 @@ fn every_method_is_certified() {
 /// The example of the book is a file.
 #[test]
 fn a_file_is_refined() {
-    let file = "tests/data/yoshida-1990-order-6-a.toml";
+    let file = "tests/command/data/yoshida-1990-order-6-a.toml";
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
     let found = stdout(&["refine", &file.display().to_string(), "--digits", "100"]);
     let same = stdout(&["refine", &path("yoshida-1990-order-6-a"), "--digits", "100"]);

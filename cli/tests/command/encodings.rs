@@ -1,10 +1,8 @@
 //! Files as editors write them: with a byte-order mark, with CRLF, in UTF-16.
 
-mod command;
-
 use std::path::PathBuf;
 
-use command::{stdout, symplectic};
+use crate::run::{stdout, symplectic};
 
 /// A file of this test.
 fn file(name: &str, contents: &[u8]) -> String {

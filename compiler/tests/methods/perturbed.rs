@@ -1,8 +1,5 @@
 //! Orders for perturbed systems H = H_A + εH_B: of splittings, with drifts for H_A and kicks for εH_B.
 
-mod command;
-
-use command::{failure, stdout};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 use proptest::prelude::*;
@@ -297,62 +294,6 @@ fn files_hold_the_order_and_are_checked() {
     assert!(check("saba.json", &edited, &limits).is_err());
     let gauss = json::write(&known("gauss-1"), 20);
     assert!(gauss.contains("\"perturbed\": null"), "{gauss}");
-}
-
-/// The names in a table of `list`.
-fn names(arguments: &[&str]) -> Vec<String> {
-    let text = stdout(&[&["list", "--class", "perturbed"], arguments].concat());
-    let rows = text.lines().filter(|line| line.starts_with("  "));
-    let name = |row: &str| row.split_whitespace().next().map(str::to_owned);
-    rows.skip(1).filter_map(name).collect()
-}
-
-#[test]
-fn list_filters_and_sorts_by_several_orders() {
-    let has = |names: &[String], name: &str| names.iter().any(|other| other == name);
-    let eight = names(&["--min-order", "8,2", "--max-order", "8,2"]);
-    assert!(has(&eight, "saba-4") && has(&eight, "sbab-4"));
-    assert!(!has(&eight, "saba-3") && !has(&eight, "stormer-verlet"));
-    let six = names(&["--min-order", "6,2", "--max-order", "6,4"]);
-    assert!(has(&six, "saba-3") && !has(&six, "saba-4") && !has(&six, "triple-jump-6"));
-    let sorted = names(&["--sort", "order", "--max-evaluations", "4"]);
-    let place = |name: &str| sorted.iter().position(|other| other == name).expect(name);
-    let expected = [
-        "saba-4",
-        "saba-3",
-        "mclachlan-1995-s4",
-        "saba-2",
-        "ruth-1983",
-        "saba-1",
-    ];
-    assert!(expected.map(place).is_sorted(), "{sorted:?}");
-    assert!(!has(&sorted, "gauss-2"));
-    // One number is that of all powers.
-    let four = names(&["--min-order", "4", "--max-evaluations", "4"]);
-    assert!(has(&four, "mclachlan-1995-s4") && !has(&four, "saba-4"));
-    for (arguments, told) in [
-        (
-            &["--min-order", "8,2"][..],
-            "several orders are those of `--class perturbed`",
-        ),
-        (
-            &["--class", "perturbed", "--sort", "error"],
-            "there is no error constant for",
-        ),
-        (
-            &["--class", "perturbed", "--min-order", "8;2"],
-            "orders such as 8,4",
-        ),
-    ] {
-        let (status, errors) = failure(&[&["list"], arguments].concat());
-        assert_eq!(status, Some(2));
-        assert!(errors.contains(told), "{errors}");
-    }
-    let shown = stdout(&["show", "saba-1"]);
-    assert!(
-        shown.contains("\n  perturbed  (2, 2), proved; not 3 in ε: "),
-        "{shown}"
-    );
 }
 
 /// Weights with which `Σ_i w_i c_i^n = 1/(n + 1)` for as many `n` as there are nodes: Lagrange's, by elimination.

@@ -1,6 +1,4 @@
 //! The generated code: readable, and without anything that the tableau does not need.
-//!
-//! `UPDATE_EXPECT=1 cargo test -p symplectic-compiler --test emission` rewrites the snapshots.
 
 use expect_test::expect_file;
 use proc_macro2::{Ident, Span};
@@ -25,19 +23,19 @@ fn derived(basis: &str, nodes: &str) -> Tableau {
 #[test]
 fn an_explicit_method_is_straight_line_code() {
     let code = emitted(&derived("polynomial(2)", "lobatto(2)"), "StoermerVerlet");
-    expect_file!["emission/stoermer_verlet.rs"].assert_eq(&code);
+    expect_file!["emitted/stoermer_verlet.rs"].assert_eq(&code);
 }
 
 #[test]
 fn the_ends_of_a_step_are_not_solved_for() {
     let code = emitted(&derived("polynomial(3)", "lobatto(3)"), "Lobatto3");
-    expect_file!["emission/lobatto_3.rs"].assert_eq(&code);
+    expect_file!["emitted/lobatto_3.rs"].assert_eq(&code);
 }
 
 #[test]
 fn one_matrix_is_written_once() {
     let code = emitted(&derived("polynomial(2)", "gauss(2)"), "Gauss2");
-    expect_file!["emission/gauss_2.rs"].assert_eq(&code);
+    expect_file!["emitted/gauss_2.rs"].assert_eq(&code);
 }
 
 /// Three kicks and drifts a step after the merging, and a force that is carried to the next.
@@ -54,7 +52,7 @@ fn a_splitting_is_straight_line_code() {
     // The last momentum stage has no drift after it, and no velocity is evaluated there.
     let moves = [".kick::<", ".drift::<"].map(|call| separable.matches(call).count());
     assert_eq!(moves, [4, 3]);
-    expect_file!["emission/forest_ruth.rs"].assert_eq(&code);
+    expect_file!["emitted/forest_ruth.rs"].assert_eq(&code);
 }
 
 /// One plan for each class, however many steps there are.

@@ -1,8 +1,6 @@
 //! Splittings and compositions on the command line, and choosing among the methods of the catalogue.
 
-mod command;
-
-use command::{failure, stdout};
+use crate::run::{failure, stdout};
 use expect_test::expect;
 
 #[test]

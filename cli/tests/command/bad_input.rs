@@ -1,8 +1,6 @@
 //! Bad input on the command line: the message, the caret and the exit status.
 
-mod command;
-
-use command::{failure, stdout};
+use crate::run::{failure, stdout};
 use expect_test::{Expect, expect};
 
 fn bad_input(arguments: &[&str], expected: Expect) {

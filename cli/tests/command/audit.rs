@@ -1,10 +1,8 @@
 //! What the tables of other libraries claim and what is proved of them.
 
-mod command;
-
 use std::path::Path;
 
-use command::{failure, symplectic};
+use crate::run::{failure, symplectic};
 use serde_json::Value;
 use symplectic_compiler::audit::{Audit, Row, Verdict};
 use symplectic_compiler::{Error, Limits};

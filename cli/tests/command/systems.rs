@@ -1,11 +1,9 @@
 //! `symplectic derive-system`.
 
-mod command;
-
 use std::fs;
 use std::process::Command;
 
-use command::stdout;
+use crate::run::stdout;
 use expect_test::{expect, expect_file};
 
 const PENDULUM: &str = "Pendulum { g: 9.81 } q: [a], p: [pa]; H = pa^2/2 - g cos(a)\n";

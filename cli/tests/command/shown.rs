@@ -1,11 +1,9 @@
 //! What the binary prints.
 
-mod command;
-
 use std::io::Read;
 use std::process::{Command, Stdio};
 
-use command::stdout;
+use crate::run::stdout;
 use expect_test::expect;
 
 #[test]

@@ -38,7 +38,7 @@ fn decimals(tableau: &Tableau, digits: usize) -> [Vec<String>; 2] {
 #[test]
 fn printed_methods_have_their_digits_and_the_orders_that_were_found() {
     let data: Value =
-        serde_json::from_str(include_str!("data/explicit-methods.json")).expect("JSON");
+        serde_json::from_str(include_str!("../data/explicit-methods.json")).expect("JSON");
     let methods = data["methods"].as_array().expect("a list");
     assert_eq!(methods.len(), 31);
     for method in methods {

@@ -1,10 +1,8 @@
 //! Refining Butcher arrays on the command line.
 
-mod command;
-
 use std::path::Path;
 
-use command::{failure, stdout};
+use crate::run::{failure, stdout};
 use expect_test::expect;
 use serde_json::Value;
 use symplectic_compiler::arithmetic::rounding::Decimal;

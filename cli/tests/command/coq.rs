@@ -1,8 +1,4 @@
 //! Theorems for Coq: their form, and what Coq says of them where it is installed.
-//!
-//! `UPDATE_EXPECT=1 cargo test -p symplectic-compiler --test coq` writes the form anew.
-
-mod command;
 
 use std::fs;
 use std::io::Write;
@@ -10,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-use command::{failure, stdout};
+use crate::run::{failure, stdout};
 use expect_test::expect_file;
 
 /// The files of `tableaux/coq`, each after those that it needs.

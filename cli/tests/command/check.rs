@@ -1,10 +1,8 @@
 //! `symplectic check`: files that fit, files that do not, files that are no tables.
 
-mod command;
-
 use std::path::PathBuf;
 
-use command::{stdout, symplectic};
+use crate::run::{stdout, symplectic};
 
 /// A file of this test, in a folder of its own.
 fn file(name: &str, contents: &[u8]) -> String {

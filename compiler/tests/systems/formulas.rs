@@ -1,10 +1,8 @@
 //! Formulas: what is emitted for them, what is refused, and their derivatives.
 
-mod formula;
-
+use crate::formula::{self, Wide};
 use expect_test::expect_file;
 use f256::f256;
-use formula::Wide;
 use proc_macro2::TokenStream;
 use proptest::prelude::*;
 use quote::{format_ident, quote};
@@ -50,7 +48,7 @@ fn the_code_of_the_three_examples() {
         (PLANETS, "planets"),
         (FPUT, "fput"),
     ] {
-        expect_file![format!("emission/formula_{name}.rs")].assert_eq(&code(text));
+        expect_file![format!("emitted/formula_{name}.rs")].assert_eq(&code(text));
     }
 }
 
@@ -275,7 +273,7 @@ fn a_forced_system() {
         "Drone { c: 0.1, g: 9.81 } q: [x, y], p: [px, py];
          H = (px^2 + py^2)/2 + g y force: { y = -c py |[px, py]|, x = -c px |[px, py]| + sin(t) }",
     );
-    expect_file!["emission/formula_forced.rs"].assert_eq(&formula::code(&read, &structure));
+    expect_file!["emitted/formula_forced.rs"].assert_eq(&formula::code(&read, &structure));
     expect_file!["data/forced.txt"].assert_eq(&description::text(&read, &structure));
     expect_file!["data/forced.latex"].assert_eq(&description::latex(&read));
 }

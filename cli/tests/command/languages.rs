@@ -1,14 +1,10 @@
 //! Tableaux in the notation of other programs: each form as a whole, and what the programs make of it.
-//!
-//! `UPDATE_EXPECT=1 cargo test -p symplectic-compiler --test languages` writes the forms anew.
-
-mod command;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use command::{failure, stdout};
+use crate::run::{failure, stdout};
 use expect_test::expect_file;
 use symplectic_compiler::export::Language;
 use symplectic_compiler::{Coefficients, Tableau, catalogue};

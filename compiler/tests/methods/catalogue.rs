@@ -1,6 +1,4 @@
 //! The files of `tableaux/` and the certificates in it are what the tool writes now, no more and no fewer, and they check.
-//!
-//! `UPDATE_EXPECT=1 cargo test -p symplectic-compiler --test catalogue` writes them anew.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;

@@ -1,0 +1,56 @@
+//! Tables of other libraries, imported.
+
+use crate::run::{failure, stdout, symplectic};
+
+/// The command prints the table as `show` does, and names unknown libraries.
+#[test]
+fn the_command_imports() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let file = folder.join("ruth.c");
+    let exported = stdout(&["show", "ruth-1983", "--format", "sundials"]);
+    std::fs::write(&file, exported).expect("written");
+    let path = file.to_str().expect("text");
+    let output = symplectic(&["import", "--from", "sundials", path, "--name", "ruth"]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    let remark = String::from_utf8_lossy(&output.stderr);
+    // The constants are doubles, half a unit in the last place from thirds and 24ths.
+    assert!(
+        output.status.success()
+            && remark.contains(
+                "the exact method near the decimals, from which the decimals differ by at most"
+            )
+            && remark.contains("e-17"),
+        "{remark}"
+    );
+    assert!(
+        text.starts_with("ruth, 3 stages, ") && text.contains("separable  3, "),
+        "{text}"
+    );
+    let (status, message) = failure(&["import", "--from", "gsl", path]);
+    assert!(
+        status == Some(2) && message.contains("unknown library `gsl`; known here: sciml, "),
+        "{message}"
+    );
+    // One digit is wrong, so that no exact method is near, or is farther away than the digits say.
+    let wrong =
+        "double a[2] = {0.29289321, 0.70710678};\ndouble ahat[2] = {0.70710678, 0.29299322};\n";
+    std::fs::write(&file, wrong).expect("written");
+    let output = symplectic(&["import", "--from", "sundials", path]);
+    let remark = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        remark.contains("no exact method was found near the decimals"),
+        "{remark}"
+    );
+    std::fs::write(&file, "double a[] = {1, one};\ndouble ahat[] = {1, 0};\n").expect("written");
+    let (status, message) = failure(&["import", "--from", "sundials", path]);
+    let message = message.replace(path, "ruth.c");
+    assert_eq!(status, Some(2));
+    expect_test::expect![[r#"
+        error: found `one`, which has no value here, expected a number
+         --> ruth.c:1:18
+          |
+        1 | double a[] = {1, one};
+          |                  ^^^
+    "#]]
+    .assert_eq(&message);
+}

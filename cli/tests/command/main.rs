@@ -1,0 +1,20 @@
+//! What the binary prints and refuses, one file for each command or format.
+//!
+//! `UPDATE_EXPECT=1 cargo test -p symplectic-cli` writes the forms and the catalogue of the book anew.
+
+mod audit;
+mod bad_input;
+mod book;
+mod certificates;
+mod check;
+mod coq;
+mod encodings;
+mod import;
+mod languages;
+mod list;
+mod refine;
+mod refine_tables;
+mod run;
+mod shown;
+mod splittings;
+mod systems;

@@ -1,0 +1,18 @@
+//! Methods: derived, proved, written and read.
+//!
+//! `UPDATE_EXPECT=1 cargo test -p symplectic-compiler` writes the catalogue in `tableaux/` and the emitted code anew.
+
+mod catalogue;
+mod certified;
+mod emission;
+mod exchange;
+mod extreme;
+mod extreme_definitions;
+mod golden;
+mod imports;
+mod observed_order;
+mod perturbed;
+mod properties;
+mod refused_files;
+mod splittings;
+mod tiers;
