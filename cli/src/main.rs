@@ -1,5 +1,5 @@
-//! The command line of the compiler: derive a tableau or the equations of a Hamiltonian, show and list known methods, check files,
-//! write certificates, refine printed coefficients, read tables of other libraries and hold their claims
+//! The command line of the compiler: derive a tableau or the equations of a Hamiltonian, show and list known methods, write
+//! programs that take their steps, check files, write certificates, refine printed coefficients, read tables of other libraries and hold their claims
 //! against proofs.
 //!
 //! Exit status: 0; 1 where a file's entries do not fit, or its digits are not those of a method as claimed; 2 for bad input.
@@ -10,6 +10,7 @@ mod check;
 mod choice;
 mod derive;
 mod derive_system;
+mod emit;
 mod import;
 mod list;
 mod output;
@@ -33,6 +34,7 @@ struct Cli {
 enum Command {
     Derive(Box<derive::Arguments>),
     DeriveSystem(derive_system::Arguments),
+    Emit(emit::Arguments),
     List(list::Arguments),
     Show(show::Arguments),
     Check(check::Arguments),
@@ -46,6 +48,7 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Derive(arguments) => derive::run(&arguments),
         Command::DeriveSystem(arguments) => derive_system::run(&arguments),
+        Command::Emit(arguments) => emit::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Show(arguments) => show::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

@@ -48,6 +48,12 @@ pub enum ErrorKind {
         /// Why.
         reason: &'static str,
     },
+    /// A method of which no stepper can be written.
+    #[error("no stepper of this method can be written: {reason}")]
+    NoStepper {
+        /// Why, and what to do.
+        reason: &'static str,
+    },
     /// A method of which no theorem can be written for a proof assistant.
     #[error("no theorem of this method can be written for Coq: {reason}")]
     NoTheorem {

@@ -8,6 +8,7 @@ mod book;
 mod certificates;
 mod check;
 mod coq;
+mod emit;
 mod encodings;
 mod import;
 mod languages;

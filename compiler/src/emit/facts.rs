@@ -13,7 +13,7 @@ use crate::tableau::Tableau;
 
 /// Results that plans share, since much is the same for both classes of systems, and all is twice the same where both
 /// halves of a tableau are.
-pub(super) struct Known {
+pub(crate) struct Known {
     /// Whether `a = ã` and `b = b̃`.
     equal_halves: bool,
     complements: RefCell<BTreeMap<[Term; 2], Complements>>,
@@ -45,7 +45,7 @@ pub(super) enum Half {
 
 impl Known {
     /// Nothing yet.
-    pub(super) fn new(tableau: &Tableau) -> Self {
+    pub(crate) fn new(tableau: &Tableau) -> Self {
         Known {
             equal_halves: tableau.equal_halves() == (true, true),
             complements: RefCell::default(),

@@ -19,6 +19,8 @@ mod symplectic_rounding;
 mod system;
 
 pub use self::system::system;
+pub(crate) use facts::Known;
+pub(crate) use symplectic_rounding::{Relative, Rounded};
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};

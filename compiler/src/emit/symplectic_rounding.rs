@@ -67,7 +67,7 @@ pub struct Relative {
 impl Relative {
     /// The relative coefficients; `None` where the method is not symplectic, where a weight is zero, or so small that
     /// a quotient has no exact complement.
-    pub(super) fn new(graph: &StepGraph<'_>, known: &Known) -> Option<Self> {
+    pub(crate) fn new(graph: &StepGraph<'_>, known: &Known) -> Option<Self> {
         let evaluations = || graph.velocities.iter().chain(&graph.forces);
         if evaluations().any(|evaluation| evaluation.weight.is_zero()) {
             return None;

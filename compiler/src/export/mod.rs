@@ -7,6 +7,7 @@
 //! | TOML | [`toml::write`] | [`toml::read`] | all exact data, decimals, the properties |
 //! | certificate | [`certificate::write`] | `tableaux/check_certificate.py` | all exact data, doubles, what is proved |
 //! | LaTeX, C, Fortran, Julia, Python, SUNDIALS, PETSc, nodepy, Coq | [`Language::write`] | that language | the coefficients |
+//! | C, Rust, Julia, Python | [`Stepper::write`] | that language | a program that takes steps |
 
 use crate::coefficients::Coefficients;
 use crate::exact::Exact;
@@ -20,12 +21,14 @@ mod facts;
 pub mod json;
 mod language;
 mod provenance;
+mod stepper;
 pub mod text;
 pub mod toml;
 
 pub use encoding::{read_text, without_mark};
 pub(crate) use entries::{compare, first_line};
 pub use language::Language;
+pub use stepper::{SteppedClass, Stepper};
 
 /// The significant digits of decimals in JSON and TOML, unless another number is asked for.
 pub const DEFAULT_DIGITS: usize = 40;

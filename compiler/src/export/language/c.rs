@@ -22,7 +22,7 @@ pub(super) fn write(table: &Table<'_>) -> String {
 }
 
 /// Lines as one comment.
-pub(super) fn comment(lines: &[String]) -> String {
+pub(in crate::export) fn comment(lines: &[String]) -> String {
     let lines: Vec<String> = lines.iter().map(|line| line.replace("*/", "* /")).collect();
     format!("/* {} */\n", lines.join("\n   "))
 }

@@ -21,9 +21,9 @@ mod petsc;
 mod polynomials;
 mod python;
 mod sundials;
-mod table;
+pub(in crate::export) mod table;
 
-pub(in crate::export) use c::hexadecimal;
+pub(in crate::export) use c::{comment, hexadecimal};
 
 use crate::error::{Error, ErrorKind};
 use crate::tableau::Tableau;

@@ -1,5 +1,6 @@
 //! What all languages write.
 
+use crate::arithmetic::rational::ratio;
 use crate::coefficients::Coefficients;
 use crate::export::facts::separable_only;
 use crate::export::written;
@@ -14,7 +15,7 @@ use crate::tableau::{Tableau, left_out};
 const LONGEST_EXACT: usize = 60;
 
 /// A tableau with its coefficients in all forms.
-pub(super) struct Table<'a> {
+pub(in crate::export) struct Table<'a> {
     pub tableau: &'a Tableau,
     /// Without the matrices of long splittings.
     pub entries: Coefficients<Entry>,
@@ -26,7 +27,7 @@ pub(super) struct Table<'a> {
 
 /// A coefficient.
 #[derive(Clone)]
-pub(super) struct Entry {
+pub(in crate::export) struct Entry {
     /// An exact form in the grammar of expressions.
     pub exact: Option<String>,
     pub decimal: String,
@@ -34,13 +35,17 @@ pub(super) struct Entry {
 }
 
 /// A drift `q += h weight ∂H/∂p` or a kick `p −= h weight ∂H/∂q`.
-pub(super) struct Flow {
-    is_drift: bool,
-    weight: Entry,
+pub(in crate::export) struct Flow {
+    pub is_drift: bool,
+    pub weight: Entry,
+    /// When velocity or force are evaluated, as a fraction of the step.
+    pub time: f64,
+    /// Whether it is the last evaluation of the step before.
+    pub is_carried: bool,
 }
 
 /// Drifts and kicks in turn, as many of both, with a library's names for them.
-pub(super) struct Stepped {
+pub(in crate::export) struct Stepped {
     pub stepping: Stepping,
     pub drifts: Vec<Entry>,
     pub kicks: Vec<Entry>,
@@ -234,7 +239,10 @@ impl<'a> Table<'a> {
     /// its turn there is one of size zero.
     pub fn drifts_and_kicks(&self, drifts_first: bool) -> Option<[Vec<Entry>; 2]> {
         let (mut first, mut second): (Vec<Entry>, Vec<Entry>) = (Vec::new(), Vec::new());
-        for Flow { is_drift, weight } in self.flows.as_ref()? {
+        for Flow {
+            is_drift, weight, ..
+        } in self.flows.as_ref()?
+        {
             if *is_drift == drifts_first {
                 if first.len() > second.len() {
                     second.push(Entry::zero());
@@ -263,28 +271,45 @@ fn flows(tableau: &Tableau, digits: usize) -> Option<Vec<Flow>> {
     }
     let (numbers, forms) = (tableau.numbers(), tableau.exact_forms());
     let graph = StepGraph::new(Class::Separable, tableau, &numbers);
-    let flow = |node: Node| {
-        let is_drift = matches!(node, Node::Velocity(_));
-        let evaluation = graph.evaluation(node);
-        let forms = if is_drift { &forms.b } else { &forms.b_tilde };
-        let exact = match graph.stages_of(evaluation)[..] {
-            [stage] => forms[stage].clone(),
-            // The sum of several weights.
-            _ => evaluation
-                .weight
-                .short_rational()
-                .map(|sum| sum.to_string()),
-        };
-        Flow {
-            is_drift,
-            weight: Entry {
-                exact,
-                decimal: evaluation.weight.decimal(digits).to_string(),
-                double: evaluation.weight.to_f64(),
-            },
-        }
+    let chain = graph.splitting()?;
+    let kind = |node: &Node| matches!(node, Node::Velocity(_));
+    let time = |node: Option<&Node>, end: i64| {
+        node.is_some_and(|&node| graph.evaluation(node).time.equals(&ratio(end, 1)))
     };
-    Some(graph.splitting()?.into_iter().map(flow).collect())
+    let (first, last) = (chain.first(), chain.last());
+    let carries =
+        chain.len() > 1 && first.map(kind) == last.map(kind) && time(first, 0) && time(last, 1);
+    let flow = |(number, &node): (usize, &Node)| Flow {
+        is_drift: kind(&node),
+        weight: weight(&graph, node, &forms, digits),
+        time: graph.evaluation(node).time.to_f64(),
+        is_carried: carries && number == 0,
+    };
+    Some(chain.iter().enumerate().map(flow).collect())
+}
+
+/// The weight of a velocity or a force.
+pub(in crate::export) fn weight(
+    graph: &StepGraph<'_>,
+    node: Node,
+    forms: &Coefficients<Option<String>>,
+    digits: usize,
+) -> Entry {
+    let evaluation = graph.evaluation(node);
+    let forms = match node {
+        Node::Velocity(_) | Node::Momentum(_) => &forms.b,
+        Node::Force(_) | Node::Position(_) => &forms.b_tilde,
+    };
+    let exact = match graph.stages_of(evaluation)[..] {
+        [stage] => forms[stage].clone(),
+        // The sum of several weights.
+        _ => (evaluation.weight.short_rational()).map(|sum| sum.to_string()),
+    };
+    Entry {
+        exact,
+        decimal: evaluation.weight.decimal(digits).to_string(),
+        double: evaluation.weight.to_f64(),
+    }
 }
 
 fn one_line(text: &str) -> String {
@@ -310,7 +335,7 @@ fn identifier(name: &str) -> String {
 }
 
 /// Lines as comments.
-pub(super) fn comments(mark: &str, lines: &[String]) -> String {
+pub(in crate::export) fn comments(mark: &str, lines: &[String]) -> String {
     let lines = lines.iter().map(|line| format!("{mark} {line}\n"));
     lines.collect()
 }

@@ -1,0 +1,83 @@
+//! `symplectic emit`
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+use symplectic_compiler::export::{self, SteppedClass, Stepper};
+use symplectic_compiler::{Error, Tableau, catalogue, check};
+
+use crate::output;
+
+/// Write a program that takes steps of a method, in one file without any dependency.
+///
+/// Methods that consist of drifts and kicks become a straight line of them; others solve for their stages until these stagnate. The
+/// programs in all languages give the same results to the last bit.
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// A method of the catalogue, or a TOML file with a definition as `derive` reads it.
+    #[arg(value_name = "METHOD")]
+    method: String,
+    /// The language.
+    #[arg(long, value_enum)]
+    language: Language,
+    /// The Hamiltonians that steps are for [default: separable for drifts and kicks, else general].
+    #[arg(long, value_enum)]
+    class: Option<Class>,
+    /// The most stages that are derived [default: 36].
+    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    max_stages: Option<u16>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Language {
+    /// C99.
+    C,
+    /// Rust, without the standard library.
+    Rust,
+    /// Julia.
+    Julia,
+    /// Python.
+    Python,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Class {
+    /// Every H(q, p).
+    General,
+    /// H = T(p) + U(q).
+    Separable,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
+    let tableau = method(arguments)?;
+    let language = match arguments.language {
+        Language::C => Stepper::C,
+        Language::Rust => Stepper::Rust,
+        Language::Julia => Stepper::Julia,
+        Language::Python => Stepper::Python,
+    };
+    let class = arguments.class.map(|class| match class {
+        Class::General => SteppedClass::General,
+        Class::Separable => SteppedClass::Separable,
+    });
+    output::warn_if_inconsistent(&tableau);
+    output::print(&language.write(&tableau, class)?)
+}
+
+/// The method of the catalogue, or of a file.
+fn method(arguments: &Arguments) -> Result<Tableau, Error> {
+    let name = &arguments.method;
+    if let Some(entry) = catalogue::find(name) {
+        return entry.derive_within(&match arguments.max_stages {
+            None => entry.limits(),
+            given => output::limits(given),
+        });
+    }
+    let path = Path::new(name);
+    if path.extension().is_none() && !path.exists() {
+        return Err(catalogue::unknown(name));
+    }
+    let limits = output::limits(arguments.max_stages);
+    check(name, &export::read_text(path)?, &limits)
+}

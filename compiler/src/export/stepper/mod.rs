@@ -1,0 +1,198 @@
+//! Programs that take steps of a method: a file for each, in four languages, that needs nothing else.
+//!
+//! A method that consists of drifts and kicks is a straight line of them. Any other one solves for its stages, by fixed-point
+//! iteration until it stagnates, with coefficients that are [symplectic as rounded](crate::emit). Both carry the state as a sum of two
+//! numbers. What is the same for all methods is a template of the language; [`plan`] has what is not.
+
+mod languages;
+mod plan;
+mod template;
+
+use self::languages::Notation;
+use self::plan::{Coupled, Plan};
+use self::template::fill;
+use super::language::table::{Entry, Flow, Table};
+use crate::error::Error;
+use crate::order::HamiltonianClass;
+use crate::tableau::Tableau;
+
+/// A language that steppers are written in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stepper {
+    /// C99; the dimension is an argument, the caller gives the memory.
+    C,
+    /// Rust without the standard library; the dimension is a constant that the type is generic in.
+    Rust,
+    /// Julia, with vectors.
+    Julia,
+    /// Python, with lists.
+    Python,
+}
+
+/// The Hamiltonians that a stepper is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SteppedClass {
+    /// Every `H(t, q, p)`.
+    General,
+    /// `H = T(t, p) + U(t, q)`, for methods that consist of drifts and kicks then.
+    Separable,
+}
+
+/// Significant digits of decimals in comments.
+const DIGITS: usize = 17;
+
+/// The most sweeps over coupled stages.
+const MOST_SWEEPS: usize = 100;
+
+impl Stepper {
+    /// Writes a stepper. Without a class it is for separable Hamiltonians if the method then consists of drifts and kicks, else
+    /// for all.
+    ///
+    /// The C, Rust, Julia and Python of one method make the same operations in the same order, so that their results are the same
+    /// to the last bit.
+    ///
+    /// ```
+    /// use symplectic_compiler::derive;
+    /// use symplectic_compiler::export::Stepper;
+    ///
+    /// let verlet = derive("polynomial(2)", "lobatto(2)")?.named("stormer-verlet");
+    /// let text = Stepper::C.write(&verlet, None)?;
+    /// assert!(text.contains("    stormer_verlet_kick(s, h * 0x1p-1); /* 1/2 */\n"));
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ErrorKind::NoStepper`](crate::ErrorKind::NoStepper) for a method that solves for its stages and is not symplectic or has a
+    /// weight of zero, for one that does not consist of drifts and kicks though the class demands it, and for one that is too long.
+    pub fn write(self, tableau: &Tableau, class: Option<SteppedClass>) -> Result<String, Error> {
+        let table = Table::new(tableau, DIGITS);
+        let plan = Plan::new(&table, class, DIGITS)?;
+        let notation = languages::notation(self);
+        let about = (notation.comment)(&about(&table, &plan));
+        let (name, upper) = (&table.name, table.name.to_uppercase());
+        let module = module(name);
+        let names = [("name", &name[..]), ("NAME", &upper), ("module", &module)];
+        let add = fill(notation.add.trim_end(), &names);
+        let mut values = vec![("about", about.trim_end()), ("add", &add)];
+        values.extend(names);
+        let (template, stages, sweeps);
+        let body = match &plan {
+            Plan::Splitting(flows) => {
+                template = notation.splitting;
+                let first = flows.first();
+                let carries = first.is_some_and(|flow| flow.is_carried && !flow.is_drift);
+                values.push(("carries", notation.carries[usize::from(carries)]));
+                ("steps", steps(notation, flows, &names))
+            }
+            Plan::Coupled(coupled) => {
+                template = notation.coupled;
+                stages = coupled.matrices[0].1.len().to_string();
+                sweeps = MOST_SWEEPS.to_string();
+                values.extend([("stages", &stages[..]), ("sweeps", &sweeps)]);
+                ("tables", tables(notation, coupled, &names))
+            }
+        };
+        values.push((body.0, &body.1));
+        Ok(fill(template, &values))
+    }
+}
+
+/// The lines of the comment at the top.
+fn about(table: &Table<'_>, plan: &Plan<'_>) -> Vec<String> {
+    let mut lines = table.description();
+    let (class, what) = match plan {
+        Plan::Splitting(_) => (
+            HamiltonianClass::Separable,
+            "A step of H = T(p) + U(q): drifts and kicks, with compensated sums.",
+        ),
+        Plan::Coupled(_) => (
+            HamiltonianClass::General,
+            "A step of every H(q, p): the stages are solved for by fixed-point iteration, with compensated sums.",
+        ),
+    };
+    lines.push(what.to_owned());
+    let [order, most] = [class, HamiltonianClass::Nystrom].map(|class| table.order(class));
+    if most > order {
+        lines.push(format!(
+            "The order {most} needs a kinetic energy that is quadratic in p; else it is {order}."
+        ));
+    }
+    lines
+}
+
+/// Drifts and kicks, a straight line.
+fn steps(notation: &Notation, flows: &[Flow], names: &[(&str, &str)]) -> String {
+    let mut text = String::new();
+    for flow in flows {
+        let time = match flow.time {
+            0.0 => "t".to_owned(),
+            1.0 => "t + h".to_owned(),
+            time => format!("t + h * {}", (notation.number)(time)),
+        };
+        let (weight, remark) = ((notation.number)(flow.weight.double), flow.weight.remark());
+        let pattern = match (flow.is_drift, flow.is_carried) {
+            (true, _) => notation.drift,
+            (false, false) => notation.kick,
+            (false, true) => notation.carried_kick,
+        };
+        let mut values = vec![
+            ("time", &time[..]),
+            ("weight", &weight),
+            ("remark", &remark),
+        ];
+        values.extend(names);
+        text.push_str(&fill(pattern, &values));
+    }
+    text.truncate(text.trim_end().len());
+    text
+}
+
+/// The coefficients of coupled stages.
+fn tables(notation: &Notation, coupled: &Coupled, names: &[(&str, &str)]) -> String {
+    let mut text = String::new();
+    for (name, entries) in &coupled.vectors {
+        let entry = |entry: &Entry| {
+            let (number, remark) = ((notation.number)(entry.double), entry.remark());
+            fill(notation.entry, &[("number", &number), ("remark", &remark)])
+        };
+        let entries: String = entries.iter().map(entry).collect();
+        let upper = name.to_uppercase();
+        let mut values = vec![("vector", *name), ("VECTOR", &upper), ("entries", &entries)];
+        values.extend(names);
+        text.push_str(&fill(notation.vector, &values));
+    }
+    text.push_str(&(notation.remark)(SYMPLECTIC));
+    text.push('\n');
+    for (name, rows) in &coupled.matrices {
+        let row = |row: &Vec<f64>| {
+            let numbers: Vec<String> = row.iter().map(|&x| (notation.number)(x)).collect();
+            fill(notation.row, &[("numbers", &numbers.join(", "))])
+        };
+        let rows: String = rows.iter().map(row).collect();
+        let upper = name.to_uppercase();
+        let mut values = vec![("vector", *name), ("VECTOR", &upper), ("entries", &rows)];
+        values.extend(names);
+        text.push_str(&fill(notation.matrix, &values));
+    }
+    text
+}
+
+/// What is said of the matrices.
+const SYMPLECTIC: &str = "mu_ij = a_ij / b_j and mu_tilde_ij = a_tilde_ij / b_tilde_j, rounded so that mu_ij + mu_tilde_ji is 1 exactly: symplectic as rounded.";
+
+/// `gauss_2` as the name of a module: `Gauss2`.
+fn module(name: &str) -> String {
+    let mut text = String::new();
+    let mut capital = true;
+    for c in name.chars() {
+        match (c, capital) {
+            ('_', _) => capital = true,
+            (c, true) => {
+                text.push(c.to_ascii_uppercase());
+                capital = false;
+            }
+            (c, false) => text.push(c),
+        }
+    }
+    text
+}

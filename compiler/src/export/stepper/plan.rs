@@ -1,0 +1,108 @@
+//! What a stepper of a method does, whatever the language.
+
+use super::SteppedClass;
+use crate::emit::{Known, Relative, Rounded};
+use crate::error::{Error, ErrorKind};
+use crate::export::language::table::{Entry, Flow, Table, weight};
+use crate::schedule::{Class, Node, StepGraph};
+use crate::tableau::left_out;
+
+/// A step.
+pub(super) enum Plan<'t> {
+    /// Drifts and kicks one after another.
+    Splitting(&'t [Flow]),
+    /// Stages that are solved for.
+    Coupled(Box<Coupled>),
+}
+
+/// The coefficients of coupled stages: `Q_i = q + Σ_j μ_ij (h b_j velocity_j)`, `P_i = p + Σ_j μ̃_ij (h b̃_j force_j)`.
+pub(super) struct Coupled {
+    /// Nodes and weights by name.
+    pub vectors: [(&'static str, Vec<Entry>); 4],
+    /// μ and μ̃ by name.
+    pub matrices: [(&'static str, Vec<Vec<f64>>); 2],
+}
+
+impl<'t> Plan<'t> {
+    /// The plan for a class of Hamiltonians: drifts and kicks where it can be, if there is no class.
+    pub fn new(
+        table: &'t Table<'_>,
+        class: Option<SteppedClass>,
+        digits: usize,
+    ) -> Result<Self, Error> {
+        match (class, &table.flows) {
+            (None | Some(SteppedClass::Separable), Some(flows)) => Ok(Plan::Splitting(flows)),
+            (Some(SteppedClass::Separable), None) => Err(refused(
+                "it does not consist of drifts and kicks: leave the class out, which gives a stepper for every H",
+            )),
+            _ => Coupled::new(table, digits).map(|coupled| Plan::Coupled(Box::new(coupled))),
+        }
+    }
+}
+
+impl Coupled {
+    fn new(table: &Table<'_>, digits: usize) -> Result<Self, Error> {
+        let tableau = table.tableau;
+        if left_out(tableau).is_some() {
+            return Err(refused(
+                "it is too long for a Hamiltonian that is not separable: take one with at most 36 stages",
+            ));
+        }
+        if !tableau.properties().symplectic.holds {
+            return Err(refused(
+                "its stages are solved for, and it is not symplectic: coefficients that are symplectic as rounded do not exist",
+            ));
+        }
+        let (numbers, forms) = (tableau.numbers(), tableau.exact_forms());
+        let graph = StepGraph::new(Class::General, tableau, &numbers);
+        let relative = Relative::new(&graph, &Known::new(tableau)).ok_or_else(|| {
+            refused(
+                "its stages are solved for, and one has the weight zero: a_ij / b_j does not exist",
+            )
+        })?;
+        // Both evaluations are made at the same stages.
+        let nodes = |kind: fn(usize) -> Node| (0..graph.forces.len()).map(kind);
+        let weights = |kind| -> Vec<Entry> {
+            nodes(kind)
+                .map(|n| weight(&graph, n, &forms, digits))
+                .collect()
+        };
+        let times = |kind, entries: &[Entry]| -> Vec<Entry> {
+            let stage = |node| graph.stages_of(graph.evaluation(node))[0];
+            nodes(kind)
+                .map(|node| entries[stage(node)].clone())
+                .collect()
+        };
+        let doubles =
+            |row: &[Rounded]| -> Vec<f64> { row.iter().map(|entry| entry.double).collect() };
+        let positions = graph.forces.iter().filter_map(|force| force.position);
+        let momenta = graph
+            .velocities
+            .iter()
+            .filter_map(|velocity| velocity.momentum);
+        Ok(Coupled {
+            vectors: [
+                ("c", times(Node::Force, &table.entries.c)),
+                ("c_tilde", times(Node::Velocity, &table.entries.c_tilde)),
+                ("b", weights(Node::Velocity)),
+                ("b_tilde", weights(Node::Force)),
+            ],
+            matrices: [
+                (
+                    "mu",
+                    positions
+                        .map(|row| doubles(&relative.positions[row]))
+                        .collect(),
+                ),
+                (
+                    "mu_tilde",
+                    momenta.map(|row| doubles(&relative.momenta[row])).collect(),
+                ),
+            ],
+        })
+    }
+}
+
+fn refused(reason: &'static str) -> Error {
+    ErrorKind::NoStepper { reason }.into()
+}

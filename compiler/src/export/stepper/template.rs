@@ -1,0 +1,39 @@
+//! Texts with places for values.
+
+/// A template with values in their places: `@name@` stands for the value of that name. Other text stays as it is, and values are not
+/// looked at.
+pub(super) fn fill(template: &str, values: &[(&str, &str)]) -> String {
+    let mut text = String::with_capacity(template.len());
+    let mut rest = template;
+    while let Some((before, after)) = rest.split_once('@') {
+        text.push_str(before);
+        let value = after.split_once('@').and_then(|(name, after)| {
+            let found = values.iter().find(|(known, _)| *known == name)?;
+            Some((found.1, after))
+        });
+        rest = match value {
+            Some((value, after)) => {
+                text.push_str(value);
+                after
+            }
+            None => {
+                text.push('@');
+                after
+            }
+        };
+    }
+    text.push_str(rest);
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fill;
+
+    #[test]
+    fn values_are_filled_in_once() {
+        let values = [("a", "@b@"), ("b", "2")];
+        assert_eq!(fill("x@a@y@b@z", &values), "x@b@y2z");
+        assert_eq!(fill("me@home, @c@ @b@ @", &values), "me@home, @c@ 2 @");
+    }
+}
