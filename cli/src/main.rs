@@ -1,6 +1,6 @@
 //! The command line of the compiler: derive a tableau or the equations of a Hamiltonian, show and list known methods, check files,
 //! write certificates, refine printed coefficients, read tables of other libraries and hold their claims
-//! against proofs.
+//! against proofs, run ensembles of a formula.
 //!
 //! Exit status: 0; 1 where a file's entries do not fit, or its digits are not those of a method as claimed; 2 for bad input.
 
@@ -15,6 +15,7 @@ mod list;
 mod output;
 mod refine;
 mod report;
+mod run;
 mod show;
 
 use std::process::ExitCode;
@@ -40,6 +41,7 @@ enum Command {
     Refine(refine::Arguments),
     Import(import::Arguments),
     Audit(audit::Arguments),
+    Run(run::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -53,6 +55,7 @@ fn main() -> ExitCode {
         Command::Refine(arguments) => refine::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Audit(arguments) => audit::run(&arguments),
+        Command::Run(arguments) => run::run(&arguments),
     };
     outcome.unwrap_or_else(|error| {
         report::to_stderr(&error);
