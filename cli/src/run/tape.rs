@@ -96,12 +96,32 @@ pub(super) struct At<'a, T> {
     pub(super) p: &'a [T],
 }
 
+impl<T: Scalar> At<'_, T> {
+    /// What a register begins with.
+    #[inline(always)]
+    fn value(&self, input: Input) -> T {
+        let entry = |half: &[T], k: usize| match half.get(k) {
+            Some(&value) => value,
+            None => T::from_f64(f64::NAN),
+        };
+        match input {
+            Input::Constant(value) => T::from_f64(value),
+            Input::Time => self.time,
+            Input::Position(k) => entry(self.q, k),
+            Input::Momentum(k) => entry(self.p, k),
+        }
+    }
+}
+
 impl Tape {
     /// Gives `write` each result and its number.
     ///
     /// Up to 256 registers are an array on the stack, of the next of a few sizes; more are allocated in every evaluation.
     #[inline]
     pub(super) fn run<T: Scalar>(&self, at: At<'_, T>, write: impl FnMut(usize, T)) {
+        if self.steps.is_empty() {
+            return self.copy(at, write);
+        }
         match self.registers {
             0..=8 => self.on_stack::<T, 8>(at, write),
             9..=16 => self.on_stack::<T, 16>(at, write),
@@ -111,6 +131,16 @@ impl Tape {
             count => {
                 let mut registers = vec![T::zero(); count];
                 self.execute(&mut registers, usize::from, at, write);
+            }
+        }
+    }
+
+    /// Results that are inputs, as the velocity is with unit masses.
+    #[inline]
+    fn copy<T: Scalar>(&self, at: At<'_, T>, mut write: impl FnMut(usize, T)) {
+        for (number, &register) in self.results.iter().enumerate() {
+            if let Some(&input) = self.inputs.get(usize::from(register)) {
+                write(number, at.value(input));
             }
         }
     }
@@ -131,14 +161,8 @@ impl Tape {
         at: At<'_, T>,
         mut write: impl FnMut(usize, T),
     ) {
-        let entry = |half: &[T], k: usize| half.get(k).copied().unwrap_or(T::from_f64(f64::NAN));
-        for (register, input) in registers.iter_mut().zip(&self.inputs) {
-            *register = match *input {
-                Input::Constant(value) => T::from_f64(value),
-                Input::Time => at.time,
-                Input::Position(k) => entry(at.q, k),
-                Input::Momentum(k) => entry(at.p, k),
-            };
+        for (register, &input) in registers.iter_mut().zip(&self.inputs) {
+            *register = at.value(input);
         }
         for step in &self.steps {
             let [a, b, c] = step.operands.map(&place);
