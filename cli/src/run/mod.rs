@@ -126,8 +126,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         target: Target::open(named(path, arguments.shard))?,
     };
     match structure.split {
-        Ok(_) => run.with_sums(|tapes| SeparableFormula(tapes), starts),
-        Err(_) => run.with_sums(|tapes| GeneralFormula(tapes), starts),
+        Ok(_) => run.with_sums(SeparableFormula, starts),
+        Err(_) => run.with_sums(GeneralFormula, starts),
     }
 }
 
