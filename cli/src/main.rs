@@ -1,6 +1,6 @@
-//! The command line of the compiler: derive a tableau or the equations of a Hamiltonian, show and list known methods, write
-//! programs that take their steps, check files, write certificates, refine printed coefficients, read tables of other libraries and hold their claims
-//! against proofs.
+//! The command line: derive a tableau or the equations of a Hamiltonian, show and list known methods, write programs that take
+//! their steps, check files, write certificates, refine printed coefficients, read tables of other libraries and hold their claims
+//! against proofs, run ensembles of a formula.
 //!
 //! Exit status: 0; 1 where a file's entries do not fit, or its digits are not those of a method as claimed; 2 for bad input.
 
@@ -16,6 +16,7 @@ mod list;
 mod output;
 mod refine;
 mod report;
+mod run;
 mod show;
 
 use std::process::ExitCode;
@@ -42,6 +43,7 @@ enum Command {
     Refine(refine::Arguments),
     Import(import::Arguments),
     Audit(audit::Arguments),
+    Run(run::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -56,6 +58,7 @@ fn main() -> ExitCode {
         Command::Refine(arguments) => refine::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Audit(arguments) => audit::run(&arguments),
+        Command::Run(arguments) => run::run(&arguments),
     };
     outcome.unwrap_or_else(|error| {
         report::to_stderr(&error);

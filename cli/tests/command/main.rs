@@ -16,6 +16,7 @@ mod list;
 mod refine;
 mod refine_tables;
 mod run;
+mod runs;
 mod shown;
 mod splittings;
 mod systems;

@@ -21,6 +21,7 @@
 //! | class, kinetic energy, symmetries | [`structure`] |
 //! | the degree of a polynomial, a singular `∂²H/∂p²` | [`degree`], [`hessian`] |
 //! | as text, LaTeX and JSON | [`description`], [`display`] |
+//! | the operations of an evaluation, in their order | [`operations`] |
 //! | as Rust | [`emit::system`](crate::emit::system()) |
 
 mod check;
@@ -38,6 +39,7 @@ pub mod hessian;
 mod lagrangian_form;
 pub mod legendre;
 pub mod modular;
+pub mod operations;
 pub mod parse;
 mod rewrite;
 pub mod structure;

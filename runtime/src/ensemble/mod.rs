@@ -39,6 +39,7 @@ mod npz;
 mod pool;
 mod row;
 mod run;
+mod run_time;
 
 pub use checkpoint::EnsembleCheckpoint;
 pub use error::EnsembleError;
@@ -54,9 +55,9 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use crate::error::Error;
-use crate::integrator::validation::check_step_size;
+use crate::integrator::validation::{check_kinetic, check_step_size};
 use crate::integrator::{Integrator, Retry};
-use crate::method::{Method, ProvedFor, Solver, Stopping};
+use crate::method::{Method, ProvedFor, RunTimeTableau, Solver, Stopping};
 use crate::number::{Compensated, F64x8, Lanes, Plain, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
@@ -108,6 +109,8 @@ where
     retry: Retry,
     in_lanes: bool,
     stop: Option<Box<dyn Fn() -> bool + Send + Sync>>,
+    /// The method, if it is known only when the program runs.
+    tableau: Option<RunTimeTableau>,
     kind: PhantomData<Kind<M, R, N, L>>,
 }
 
@@ -212,13 +215,22 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation> Ensemble<M, S, V, R> {
     where
         M: ProvedFor<S::Class>,
     {
+        Self::of(families, step_size, None)
+    }
+
+    /// An ensemble of the method of the type, or of a tableau.
+    fn of(
+        families: impl IntoIterator<Item = (S, Vec<State<V>>)>,
+        step_size: f64,
+        tableau: Option<&RunTimeTableau>,
+    ) -> Result<Self, EnsembleError> {
         check_step_size(step_size).map_err(EnsembleError::All)?;
         let mut systems: Vec<(S, usize)> = Vec::new();
         let mut starts: Vec<State<V>> = Vec::new();
         for (system, mut own) in families {
             let before = starts.len();
             starts.append(&mut own);
-            check_starts::<M, S, V, R>(&system, &starts, before, step_size)?;
+            check_starts::<M, S, V, R>(&system, &starts, before, step_size, tableau)?;
             systems.push((system, starts.len()));
         }
         if starts.is_empty() {
@@ -234,6 +246,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation> Ensemble<M, S, V, R> {
             retry: Retry::Never,
             in_lanes: true,
             stop: None,
+            tableau: tableau.cloned(),
             kind: PhantomData,
         })
     }
@@ -245,6 +258,7 @@ fn check_starts<M: Method, S: System<V>, V: Vector, R: Summation>(
     starts: &[State<V>],
     first: usize,
     step_size: f64,
+    tableau: Option<&RunTimeTableau>,
 ) -> Result<(), EnsembleError> {
     for (trajectory, start) in starts.iter().enumerate().skip(first) {
         let (found, expected) = (start.q.dimension(), starts[0].q.dimension());
@@ -255,7 +269,12 @@ fn check_starts<M: Method, S: System<V>, V: Vector, R: Summation>(
                 expected,
             });
         }
+        let kinetic = || match tableau {
+            Some(tableau) => check_kinetic::<V, S>(tableau, system, start),
+            None => Ok(()),
+        };
         Integrator::<M, S, V, R>::check(system, start, step_size)
+            .and_then(|()| kinetic())
             .map_err(|error| EnsembleError::Start { trajectory, error })?;
     }
     Ok(())
@@ -331,6 +350,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
             retry: self.retry,
             in_lanes: self.in_lanes,
             stop: self.stop,
+            tableau: self.tableau,
             kind: PhantomData,
         }
     }

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use std::io::{self, Error, ErrorKind, Write};
 
 use super::{Ensemble, Row};
-use crate::method::Method;
+use crate::method::{Method, RunTimeTableau};
 use crate::number::Vector;
 use crate::system::System;
 
@@ -91,7 +91,7 @@ impl<W: Write> Npz<W> {
     }
 
     /// Writes what is known of an ensemble: `method`, `definition`, `orders` (general, separable, with quadratic kinetic energy),
-    /// `step_size` and the `version` of this library.
+    /// `step_size` and the `version` of this library. Of a tableau at run time there is no definition: it says `at run time`.
     ///
     /// # Errors
     ///
@@ -105,9 +105,10 @@ impl<W: Write> Npz<W> {
         S: System<V>,
         V: Vector,
     {
-        self.text("method", M::NAME)?;
+        let tableau = ensemble.tableau.as_ref();
+        self.text("method", tableau.map_or(M::NAME, RunTimeTableau::name))?;
         self.text("definition", M::DEFINITION)?;
-        let orders = M::ORDERS;
+        let orders = tableau.map_or(M::ORDERS, RunTimeTableau::orders);
         let orders = [orders.general, orders.separable, orders.nystrom].map(u64::from);
         self.integers("orders", &[3], &orders)?;
         self.doubles("step_size", &[], &[ensemble.step_size])?;

@@ -8,7 +8,7 @@ use super::group::{Group, Task};
 use super::{Ensemble, Row, pool};
 use crate::error::Error;
 use crate::integrator::Integrator;
-use crate::method::{Method, Solver};
+use crate::method::{Method, RunTimeTableau, Solver};
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::{LaneWork, System};
@@ -164,6 +164,10 @@ where
         self.in_lanes
             && V::Scalar::IS_DOUBLE
             && Integrator::<M, S, V, R, N>::LANEWISE
+            && self
+                .tableau
+                .as_ref()
+                .is_none_or(RunTimeTableau::is_explicit)
             && S::over_lanes::<L, _>(Known).is_some()
     }
 
@@ -229,6 +233,9 @@ where
         let start = self.starts[place].clone();
         let mut run = Integrator::unchecked(system, start, self.step_size);
         run.configure(self.stopping, self.retry);
+        if let Some(tableau) = &self.tableau {
+            run.set_tableau(tableau);
+        }
         (self.offset + place, run)
     }
 }

@@ -1,10 +1,10 @@
 //! Integrators of methods that are known only when the program runs.
 
 use super::memory::StepMemory;
-use super::validation::{check_orders, check_quadratic_kinetic_of};
+use super::validation::{check_kinetic, check_orders};
 use crate::error::Error;
 use crate::integrator::Integrator;
-use crate::method::{AtRunTime, RunTimeTableau, StageStorage};
+use crate::method::{AtRunTime, Method, RunTimeTableau, Solver, StageStorage};
 use crate::number::{Plain, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
@@ -96,11 +96,16 @@ impl<S: System<V>, V: Vector, R: Summation> Integrator<AtRunTime, S, V, R> {
     ) -> Result<Self, Error> {
         check_orders::<V, S>(tableau)?;
         let mut made = Self::made(system, state, step_size)?;
-        if let Some(orders) = tableau.needs_quadratic_kinetic() {
-            check_quadratic_kinetic_of::<AtRunTime, V, S>(orders, &made.system, made.state())?;
-        }
-        let StepMemory { memory, state, .. } = &mut made.course;
-        memory.set_tableau(tableau, &state.q);
+        check_kinetic::<V, S>(tableau, &made.system, made.state())?;
+        made.set_tableau(tableau);
         Ok(made)
+    }
+}
+
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
+    /// Gives the memory of steps its tableau.
+    pub(crate) fn set_tableau(&mut self, tableau: &RunTimeTableau) {
+        let StepMemory { memory, state, .. } = &mut self.course;
+        memory.set_tableau(tableau, &state.q);
     }
 }

@@ -127,7 +127,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         S: System<W> + Clone,
     {
         let blank = State::new(self.course.state.time, zeros.clone(), zeros.clone());
-        Integrator {
+        let mut lanes = Integrator {
             system: self.system.clone(),
             course: StepMemory::new(false, blank),
             clock: self.clock,
@@ -137,7 +137,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             retry: Retry::Never,
             last_event: self.last_event,
             method: PhantomData,
+        };
+        if let Some(tableau) = self.course.memory.tableau() {
+            lanes.set_tableau(tableau);
         }
+        lanes
     }
 }
 

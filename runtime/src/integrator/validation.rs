@@ -1,9 +1,9 @@
 //! What is looked at before an integrator is made or changed.
 
 use crate::error::{Error, Quantity};
-#[cfg(feature = "alloc")]
-use crate::method::RunTimeTableau;
 use crate::method::storage::is_finite;
+#[cfg(feature = "alloc")]
+use crate::method::{AtRunTime, RunTimeTableau};
 use crate::method::{Method, Orders, Solver};
 use crate::number::{Scalar, Vector};
 use crate::state::State;
@@ -73,13 +73,25 @@ pub(super) fn check_quadratic_kinetic_of<M: Method, V: Vector, S: System<V>>(
 
 /// Checks that a tableau at run time is for systems of this class.
 #[cfg(feature = "alloc")]
-pub(super) fn check_orders<V: Vector, S: System<V>>(tableau: &RunTimeTableau) -> Result<(), Error> {
+pub(crate) fn check_orders<V: Vector, S: System<V>>(tableau: &RunTimeTableau) -> Result<(), Error> {
     if S::Class::SEPARABLE || tableau.keeps_its_order_in_general() {
         return Ok(());
     }
     Err(Error::SeparableTableau {
         order: tableau.orders().separable,
         lower_order: tableau.orders().general,
+    })
+}
+
+/// Checks that a system has the kinetic energy that a tableau needs.
+#[cfg(feature = "alloc")]
+pub(crate) fn check_kinetic<V: Vector, S: System<V>>(
+    tableau: &RunTimeTableau,
+    system: &S,
+    state: &State<V>,
+) -> Result<(), Error> {
+    tableau.needs_quadratic_kinetic().map_or(Ok(()), |orders| {
+        check_quadratic_kinetic_of::<AtRunTime, V, S>(orders, system, state)
     })
 }
 

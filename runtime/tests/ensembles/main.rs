@@ -8,5 +8,6 @@ mod errors;
 mod failures;
 mod outputs;
 mod restart;
+mod run_time;
 mod systems;
 mod tangent;

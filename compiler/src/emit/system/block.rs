@@ -6,10 +6,10 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::names::{identifier, index_name, index_tokens, length_tokens, pair_name};
-use super::operations::{Op, Operation, Operations};
 use crate::formula::System;
 use crate::formula::function::Elementary;
 use crate::formula::graph::{Base, LoopId, LoopRange};
+use crate::formula::operations::{Op, Operation, Operations};
 use crate::formula::syntax::Length;
 
 /// What is done with a value.

@@ -6,9 +6,9 @@ use quote::quote;
 
 use super::Emitter;
 use super::block::{Statement, Task, Writer};
-use super::operations::Operations;
 use crate::formula::derivative::gradient;
 use crate::formula::graph::{Half, Id, LoopId, Number};
+use crate::formula::operations::Operations;
 use crate::formula::structure::ChainParts;
 use crate::formula::syntax::Ends;
 use crate::formula::{Parameter, Shape};

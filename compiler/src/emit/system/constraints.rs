@@ -7,10 +7,10 @@ use quote::quote;
 use super::Emitter;
 use super::block::{Statement, Task, Writer};
 use super::names::{identifier, index_name, index_tokens};
-use super::operations::Operations;
 use crate::formula::Constraint;
 use crate::formula::derivative::gradient;
 use crate::formula::graph::{Half, Id, LoopId, LoopRange, Number};
+use crate::formula::operations::Operations;
 
 impl Emitter<'_> {
     /// The methods that say what the constraints are, or the friction; nothing where there are neither.

@@ -8,12 +8,12 @@ use quote::quote;
 
 use super::block::{Block, Strength, Writer, Written};
 use super::names::{entry, identifier, index_tokens};
-use super::operations::{Op, Operation};
 use crate::arithmetic::rounding::to_f64;
 use crate::emit::literal;
 use crate::formula::Shape;
 use crate::formula::function::Elementary;
 use crate::formula::graph::{Coordinate, Half, Index};
+use crate::formula::operations::{Op, Operation};
 use crate::formula::syntax::Length;
 
 impl Writer<'_> {

@@ -7,10 +7,10 @@ use quote::{format_ident, quote};
 use super::Emitter;
 use super::block::{Statement, Task, Writer};
 use super::names::index_tokens;
-use super::operations::Operations;
 use crate::formula::Layout;
 use crate::formula::derivative::{Scatter, gradient};
 use crate::formula::graph::{Coordinate, Half, Id, LoopId, Node, Number};
+use crate::formula::operations::Operations;
 use crate::formula::structure::Split;
 
 /// Most second derivatives that are written out. With more, a Jacobian is left to dual numbers and differences.

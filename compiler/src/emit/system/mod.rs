@@ -1,7 +1,7 @@
 //! From a system that was read from a formula to Rust code.
 //!
 //! The type has a field for each parameter, and implements the trait of the class that was found: `SeparableHamiltonian`, `Hamiltonian`, or
-//! the parts of a chain; and `Lagrangian`, if it was given by one. The order of evaluation is that of [`operations`]. Sums over indices are
+//! the parts of a chain; and `Lagrangian`, if it was given by one. The order of evaluation is that of [`operations`](crate::formula::operations). Sums over indices are
 //! loops, so the code is as long for a thousand bodies as for three.
 
 mod band;
@@ -15,17 +15,16 @@ mod jacobian;
 mod lagrangian;
 mod momentum;
 mod names;
-mod operations;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use self::block::{Statement, Task, Writer};
 use self::names::{entry, identifier, length_tokens};
-use self::operations::Operations;
 use super::Header;
 use crate::formula::derivative::{Scatter, gradient};
 use crate::formula::graph::{Half, Id, Number};
+use crate::formula::operations::Operations;
 use crate::formula::structure::{Split, each_once};
 use crate::formula::syntax::Length;
 use crate::formula::{Kinetic, Layout, Structure, System};

@@ -117,6 +117,9 @@ impl<C: Class> Plan for RunTimePlan<C> {
     type Class = C;
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = RunTimeStages<V, C>;
 
+    /// Where the tableau [is explicit](RunTimeTableau::is_explicit).
+    const LANEWISE: bool = C::SEPARABLE;
+
     #[inline]
     fn take<R, V, S, N>(
         step: &Step<'_, V>,

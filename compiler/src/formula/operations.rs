@@ -165,6 +165,11 @@ impl<'a> Operations<'a> {
         &self.list[op.0]
     }
 
+    /// All of them: what an operation is computed from comes before it.
+    pub fn all(&self) -> impl Iterator<Item = Op> + use<> {
+        (0..self.list.len()).map(Op)
+    }
+
     /// What its result depends on.
     pub fn depends(&self, op: Op) -> Dependence {
         self.depends[op.0]

@@ -1,0 +1,95 @@
+//! The method of a run.
+
+use std::path::Path;
+
+use symplectic::{Orders, RunTimeCoefficients, RunTimeTableau};
+use symplectic_compiler::export::read_text;
+use symplectic_compiler::order::HamiltonianClass;
+use symplectic_compiler::{Definition, Error, Key, Limits, Tableau, catalogue, check};
+use toml::Value;
+
+use super::setup::{File, Setup};
+
+/// A method, and how it is defined.
+pub(super) struct Method {
+    pub(super) tableau: RunTimeTableau,
+    pub(super) definition: String,
+}
+
+impl Method {
+    /// Derives the method that a setup names.
+    pub(super) fn read(file: &File<'_>, setup: &Setup) -> Result<Self, Error> {
+        let span = setup.method.span();
+        let placed = |error: Error| match error.place {
+            None => file.at(span.clone(), *error.kind),
+            Some(_) => error,
+        };
+        let tableau = derive(file, setup.method.get_ref()).map_err(placed)?;
+        let report = tableau.orders();
+        let order = |class| u32::try_from(report.class(class).order).unwrap_or(u32::MAX);
+        let orders = Orders {
+            general: order(HamiltonianClass::General),
+            separable: order(HamiltonianClass::Separable),
+            nystrom: order(HamiltonianClass::Nystrom),
+        };
+        let numbers = tableau.to_f64();
+        let coefficients = RunTimeCoefficients {
+            a: numbers.a,
+            a_tilde: numbers.a_tilde,
+            b: numbers.b,
+            b_tilde: numbers.b_tilde,
+            c: numbers.c,
+            c_tilde: numbers.c_tilde,
+        };
+        let name = tableau.name().unwrap_or("a method of its own");
+        let made = RunTimeTableau::new(name, &coefficients, orders)
+            .map_err(|error| file.error(setup.method.span(), error.to_string()))?;
+        Ok(Method {
+            tableau: match setup.accept_lower_order {
+                true => made.accept_lower_order(),
+                false => made,
+            },
+            definition: tableau.provenance().definition.to_string(),
+        })
+    }
+}
+
+fn derive(file: &File<'_>, method: &Value) -> Result<Tableau, Error> {
+    let expected = "expected the name of a method, of a file `.toml` or `.json`, or a table with the keys of `symplectic derive`";
+    let refused = |message: String| symplectic_compiler::ErrorKind::Document { message };
+    match method {
+        Value::String(name) if name.ends_with(".toml") || name.ends_with(".json") => {
+            let path = file.beside(Path::new(name));
+            check(
+                &path.display().to_string(),
+                &read_text(&path)?,
+                &Limits::default(),
+            )
+        }
+        Value::String(name) => {
+            let entry = catalogue::find(name).ok_or_else(|| catalogue::unknown(name))?;
+            Ok(entry.derive()?.named(entry.name))
+        }
+        Value::Table(parts) => {
+            let mut given = Vec::new();
+            for (name, value) in parts {
+                let key = Key::find(name).ok_or_else(|| {
+                    let known: Vec<&str> = Key::ALL.iter().map(|key| key.name()).collect();
+                    refused(format!(
+                        "there is no key `{name}` of a method; there are {}",
+                        known.join(", ")
+                    ))
+                })?;
+                let text = match value {
+                    Value::String(text) => text.clone(),
+                    Value::Boolean(true) => "true".to_owned(),
+                    Value::Boolean(false) => continue,
+                    other => other.to_string(),
+                };
+                given.push((key, text));
+            }
+            Definition::new(given).derive(&Limits::default())
+        }
+        _ => Err(refused(expected.to_owned()).into()),
+    }
+}

@@ -1,0 +1,354 @@
+//! `symplectic run`
+
+mod method;
+mod output;
+mod parameters;
+mod random;
+mod setup;
+mod starts;
+mod system;
+mod tape;
+mod unroll;
+mod values;
+
+use std::io::IsTerminal;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use symplectic::ensemble::{Ensemble, EnsembleError};
+use symplectic::nalgebra::DVector;
+use symplectic::{AtRunTime, Error as RunError, Hamiltonian, RunTimeTableau, State, Summation};
+use symplectic_compiler::export::read_text;
+use symplectic_compiler::formula::{Form, Structure, System};
+use symplectic_compiler::{Error, ErrorKind};
+
+use self::method::Method;
+use self::output::{Facts, Results, Seen, Target, Trajectory};
+use self::setup::{File, Setup, Sums};
+use self::starts::{Coordinates, Reader};
+use self::system::{GeneralFormula, SeparableFormula, Tapes};
+use self::unroll::{MOST_STEPS, Refusal};
+use crate::output::print;
+
+/// Integrate many trajectories of a system from its formula, with a method by name.
+///
+/// A TOML file has the formula, the method, the step size, the starts and the name of the output. The book describes it in "Runs from a file".
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// The TOML file.
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Run part I of N only, from 0: `--shard 0/4`. The part is in the name of the output.
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    shard: Option<Shard>,
+    /// How many threads [default: one for each core]. No bit of the results depends on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    threads: Option<u16>,
+}
+
+/// One of several parts.
+#[derive(Debug, Clone, Copy)]
+struct Shard {
+    part: usize,
+    count: usize,
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    let parts = text.split_once('/');
+    let numbers = parts.and_then(|(part, count)| Some((part.parse().ok()?, count.parse().ok()?)));
+    numbers
+        .filter(|(part, count)| part < count)
+        .map(|(part, count)| Shard { part, count })
+        .ok_or_else(|| "expected a part and a number of parts, such as 0/4, up to 3/4".to_owned())
+}
+
+type Vector = DVector<f64>;
+type Starts = Vec<State<Vector>>;
+
+/// What is run, apart from the types that the formula chooses.
+struct Run<'a> {
+    file: &'a File<'a>,
+    setup: &'a Setup,
+    method: &'a Method,
+    coordinates: &'a Coordinates,
+    tapes: Arc<Tapes>,
+    times: Option<Vec<f64>>,
+    shard: Option<Shard>,
+    target: Target,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
+    let text = read_text(&arguments.file)?;
+    let file = File {
+        path: &arguments.file,
+        text: &text,
+    };
+    let setup = file.read()?;
+    let (mut system, structure) = read_system(&file, &setup)?;
+    let method = Method::read(&file, &setup)?;
+    let times = times(&file, &setup)?;
+    let reader = Reader {
+        file: &file,
+        system: &system,
+        setup: &setup,
+    };
+    let (coordinates, starts) = reader.read()?;
+    let bodies = coordinates.dimension() / system.layout.components().max(1);
+    let values = parameters::read(&file, &setup, &system, bodies)?;
+    let tapes = Tapes::new(&mut system, &structure, &values).map_err(|refusal| {
+        let message = match refusal {
+            Refusal::TooLong => format!(
+                "with its sums written out the formula has more than {MOST_STEPS} operations: take fewer bodies, or the macro `hamiltonian!`"
+            ),
+            Refusal::Outside => "the formula asks for a coordinate or a parameter that does not exist".to_owned(),
+        };
+        file.error(setup.system.span(), message)
+    })?;
+    if let Some(threads) = arguments.threads {
+        // It is set once in a process: the first time there is nothing to fail.
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
+        pool.build_global()
+            .map_err(|error| document(format!("no threads: {error}")))?;
+    }
+    let path = file.beside(setup.output.file.get_ref());
+    let run = Run {
+        file: &file,
+        setup: &setup,
+        method: &method,
+        coordinates: &coordinates,
+        tapes: Arc::new(tapes),
+        times,
+        shard: arguments.shard,
+        target: Target::open(named(path, arguments.shard))?,
+    };
+    match structure.split {
+        Ok(_) => run.with_sums(SeparableFormula, starts),
+        Err(_) => run.with_sums(GeneralFormula, starts),
+    }
+}
+
+/// The name of the output, of a part if it is one: `orbits.0-of-4.npz`.
+fn named(path: PathBuf, shard: Option<Shard>) -> PathBuf {
+    match (
+        shard,
+        path.extension().and_then(|extension| extension.to_str()),
+    ) {
+        (Some(Shard { part, count }), Some(extension)) => {
+            path.with_extension(format!("{part}-of-{count}.{extension}"))
+        }
+        _ => path,
+    }
+}
+
+/// The system of the formula, which has to be a free one.
+fn read_system(file: &File<'_>, setup: &Setup) -> Result<(System, Structure), Error> {
+    let (span, text) = (setup.system.span(), setup.system.get_ref());
+    let name = format!("`system` in {}", file.path.display());
+    let placed = |error| file.inside(span.clone(), text, error);
+    let mut system = System::read_as(Form::of(text), &name, text).map_err(placed)?;
+    let structure = Structure::of(&mut system);
+    system.check(&structure, text).map_err(placed)?;
+    let refused = if system.without_hamiltonian().is_some() {
+        Some("a Lagrangian that is not quadratic in the velocities")
+    } else if !system.functions.is_empty() {
+        Some("functions that are written in Rust")
+    } else if !system.is_free() {
+        Some("constraints, friction and applied forces")
+    } else {
+        None
+    };
+    match refused {
+        Some(what) => Err(file.error(
+            span,
+            format!("`symplectic run` has no {what}: take the macros, as the book describes"),
+        )),
+        None => Ok((system, structure)),
+    }
+}
+
+/// The times at which states are written; none if it is the end.
+fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
+    let (size, start) = (*setup.step_size.get_ref(), setup.start_time);
+    if !size.is_finite() || size == 0.0 {
+        let message = format!(
+            "the step size is {size}: it must be finite, and not zero; negative to go backward"
+        );
+        return Err(file.error(setup.step_size.span(), message));
+    }
+    let behind = |time: f64| !time.is_finite() || (time - start) * size < 0.0;
+    let refused = |time: f64, span| {
+        let message = format!(
+            "the time {time} is not on the way: runs start at {start}, and the step size is {size}"
+        );
+        Err(file.error(span, message))
+    };
+    match (&setup.end, &setup.times) {
+        (Some(end), None) => match behind(*end.get_ref()) {
+            true => refused(*end.get_ref(), end.span()),
+            false => Ok(None),
+        },
+        (None, Some(times)) => {
+            let list = times.get_ref().list();
+            if let Some(&time) = list.iter().find(|time| behind(**time)) {
+                return refused(time, times.span());
+            }
+            match list.is_empty() || list.windows(2).any(|pair| (pair[1] - pair[0]) * size < 0.0) {
+                true => Err(file.error(times.span(), "`times` must be there, each after the one before")),
+                false => Ok(Some(list)),
+            }
+        }
+        (None, None) => Err(document(format!(
+            "{}: how long does it run? Give `end`, or `times` at which states are written",
+            file.path.display()
+        ))),
+        (Some(_), Some(times)) => Err(file.error(
+            times.span(),
+            "there are both `end` and `times`: give `end` for the last state, or `times` for all of them",
+        )),
+    }
+}
+
+impl Run<'_> {
+    fn with_sums<S>(
+        self,
+        system: impl Fn(Arc<Tapes>) -> S,
+        starts: Starts,
+    ) -> Result<ExitCode, Error>
+    where
+        S: Hamiltonian<Vector<f64> = Vector> + Clone + Send + Sync,
+    {
+        let system = system(Arc::clone(&self.tapes));
+        let tableau: &RunTimeTableau = &self.method.tableau;
+        let size = *self.setup.step_size.get_ref();
+        match self.setup.sums {
+            Sums::Compensated => {
+                let made = Ensemble::at_run_time(tableau, system, starts, size);
+                self.integrate(made)
+            }
+            Sums::Plain => {
+                let made = Ensemble::plain_at_run_time(tableau, system, starts, size);
+                self.integrate(made)
+            }
+        }
+    }
+
+    fn integrate<S, R: Summation>(
+        self,
+        made: Result<Ensemble<AtRunTime, S, Vector, R>, EnsembleError>,
+    ) -> Result<ExitCode, Error>
+    where
+        S: Hamiltonian<Vector<f64> = Vector> + Clone + Send + Sync,
+    {
+        let mut ensemble = made.map_err(|error| self.refused(&error))?;
+        if let Some(Shard { part, count }) = self.shard {
+            ensemble = ensemble
+                .shard(part, count)
+                .map_err(|error| self.refused(&error))?;
+        }
+        let progress = progress(ensemble.trajectories().len());
+        let mut rows: Vec<Trajectory> = Vec::new();
+        let keep = |row| {
+            rows.push(row);
+            progress.inc(1);
+            ControlFlow::Continue(())
+        };
+        let see = |seen: &mut Vec<Seen>, state: &State<Vector>| {
+            seen.push(Seen {
+                energy: self.tapes.energy_at(state),
+                state: state.clone(),
+            });
+        };
+        match &self.times {
+            Some(times) => {
+                ensemble.integrate_at(times, |_| Vec::new(), see, keep);
+            }
+            None => {
+                let end = self
+                    .setup
+                    .end
+                    .as_ref()
+                    .map_or(self.setup.start_time, |end| *end.get_ref());
+                let mut keep = keep;
+                ensemble.integrate_to(end, |row| {
+                    keep(Trajectory {
+                        trajectory: row.trajectory,
+                        outcome: row.outcome,
+                        state: row.state,
+                        statistics: row.statistics,
+                        output: Vec::new(),
+                    })
+                });
+            }
+        }
+        progress.finish_and_clear();
+        let orders = self.method.tableau.orders();
+        let results = Results {
+            coordinates: self.coordinates,
+            facts: Facts {
+                method: self.method.tableau.name(),
+                definition: &self.method.definition,
+                orders: [orders.general, orders.separable, orders.nystrom].map(u64::from),
+                step_size: *self.setup.step_size.get_ref(),
+                sums: match self.setup.sums {
+                    Sums::Compensated => "compensated",
+                    Sums::Plain => "plain",
+                },
+                formula: self.setup.system.get_ref(),
+                setup: self.file.text,
+            },
+            tapes: &self.tapes,
+            rows: &rows,
+            starts: ensemble.starts(),
+            times: self.times.as_deref(),
+        };
+        let failed = rows.iter().filter(|row| row.outcome.is_err()).count();
+        let message = format!(
+            "{} trajectories, {failed} failed: {}\n",
+            rows.len(),
+            self.target.path().display()
+        );
+        self.target.write(&results)?;
+        print(&message)
+    }
+
+    /// Why there is no ensemble, in the words of the file.
+    fn refused(&self, error: &EnsembleError) -> Error {
+        let accept = "take another method (`symplectic list --class …`), or write `accept_lower_order = true`";
+        let span = self.setup.method.span();
+        let name = self.method.tableau.name();
+        match error {
+            EnsembleError::Start {
+                error: RunError::NotQuadraticKinetic { order, lower_order, .. },
+                ..
+            } => self.file.error(
+                span,
+                format!("`{name}` has order {order} where the kinetic energy is quadratic in the momenta, and {lower_order} here: {accept}"),
+            ),
+            EnsembleError::All(RunError::SeparableTableau { order, lower_order }) => self.file.error(
+                span,
+                format!("`{name}` has order {order} for separable systems only; here H is not separable, and it has order {lower_order} or is not symplectic: {accept}"),
+            ),
+            other => self.file.error(self.setup.starts.span(), other.to_string()),
+        }
+    }
+}
+
+/// A bar on a terminal, and nothing elsewhere.
+fn progress(count: usize) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(count as u64);
+    match ProgressStyle::with_template("{wide_bar} {pos}/{len} trajectories, {eta} left") {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}
+
+fn document(message: String) -> Error {
+    ErrorKind::Document { message }.into()
+}

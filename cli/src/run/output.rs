@@ -1,0 +1,246 @@
+//! What a run writes: a `.npz` file for NumPy, or a `.csv` file.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use symplectic::State;
+use symplectic::ensemble::{Npz, Row};
+use symplectic::nalgebra::DVector;
+use symplectic_compiler::{Error, ErrorKind};
+
+use super::starts::Coordinates;
+use super::system::Tapes;
+
+/// A state that is written, with the energy there.
+#[derive(Debug, Clone)]
+pub(super) struct Seen {
+    pub(super) state: State<DVector<f64>>,
+    pub(super) energy: f64,
+}
+
+/// A trajectory with what was seen of it at times.
+pub(super) type Trajectory = Row<DVector<f64>, Vec<Seen>>;
+
+/// What stands in the file beside the trajectories.
+pub(super) struct Facts<'a> {
+    pub(super) method: &'a str,
+    pub(super) definition: &'a str,
+    pub(super) orders: [u64; 3],
+    pub(super) step_size: f64,
+    pub(super) sums: &'static str,
+    pub(super) formula: &'a str,
+    pub(super) setup: &'a str,
+}
+
+/// The results of a run.
+pub(super) struct Results<'a> {
+    pub(super) coordinates: &'a Coordinates,
+    pub(super) facts: Facts<'a>,
+    pub(super) tapes: &'a Tapes,
+    pub(super) rows: &'a [Trajectory],
+    /// The start of each of them.
+    pub(super) starts: &'a [State<DVector<f64>>],
+    /// The times at which states are written; none where it is the end.
+    pub(super) times: Option<&'a [f64]>,
+}
+
+/// A file that is there in full or not at all: it is written beside its place, under another name.
+pub(super) struct Target {
+    path: PathBuf,
+    part: PathBuf,
+    file: File,
+    is_csv: bool,
+}
+
+impl Target {
+    /// Opens the file, before the run: so a run is not lost where nothing can be written.
+    pub(super) fn open(path: PathBuf) -> Result<Self, Error> {
+        let extension = path.extension().and_then(|extension| extension.to_str());
+        let is_csv = match extension {
+            Some("csv") => true,
+            Some("npz") => false,
+            _ => {
+                let message = format!("`{}` is named neither .npz nor .csv", path.display());
+                return Err(ErrorKind::Document { message }.into());
+            }
+        };
+        let mut name = path.file_name().unwrap_or_default().to_owned();
+        name.push(format!(".{}.part", std::process::id()));
+        let part = path.with_file_name(name);
+        let file = File::create(&part).map_err(|error| {
+            let message = format!(
+                "cannot write `{}`: {error}; nothing was computed",
+                part.display()
+            );
+            Error::from(ErrorKind::Document { message })
+        })?;
+        Ok(Target {
+            path,
+            part,
+            file,
+            is_csv,
+        })
+    }
+
+    /// Where the results go.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Writes the results, and gives the file its name.
+    pub(super) fn write(self, results: &Results<'_>) -> Result<(), Error> {
+        let mut out = BufWriter::new(&self.file);
+        let written = match self.is_csv {
+            true => results.write_csv(&mut out),
+            false => results.write_npz(&mut out),
+        };
+        let written = written
+            .and_then(|()| out.flush())
+            .and_then(|()| self.file.sync_all())
+            .and_then(|()| fs::rename(&self.part, &self.path));
+        written.map_err(|error| {
+            let message = format!(
+                "cannot write `{}`: {error}; the results of this run are lost, and a file that was there before is as it was",
+                self.path.display()
+            );
+            Error::from(ErrorKind::Document { message })
+        })
+    }
+}
+
+impl Drop for Target {
+    fn drop(&mut self) {
+        // It is there where the run or the writing has failed.
+        let _ = fs::remove_file(&self.part);
+    }
+}
+
+impl Results<'_> {
+    /// `(H − H₀)/|H₀|`; the difference, where the energy at the start is zero.
+    fn energy_errors(&self) -> Vec<Vec<f64>> {
+        let pairs = self.rows.iter().zip(self.starts);
+        let errors = pairs.map(|(row, start)| {
+            let first = self.tapes.energy_at(start);
+            let scale = if first == 0.0 { 1.0 } else { first.abs() };
+            let error = |energy: f64| (energy - first) / scale;
+            match self.times {
+                None => vec![error(self.tapes.energy_at(&row.state))],
+                Some(_) => row.output.iter().map(|seen| error(seen.energy)).collect(),
+            }
+        });
+        errors.collect()
+    }
+
+    fn write_npz(&self, out: &mut impl Write) -> io::Result<()> {
+        let Facts {
+            method,
+            definition,
+            orders,
+            step_size,
+            sums,
+            formula,
+            setup,
+        } = self.facts;
+        let mut file = Npz::new(out);
+        file.text("method", method)?;
+        file.text("definition", definition)?;
+        file.integers("orders", &[3], &orders)?;
+        file.doubles("step_size", &[], &[step_size])?;
+        file.text("sums", sums)?;
+        file.text("formula", formula)?;
+        file.text("setup", setup)?;
+        file.text("version", env!("CARGO_PKG_VERSION"))?;
+        for (name, names) in ["positions", "momenta"]
+            .into_iter()
+            .zip(&self.coordinates.0)
+        {
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            file.texts(name, &names)?;
+        }
+        let (count, dimension) = (self.rows.len(), self.coordinates.dimension());
+        let errors = self.energy_errors();
+        for (name, half) in [("q_start", 0), ("p_start", 1)] {
+            let all: Vec<f64> = self
+                .starts
+                .iter()
+                .flat_map(|start| half_of(start, half))
+                .copied()
+                .collect();
+            file.doubles(name, &[count, dimension], &all)?;
+        }
+        file.rows(self.rows)?;
+        let Some(times) = self.times else {
+            file.doubles("energy_error", &[count], &errors.concat())?;
+            return file.finish().map(|_| ());
+        };
+        // What a trajectory that failed did not reach is NaN.
+        let steps = times.len();
+        file.doubles("times", &[steps], times)?;
+        for (name, half) in [("q_at_times", 0), ("p_at_times", 1)] {
+            let mut all = vec![f64::NAN; count * steps * dimension];
+            for (row, places) in self
+                .rows
+                .iter()
+                .zip(all.chunks_mut((steps * dimension).max(1)))
+            {
+                for (seen, place) in row.output.iter().zip(places.chunks_mut(dimension.max(1))) {
+                    place.copy_from_slice(half_of(&seen.state, half));
+                }
+            }
+            file.doubles(name, &[count, steps, dimension], &all)?;
+        }
+        let mut all = vec![f64::NAN; count * steps];
+        for (errors, places) in errors.iter().zip(all.chunks_mut(steps.max(1))) {
+            places[..errors.len()].copy_from_slice(errors);
+        }
+        file.doubles("energy_error", &[count, steps], &all)?;
+        file.finish().map(|_| ())
+    }
+
+    /// A line for each trajectory, or for each trajectory and time. A trajectory that failed has its last good state and its error.
+    fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {
+        let mut file = csv::Writer::from_writer(out);
+        let starts = self.coordinates.all().map(|name| format!("{name}_start"));
+        let names = ["trajectory".to_owned()].into_iter().chain(starts);
+        let names = names
+            .chain(["time".to_owned()])
+            .chain(self.coordinates.all().cloned());
+        let last = ["energy_error", "steps", "error"].map(str::to_owned);
+        file.write_record(names.chain(last))?;
+        for ((row, start), errors) in self.rows.iter().zip(self.starts).zip(self.energy_errors()) {
+            let failure = row.outcome.as_ref().err().map(ToString::to_string);
+            let mut line =
+                |state: &State<DVector<f64>>, error: Option<&f64>, failure: Option<&String>| {
+                    let numbers = |state: &State<DVector<f64>>| -> Vec<String> {
+                        let (q, p) = state.as_slices();
+                        q.iter().chain(p).map(f64::to_string).collect()
+                    };
+                    let mut cells = vec![row.trajectory.to_string()];
+                    cells.extend(numbers(start));
+                    cells.push(state.time.to_string());
+                    cells.extend(numbers(state));
+                    cells.push(error.map(|error| format!("{error:e}")).unwrap_or_default());
+                    cells.push(row.statistics.steps.to_string());
+                    cells.push(failure.cloned().unwrap_or_default());
+                    file.write_record(cells)
+                };
+            if self.times.is_none() {
+                line(&row.state, errors.first(), failure.as_ref())?;
+                continue;
+            }
+            for (seen, error) in row.output.iter().zip(&errors) {
+                line(&seen.state, Some(error), None)?;
+            }
+            if failure.is_some() {
+                line(&row.state, None, failure.as_ref())?;
+            }
+        }
+        file.flush()
+    }
+}
+
+fn half_of(state: &State<DVector<f64>>, half: usize) -> &[f64] {
+    let (q, p) = state.as_slices();
+    [q, p][half]
+}

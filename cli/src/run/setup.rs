@@ -1,0 +1,211 @@
+//! The file of a run.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor, value::MapAccessDeserializer};
+use symplectic_compiler::{Error, ErrorKind, Place};
+use toml::{Spanned, Value};
+
+/// What a file says.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Setup {
+    /// The formula of the system.
+    pub(super) system: Spanned<String>,
+    /// The method: a name of the catalogue, a file, or the keys of a definition.
+    pub(super) method: Spanned<Value>,
+    pub(super) step_size: Spanned<f64>,
+    #[serde(default)]
+    pub(super) start_time: f64,
+    pub(super) end: Option<Spanned<f64>>,
+    pub(super) times: Option<Spanned<Times>>,
+    #[serde(default)]
+    pub(super) sums: Sums,
+    #[serde(default)]
+    pub(super) accept_lower_order: bool,
+    #[serde(default)]
+    pub(super) parameters: BTreeMap<String, Spanned<Value>>,
+    pub(super) starts: Spanned<Starts>,
+    pub(super) random: Option<Random>,
+    pub(super) output: Output,
+}
+
+/// How steps are added up.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Sums {
+    #[default]
+    Compensated,
+    Plain,
+}
+
+/// The times that states are written at.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected a list of times, or { from, to, count }"
+)]
+pub(super) enum Times {
+    List(Vec<f64>),
+    Range(Evenly),
+}
+
+/// Numbers at equal distances, both ends among them.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Evenly {
+    from: f64,
+    to: f64,
+    count: usize,
+}
+
+/// How many random starts there are at each point of the grid of the other coordinates.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Random {
+    pub(super) seed: u64,
+    pub(super) count: usize,
+}
+
+/// Where the results go.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Output {
+    /// A file named `.npz` or `.csv`.
+    pub(super) file: Spanned<PathBuf>,
+}
+
+/// Coordinates with what each starts at.
+pub(super) type Grid = BTreeMap<String, Spanned<Value>>;
+
+/// The starts as they are written.
+#[derive(Debug)]
+pub(super) enum Starts {
+    /// A CSV file.
+    File(PathBuf),
+    /// Grids, one after another.
+    Grids(Vec<Grid>),
+}
+
+impl<'de> Deserialize<'de> for Starts {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Any;
+        impl<'de> Visitor<'de> for Any {
+            type Value = Starts;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("a table with the coordinates, a list of such tables, or the name of a CSV file")
+            }
+
+            fn visit_str<E>(self, name: &str) -> Result<Starts, E> {
+                Ok(Starts::File(name.into()))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Starts, A::Error> {
+                let mut grids = Vec::new();
+                while let Some(grid) = list.next_element()? {
+                    grids.push(grid);
+                }
+                Ok(Starts::Grids(grids))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Starts, A::Error> {
+                let grid = Grid::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(Starts::Grids(vec![grid]))
+            }
+        }
+        deserializer.deserialize_any(Any)
+    }
+}
+
+impl Evenly {
+    /// The numbers.
+    pub(super) fn numbers(self) -> Vec<f64> {
+        let Evenly { from, to, count } = self;
+        let last = count.saturating_sub(1).max(1) as f64;
+        let number = |k: usize| {
+            let part = k as f64 / last;
+            from * (1.0 - part) + to * part
+        };
+        (0..count).map(number).collect()
+    }
+}
+
+impl Times {
+    /// The times in their order.
+    pub(super) fn list(&self) -> Vec<f64> {
+        match self {
+            Times::List(times) => times.clone(),
+            Times::Range(range) => range.numbers(),
+        }
+    }
+}
+
+/// A file with its text: it says where errors are.
+pub(super) struct File<'a> {
+    pub(super) path: &'a Path,
+    pub(super) text: &'a str,
+}
+
+impl File<'_> {
+    /// Reads the setup.
+    pub(super) fn read(&self) -> Result<Setup, Error> {
+        toml::from_str(self.text).map_err(|error| {
+            let message = error.message().to_owned();
+            match error.span() {
+                Some(span) => self.error(span, message),
+                None => ErrorKind::Document { message }.into(),
+            }
+        })
+    }
+
+    /// What is wrong at a place.
+    pub(super) fn error(&self, span: Range<usize>, message: impl Into<String>) -> Error {
+        let kind = ErrorKind::Document {
+            message: message.into(),
+        };
+        self.at(span, kind)
+    }
+
+    /// The same, of any kind.
+    pub(super) fn at(&self, span: Range<usize>, kind: ErrorKind) -> Error {
+        let place = Place {
+            input: self.path.display().to_string(),
+            text: self.text.to_owned(),
+            span,
+        };
+        Error::at(kind, place)
+    }
+
+    /// An error in a text of this file, with its place in the file where the text stands there letter by letter.
+    pub(super) fn inside(&self, span: Range<usize>, text: &str, error: Error) -> Error {
+        let written = self
+            .text
+            .get(span.clone())
+            .and_then(|written| written.find(text));
+        match (written, &error.place) {
+            (Some(offset), Some(place)) => {
+                let offset = span.start + offset;
+                let span = offset + place.span.start..offset + place.span.end;
+                self.at(span, *error.kind)
+            }
+            (None, Some(_)) => error,
+            (_, None) => self.at(span, *error.kind),
+        }
+    }
+
+    /// A file that this one names: beside it, unless the name begins at the root.
+    pub(super) fn beside(&self, name: &Path) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(name)
+    }
+}
+
+/// A number, also one without a point.
+pub(super) fn number(value: &Value) -> Option<f64> {
+    value
+        .as_float()
+        .or_else(|| value.as_integer().map(|whole| whole as f64))
+}

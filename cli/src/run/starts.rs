@@ -1,0 +1,368 @@
+//! The starts of the trajectories.
+
+use std::path::Path;
+
+use symplectic::State;
+use symplectic::nalgebra::DVector;
+use symplectic_compiler::formula::graph::Half;
+use symplectic_compiler::formula::syntax::Length;
+use symplectic_compiler::formula::{Layout, System};
+use symplectic_compiler::{Error, ErrorKind};
+use toml::{Spanned, Value};
+
+use super::random;
+use super::setup::{Evenly, File, Grid, Random, Setup, Starts, number};
+
+/// The most starts of a run.
+const MOST: usize = 1 << 26;
+
+const EXPECTED: &str = "expected a number, { from, to, count }, { values = [...] }, { uniform = [low, high] } or { normal = [mean, deviation] }";
+
+/// The names of all components of positions and of momenta.
+#[derive(Debug, Clone)]
+pub(super) struct Coordinates(pub(super) [Vec<String>; 2]);
+
+impl Coordinates {
+    /// Those of so many bodies.
+    pub(super) fn new(system: &System, bodies: usize) -> Self {
+        let names = |half| {
+            let of = |body| {
+                let name = system.layout.name(half, body);
+                match system.layout {
+                    Layout::Numbered(_, Some(components)) => {
+                        (0..components).map(|k| format!("{name}[{k}]")).collect()
+                    }
+                    _ => vec![name],
+                }
+            };
+            (0..bodies).flat_map(of).collect()
+        };
+        Coordinates([names(Half::Q), names(Half::P)])
+    }
+
+    /// How many positions there are.
+    pub(super) fn dimension(&self) -> usize {
+        self.0[0].len()
+    }
+
+    /// All of them, positions first.
+    pub(super) fn all(&self) -> impl Iterator<Item = &String> {
+        self.0.iter().flatten()
+    }
+
+    fn listed(&self) -> String {
+        self.all()
+            .map(String::as_str)
+            .collect::<Vec<_>>()
+            .join(", ")
+    }
+}
+
+/// What a coordinate starts at.
+#[derive(Debug, Clone)]
+enum Spec {
+    Values(Vec<f64>),
+    Uniform([f64; 2]),
+    Normal([f64; 2]),
+}
+
+impl Spec {
+    fn read(value: &Value) -> Option<Self> {
+        if let Some(value) = number(value) {
+            return Some(Spec::Values(vec![value]));
+        }
+        let table = value.as_table()?;
+        let numbers = |key: &str| -> Option<Vec<f64>> {
+            let list = table.get(key)?.as_array()?;
+            list.iter().map(number).collect()
+        };
+        let pair = |key: &str| numbers(key).and_then(|list| <[f64; 2]>::try_from(list).ok());
+        let range = || value.clone().try_into::<Evenly>().ok();
+        match table.len() {
+            1 => (numbers("values")
+                .filter(|list| !list.is_empty())
+                .map(Spec::Values))
+            .or_else(|| pair("uniform").map(Spec::Uniform))
+            .or_else(|| pair("normal").map(Spec::Normal)),
+            _ => range()
+                .map(Evenly::numbers)
+                .filter(|list| !list.is_empty())
+                .map(Spec::Values),
+        }
+    }
+
+    fn is_random(&self) -> bool {
+        !matches!(self, Spec::Values(_))
+    }
+}
+
+/// The starts of a system, before it is known how many bodies it has.
+pub(super) struct Reader<'a> {
+    pub(super) file: &'a File<'a>,
+    pub(super) system: &'a System,
+    pub(super) setup: &'a Setup,
+}
+
+impl Reader<'_> {
+    /// The coordinates and the starts.
+    pub(super) fn read(&self) -> Result<(Coordinates, Vec<State<DVector<f64>>>), Error> {
+        let rows = match self.setup.starts.get_ref() {
+            Starts::File(name) => {
+                self.refuse_needless_random(false)?;
+                self.of_csv(&self.file.beside(name))?
+            }
+            Starts::Grids(grids) => self.of_grids(grids)?,
+        };
+        let (coordinates, rows) = rows;
+        let half = coordinates.dimension();
+        let time = self.setup.start_time;
+        let state = |row: Vec<f64>| {
+            State::new(
+                time,
+                DVector::from_column_slice(&row[..half]),
+                DVector::from_column_slice(&row[half..]),
+            )
+        };
+        Ok((coordinates, rows.into_iter().map(state).collect()))
+    }
+
+    fn refuse_needless_random(&self, any: bool) -> Result<(), Error> {
+        let span = self.setup.starts.span();
+        match (any, self.setup.random) {
+            (true, None) => Err(self.file.error(
+                span,
+                "these starts are random: say how many and from which seed, `random = { seed = 1, count = 1000 }`",
+            )),
+            (false, Some(_)) => Err(self.file.error(
+                span,
+                "`random` is there, but no start is random: write `{ uniform = [low, high] }` or `{ normal = [mean, deviation] }` for a coordinate",
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// The number of bodies, if the layout does not say it: that of a list.
+    fn bodies(&self, listed: Option<usize>) -> Result<usize, Error> {
+        let bodies = match self.system.layout.length() {
+            Length::Fixed(n) => n,
+            _ => listed.ok_or_else(|| {
+                self.file.error(
+                    self.setup.starts.span(),
+                    "the number of coordinates is that of the starts: give the lists `q = [...]` and `p = [...]`",
+                )
+            })?,
+        };
+        if bodies < self.system.least.max(1) {
+            let message = format!(
+                "the formula needs {} coordinates at least, and the starts have {bodies}",
+                self.system.least.max(1)
+            );
+            return Err(self.file.error(self.setup.starts.span(), message));
+        }
+        Ok(bodies)
+    }
+
+    fn of_grids(&self, grids: &[Grid]) -> Result<(Coordinates, Vec<Vec<f64>>), Error> {
+        let first = grids.first().and_then(|grid| grid.get("q"));
+        let listed = first
+            .and_then(|list| list.get_ref().as_array())
+            .map(Vec::len);
+        let coordinates = Coordinates::new(self.system, self.bodies(listed)?);
+        let mut rows = Vec::new();
+        let mut draws = 0;
+        let mut any_random = false;
+        for grid in grids {
+            let axes = self.axes(grid, &coordinates)?;
+            let is_random = axes.iter().any(|(_, spec)| spec.is_random());
+            any_random |= is_random;
+            let count = match self.setup.random {
+                Some(Random { count, .. }) if is_random => count,
+                _ => 1,
+            };
+            self.product(&axes, count, &mut draws, &mut rows)?;
+        }
+        self.refuse_needless_random(any_random)?;
+        Ok((coordinates, rows))
+    }
+
+    /// The places of all coordinates with what they start at, in the order of the file.
+    fn axes(&self, grid: &Grid, coordinates: &Coordinates) -> Result<Vec<(usize, Spec)>, Error> {
+        let mut entries: Vec<(&String, &Spanned<Value>)> = grid.iter().collect();
+        entries.sort_by_key(|(_, value)| value.span().start);
+        let mut axes = Vec::new();
+        for (name, value) in entries {
+            let read = |value: &Value, name: &str| {
+                let refused = || format!("`{name}`: {EXPECTED}");
+                Spec::read(value).ok_or_else(refused)
+            };
+            let places = self.leaves(name, value.get_ref(), coordinates);
+            let leaves = places.map_err(|message| self.file.error(value.span(), message))?;
+            for (place, name, leaf) in leaves {
+                let spec =
+                    read(leaf, &name).map_err(|message| self.file.error(value.span(), message))?;
+                axes.push((place, spec));
+            }
+        }
+        let missing = coordinates
+            .all()
+            .enumerate()
+            .find(|(place, _)| axes.iter().all(|(found, _)| found != place));
+        if let Some((_, name)) = missing {
+            let message = format!(
+                "the starts do not say where `{name}` begins; there are {}",
+                coordinates.listed()
+            );
+            return Err(self.file.error(self.setup.starts.span(), message));
+        }
+        Ok(axes)
+    }
+
+    /// The coordinates that a key names: one, or the entries of the lists `q` and `p`.
+    fn leaves<'v>(
+        &self,
+        key: &str,
+        value: &'v Value,
+        coordinates: &Coordinates,
+    ) -> Result<Vec<(usize, String, &'v Value)>, String> {
+        let half = coordinates.dimension();
+        let offset = match (key, &self.system.layout) {
+            ("q", Layout::Numbered(..)) => 0,
+            ("p", Layout::Numbered(..)) => half,
+            _ => {
+                let place = coordinates.all().position(|name| name == key);
+                let place = place.ok_or_else(|| {
+                    format!(
+                        "there is no coordinate `{key}`; there are {}",
+                        coordinates.listed()
+                    )
+                })?;
+                return Ok(vec![(place, key.to_owned(), value)]);
+            }
+        };
+        let mut found = Vec::new();
+        let nested = matches!(self.system.layout, Layout::Numbered(_, Some(_)));
+        let list = value.as_array().map(Vec::as_slice).unwrap_or_default();
+        for entry in list {
+            match (nested, entry.as_array()) {
+                (true, Some(components)) => found.extend(components),
+                _ => found.push(entry),
+            }
+        }
+        if found.len() != half {
+            return Err(format!(
+                "`{key}` has {} numbers, and {half} are needed: {}",
+                found.len(),
+                coordinates.0[usize::from(offset > 0)].join(", ")
+            ));
+        }
+        let names = coordinates.all().skip(offset).cloned();
+        let leaves = found.into_iter().zip(names).enumerate();
+        Ok(leaves
+            .map(|(k, (value, name))| (offset + k, name, value))
+            .collect())
+    }
+
+    /// All combinations, the last coordinate the fastest, and of each so many draws.
+    fn product(
+        &self,
+        axes: &[(usize, Spec)],
+        count: usize,
+        draws: &mut u64,
+        rows: &mut Vec<Vec<f64>>,
+    ) -> Result<(), Error> {
+        let lengths = axes.iter().map(|(_, spec)| match spec {
+            Spec::Values(values) => values.len(),
+            Spec::Uniform(_) | Spec::Normal(_) => 1,
+        });
+        let lengths: Vec<usize> = lengths.collect();
+        let total = lengths
+            .iter()
+            .try_fold(count, |total: usize, length| total.checked_mul(*length))
+            .and_then(|total| total.checked_add(rows.len()));
+        if total.is_none_or(|total| total > MOST) {
+            let message = format!("more than {MOST} starts: split the run into several files");
+            return Err(self.file.error(self.setup.starts.span(), message));
+        }
+        let seed = self.setup.random.map_or(0, |random| random.seed);
+        let points = lengths.iter().product::<usize>();
+        for point in 0..points {
+            for _ in 0..count {
+                let mut row = vec![0.0; axes.len()];
+                let mut rest = point;
+                for ((place, spec), length) in axes.iter().zip(&lengths).rev() {
+                    let choice = rest % length;
+                    rest /= length;
+                    // A number of its own for every start and coordinate, whatever the order of the keys.
+                    let draw = *draws * axes.len() as u64 + *place as u64;
+                    row[*place] = match spec {
+                        Spec::Values(values) => values[choice],
+                        Spec::Uniform([low, high]) => {
+                            low + (high - low) * random::uniform(seed, draw)
+                        }
+                        Spec::Normal([mean, deviation]) => {
+                            mean + deviation * random::normal(seed, draw)
+                        }
+                    };
+                }
+                *draws += 1;
+                rows.push(row);
+            }
+        }
+        Ok(())
+    }
+
+    /// The rows of a CSV file, whose first line has the names of the coordinates.
+    fn of_csv(&self, path: &Path) -> Result<(Coordinates, Vec<Vec<f64>>), Error> {
+        let refused = |message: String| {
+            Error::from(ErrorKind::Document {
+                message: format!("{}: {message}", path.display()),
+            })
+        };
+        let mut reader = csv::ReaderBuilder::new()
+            .trim(csv::Trim::All)
+            .from_path(path)
+            .map_err(|error| refused(error.to_string()))?;
+        let header = reader
+            .headers()
+            .map_err(|error| refused(error.to_string()))?
+            .clone();
+        let components = self.system.layout.components();
+        let listed =
+            header.iter().filter(|name| name.starts_with("q[")).count() / components.max(1);
+        let coordinates = Coordinates::new(self.system, self.bodies(Some(listed))?);
+        let mut places = Vec::new();
+        for name in &header {
+            let place = coordinates.all().position(|known| known == name);
+            let place = place.filter(|place| !places.contains(place)).ok_or_else(|| {
+                refused(format!(
+                    "line 1: the column `{name}` is no coordinate, or is there twice; there are {}",
+                    coordinates.listed()
+                ))
+            })?;
+            places.push(place);
+        }
+        if let Some((_, name)) = coordinates
+            .all()
+            .enumerate()
+            .find(|(k, _)| !places.contains(k))
+        {
+            return Err(refused(format!("line 1: the column `{name}` is missing")));
+        }
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(|error| refused(error.to_string()))?;
+            let line = record.position().map_or(0, csv::Position::line);
+            let mut row = vec![0.0; places.len()];
+            for ((place, text), name) in places.iter().zip(&record).zip(&header) {
+                let value: Option<f64> = text.parse().ok().filter(|value: &f64| value.is_finite());
+                row[*place] = value.ok_or_else(|| {
+                    refused(format!(
+                        "line {line}, column `{name}`: `{text}` is no finite number"
+                    ))
+                })?;
+            }
+            rows.push(row);
+        }
+        Ok((coordinates, rows))
+    }
+}

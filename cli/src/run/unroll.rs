@@ -1,0 +1,481 @@
+//! From a formula to a tape: loops are unrolled, parameters are numbers, equal operations are done once.
+
+use std::collections::{BTreeMap, HashMap};
+
+use symplectic_compiler::formula::System;
+use symplectic_compiler::formula::derivative::Scatter;
+use symplectic_compiler::formula::evaluate::Real;
+use symplectic_compiler::formula::function::Elementary;
+use symplectic_compiler::formula::graph::{Half, Id, LoopId};
+use symplectic_compiler::formula::operations::{Op, Operation, Operations};
+
+use super::tape::{Code, Input, Register, Step, Tape, apply};
+use super::values::{Indices, Values};
+
+/// The most operations of a formula with its loops unrolled.
+pub(super) const MOST_STEPS: usize = 60_000;
+/// The most values that are looked at on the way.
+const MOST_VALUES: usize = 4_000_000;
+
+/// Why a formula has no tape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Refusal {
+    /// It has more than [`MOST_STEPS`] operations.
+    TooLong,
+    /// It asks for a coordinate, or an entry of a parameter, that does not exist.
+    Outside,
+}
+
+/// A value in a formula, by its number.
+type Number = u32;
+
+/// What a value is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Value {
+    /// A constant, by its bits.
+    Constant(u64),
+    Time,
+    Position(usize),
+    Momentum(usize),
+    Step(Code, [Number; 3]),
+}
+
+/// The values of some formulas, each once.
+pub(super) struct Unrolled<'a> {
+    system: &'a System,
+    values: &'a Values,
+    operations: Operations<'a>,
+    /// The operations that change in each loop, in their order.
+    changing: HashMap<LoopId, Vec<Op>>,
+    indices: Indices,
+    bound: u64,
+    /// What operations are at these indices.
+    known: HashMap<Op, Number>,
+    list: Vec<Value>,
+    numbers: HashMap<Value, Number>,
+    looked_at: usize,
+}
+
+impl<'a> Unrolled<'a> {
+    /// For some nodes of the graph of a system.
+    pub(super) fn new(
+        system: &'a System,
+        values: &'a Values,
+        roots: &[Id],
+    ) -> Result<Self, Refusal> {
+        let operations = Operations::new(&system.graph, roots);
+        let mut unrolled = Unrolled {
+            system,
+            values,
+            operations,
+            changing: HashMap::new(),
+            indices: HashMap::new(),
+            bound: 0,
+            known: HashMap::new(),
+            list: Vec::new(),
+            numbers: HashMap::new(),
+            looked_at: 0,
+        };
+        let all: Vec<Op> = unrolled.operations.all().collect();
+        for k in 0..system.graph.count_loops() {
+            let changes = |op: &&Op| unrolled.operations.depends(**op).changes_in(LoopId(k));
+            let changing = all.iter().filter(changes).copied().collect();
+            unrolled.changing.insert(LoopId(k), changing);
+        }
+        unrolled.compute_all(&all)?;
+        Ok(unrolled)
+    }
+
+    /// The value of a node outside of loops.
+    pub(super) fn of(&self, id: Id) -> Result<Number, Refusal> {
+        let found = self.known.get(&self.operations.of(id));
+        found.copied().ok_or(Refusal::Outside)
+    }
+
+    /// The components of a derivative of which these are the parts.
+    pub(super) fn gradient(&mut self, parts: &[Scatter]) -> Result<Vec<Number>, Refusal> {
+        let components = self.system.layout.components();
+        let mut sums = vec![None; self.values.bodies * components];
+        for part in parts {
+            self.scatter(part, 0, components, &mut sums)?;
+        }
+        sums.into_iter()
+            .map(|sum| match sum {
+                Some(sum) => Ok(sum),
+                None => self.constant(0.0),
+            })
+            .collect()
+    }
+
+    fn scatter(
+        &mut self,
+        part: &Scatter,
+        depth: usize,
+        components: usize,
+        sums: &mut [Option<Number>],
+    ) -> Result<(), Refusal> {
+        if let Some(&over) = part.loops.get(depth) {
+            return self.each(over, &mut |this| {
+                this.scatter(part, depth + 1, components, sums)
+            });
+        }
+        let value = self.of(part.value)?;
+        let index = self
+            .values
+            .index(self.system, &self.indices, &part.target.index);
+        let place = index.ok_or(Refusal::Outside)? * components + part.target.component;
+        let sum = sums.get_mut(place).ok_or(Refusal::Outside)?;
+        *sum = Some(match *sum {
+            Some(sum) => self.step(Code::Add, &[sum, value])?,
+            None => value,
+        });
+        Ok(())
+    }
+
+    /// Does something for every index of a loop.
+    fn each(
+        &mut self,
+        over: LoopId,
+        work: &mut dyn FnMut(&mut Self) -> Result<(), Refusal>,
+    ) -> Result<(), Refusal> {
+        let system = self.system;
+        let range = self
+            .values
+            .range(system, &self.indices, system.graph.get_loop(over));
+        let changing = self.changing.get(&over).cloned().unwrap_or_default();
+        // The loop may be one that is run already, around this one.
+        let before = self.indices.get(&over).copied();
+        let kept: Vec<(Op, Number)> = changing
+            .iter()
+            .filter_map(|op| Some((*op, self.known.remove(op)?)))
+            .collect();
+        let bound = self.bound;
+        self.bound |= 1 << over.0;
+        let outcome = range.ok_or(Refusal::Outside).and_then(|mut range| {
+            range.try_for_each(|index| {
+                self.indices.insert(over, index);
+                for op in &changing {
+                    self.known.remove(op);
+                }
+                self.compute_all(&changing)?;
+                work(self)
+            })
+        });
+        for op in &changing {
+            self.known.remove(op);
+        }
+        self.bound = bound;
+        match before {
+            Some(index) => self.indices.insert(over, index),
+            None => self.indices.remove(&over),
+        };
+        self.known.extend(kept);
+        outcome
+    }
+
+    /// Computes all of these operations that are fixed by the present indices, operands first.
+    fn compute_all(&mut self, operations: &[Op]) -> Result<(), Refusal> {
+        for &op in operations {
+            let is_ready = self.operations.depends(op).loops & !self.bound == 0;
+            if is_ready
+                && !self.known.contains_key(&op)
+                && let Some(value) = self.compute(op)?
+            {
+                self.known.insert(op, value);
+            }
+        }
+        Ok(())
+    }
+
+    /// An operation; `None` where it asks for something that does not exist: only a result that needs it is refused.
+    fn compute(&mut self, op: Op) -> Result<Option<Number>, Refusal> {
+        self.looked_at += 1;
+        if self.looked_at > MOST_VALUES {
+            return Err(Refusal::TooLong);
+        }
+        let operation = self.operations.get(op).clone();
+        let mut operands = Vec::new();
+        if !matches!(operation, Operation::Total(..)) {
+            for operand in operation.operands() {
+                let Some(&number) = self.known.get(&operand) else {
+                    return Ok(None);
+                };
+                operands.push(number);
+            }
+        }
+        let code = match operation {
+            Operation::Constant(value) => {
+                return self.constant(<f64 as Real>::number(&value)).map(Some);
+            }
+            Operation::Pi => return self.constant(std::f64::consts::PI).map(Some),
+            Operation::Time => return self.add(Value::Time).map(Some),
+            Operation::Parameter(parameter, indices) => {
+                let mut places = [0; 2];
+                for (place, index) in places.iter_mut().zip(&indices) {
+                    let Some(found) = self.values.index(self.system, &self.indices, index) else {
+                        return Ok(None);
+                    };
+                    *place = found;
+                }
+                let rows = self.values.parameters.get(parameter);
+                let row = rows.and_then(|rows| rows.get(places[0]));
+                let Some(&value) = row.and_then(|row| row.get(places[1])) else {
+                    return Ok(None);
+                };
+                return self.constant(value).map(Some);
+            }
+            Operation::Coordinate(coordinate) => {
+                let index = self
+                    .values
+                    .index(self.system, &self.indices, &coordinate.index);
+                let Some(index) = index.filter(|&index| index < self.values.bodies) else {
+                    return Ok(None);
+                };
+                let place = index * self.system.layout.components() + coordinate.component;
+                return self
+                    .add(match coordinate.half {
+                        Half::Q => Value::Position(place),
+                        Half::P | Half::V => Value::Momentum(place),
+                    })
+                    .map(Some);
+            }
+            Operation::Total(over, body) => {
+                return match self.total(over, body) {
+                    Err(Refusal::Outside) => Ok(None),
+                    sum => sum.map(Some),
+                };
+            }
+            // Refused before.
+            Operation::User(..) => return Ok(None),
+            Operation::Multiply(a, b) if self.operations.is_division(b) => {
+                let Operation::Reciprocal(divisor) = *self.operations.get(b) else {
+                    return Ok(None);
+                };
+                let (Some(&a), Some(&b)) = (self.known.get(&a), self.known.get(&divisor)) else {
+                    return Ok(None);
+                };
+                operands = vec![a, b];
+                Code::Divide
+            }
+            Operation::Negative(_) => Code::Negative,
+            Operation::Add(..) => Code::Add,
+            Operation::Subtract(..) => Code::Subtract,
+            Operation::Multiply(..) => Code::Multiply,
+            Operation::Reciprocal(_) => Code::Reciprocal,
+            Operation::Root(_) => Code::Root,
+            Operation::Absolute(_) => Code::Absolute,
+            Operation::Elementary(function, _) => elementary(function),
+            Operation::Atan2(..) => Code::Atan2,
+        };
+        self.step(code, &operands).map(Some)
+    }
+
+    fn total(&mut self, over: LoopId, body: Op) -> Result<Number, Refusal> {
+        let mut sum = None;
+        self.each(over, &mut |this| {
+            let term = *this.known.get(&body).ok_or(Refusal::Outside)?;
+            sum = Some(match sum {
+                Some(sum) => this.step(Code::Add, &[sum, term])?,
+                None => term,
+            });
+            Ok(())
+        })?;
+        match sum {
+            Some(sum) => Ok(sum),
+            None => self.constant(0.0),
+        }
+    }
+
+    fn constant(&mut self, value: f64) -> Result<Number, Refusal> {
+        self.add(Value::Constant(value.to_bits()))
+    }
+
+    /// An operation; one of constants is a constant.
+    fn step(&mut self, code: Code, operands: &[Number]) -> Result<Number, Refusal> {
+        let mut numbers = [operands[0]; 3];
+        numbers[..operands.len()].copy_from_slice(operands);
+        let constant = |number: Number| match self.list[number as usize] {
+            Value::Constant(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        };
+        if let [Some(a), Some(b), Some(c)] = numbers.map(constant) {
+            return self.constant(apply(code, a, || b, || c));
+        }
+        self.add(Value::Step(code, numbers))
+    }
+
+    fn add(&mut self, value: Value) -> Result<Number, Refusal> {
+        if let Some(&number) = self.numbers.get(&value) {
+            return Ok(number);
+        }
+        let number = Number::try_from(self.list.len()).map_err(|_| Refusal::TooLong)?;
+        self.list.push(value);
+        self.numbers.insert(value, number);
+        Ok(number)
+    }
+
+    /// The tape that computes some values, and nothing else.
+    pub(super) fn tape(&self, results: &[Number]) -> Result<Tape, Refusal> {
+        let mut list = self.list.clone();
+        let used = join_products(&mut list, results);
+        Assembly::new(&list, &used, results).tape()
+    }
+}
+
+fn elementary(function: Elementary) -> Code {
+    match function {
+        Elementary::Exp => Code::Exp,
+        Elementary::Ln => Code::Ln,
+        Elementary::Sin => Code::Sin,
+        Elementary::Cos => Code::Cos,
+        Elementary::Tan => Code::Tan,
+        Elementary::Asin => Code::Asin,
+        Elementary::Acos => Code::Acos,
+        Elementary::Atan => Code::Atan,
+        Elementary::Sinh => Code::Sinh,
+        Elementary::Cosh => Code::Cosh,
+        Elementary::Tanh => Code::Tanh,
+    }
+}
+
+/// How often each value is needed for some results.
+fn uses(list: &[Value], results: &[Number]) -> Vec<usize> {
+    let mut uses = vec![0; list.len()];
+    for &result in results {
+        uses[result as usize] += 1;
+    }
+    for number in (0..list.len()).rev() {
+        if uses[number] > 0
+            && let Value::Step(code, operands) = list[number]
+        {
+            for &operand in &operands[..arity(code)] {
+                uses[operand as usize] += 1;
+            }
+        }
+    }
+    uses
+}
+
+/// Joins a sum and a product that is needed in it only into one operation, with the same bits; returns how often values are needed then.
+fn join_products(list: &mut [Value], results: &[Number]) -> Vec<usize> {
+    let before = uses(list, results);
+    for number in 0..list.len() {
+        let Value::Step(code @ (Code::Add | Code::Subtract), [left, right, _]) = list[number]
+        else {
+            continue;
+        };
+        let product = |of: Number| match list[of as usize] {
+            Value::Step(Code::Multiply, [a, b, _]) if before[of as usize] == 1 => Some([a, b]),
+            _ => None,
+        };
+        let joined = match (code, product(left), product(right)) {
+            (Code::Add, Some([a, b]), _) => Some((Code::MultiplyAdd, [a, b, right])),
+            (Code::Add, None, Some([a, b])) => Some((Code::MultiplyAdd, [a, b, left])),
+            (Code::Subtract, Some([a, b]), _) => Some((Code::MultiplySubtract, [a, b, right])),
+            (Code::Subtract, None, Some([a, b])) => Some((Code::SubtractProduct, [a, b, left])),
+            _ => None,
+        };
+        if let Some((code, operands)) = joined {
+            list[number] = Value::Step(code, operands);
+        }
+    }
+    uses(list, results)
+}
+
+/// How many operands an operation has.
+fn arity(code: Code) -> usize {
+    match code {
+        Code::MultiplyAdd | Code::MultiplySubtract | Code::SubtractProduct => 3,
+        Code::Add | Code::Subtract | Code::Multiply | Code::Divide | Code::Atan2 => 2,
+        _ => 1,
+    }
+}
+
+/// Values on their way into registers.
+struct Assembly<'a> {
+    list: &'a [Value],
+    results: &'a [Number],
+    /// How often each value is still needed.
+    left: Vec<usize>,
+    registers: BTreeMap<Number, Register>,
+    free: Vec<Register>,
+    tape: Tape,
+}
+
+impl<'a> Assembly<'a> {
+    fn new(list: &'a [Value], uses: &[usize], results: &'a [Number]) -> Self {
+        Assembly {
+            list,
+            results,
+            left: uses.to_vec(),
+            registers: BTreeMap::new(),
+            free: Vec::new(),
+            tape: Tape::default(),
+        }
+    }
+
+    fn tape(mut self) -> Result<Tape, Refusal> {
+        for (number, value) in self.list.iter().enumerate() {
+            let input = match *value {
+                Value::Step(..) => continue,
+                Value::Constant(bits) => Input::Constant(f64::from_bits(bits)),
+                Value::Time => Input::Time,
+                Value::Position(k) => Input::Position(k),
+                Value::Momentum(k) => Input::Momentum(k),
+            };
+            if self.left[number] > 0 {
+                let register = self.new_register()?;
+                self.registers.insert(number as Number, register);
+                self.tape.inputs.push(input);
+            }
+        }
+        for (number, value) in self.list.iter().enumerate() {
+            let Value::Step(code, operands) = *value else {
+                continue;
+            };
+            if self.left[number] == 0 {
+                continue;
+            }
+            if self.tape.steps.len() == MOST_STEPS {
+                return Err(Refusal::TooLong);
+            }
+            let places = operands.map(|operand| self.registers.get(&operand).copied());
+            let operands = &operands[..arity(code)];
+            let first = places[0].unwrap_or_default();
+            let places = places.map(|place| place.unwrap_or(first));
+            for operand in operands {
+                self.release(*operand);
+            }
+            let into = match self.free.pop() {
+                Some(register) => register,
+                None => self.new_register()?,
+            };
+            self.registers.insert(number as Number, into);
+            self.tape.steps.push(Step {
+                code,
+                into,
+                operands: places,
+            });
+        }
+        let place = |result| self.registers.get(result).copied().ok_or(Refusal::Outside);
+        self.tape.results = self.results.iter().map(place).collect::<Result<_, _>>()?;
+        Ok(self.tape)
+    }
+
+    /// A register that is needed no longer takes the next value.
+    fn release(&mut self, operand: Number) {
+        let left = &mut self.left[operand as usize];
+        *left -= 1;
+        if *left == 0
+            && let Some(register) = self.registers.remove(&operand)
+        {
+            self.free.push(register);
+        }
+    }
+
+    fn new_register(&mut self) -> Result<Register, Refusal> {
+        let register = Register::try_from(self.tape.registers).map_err(|_| Refusal::TooLong)?;
+        self.tape.registers += 1;
+        Ok(register)
+    }
+}

@@ -1,0 +1,89 @@
+//! Ensembles of methods that are known only when the program runs.
+
+use alloc::vec::Vec;
+
+use super::{Ensemble, EnsembleError};
+use crate::integrator::validation::check_orders;
+use crate::method::{AtRunTime, RunTimeTableau};
+use crate::number::{Plain, Summation, Vector};
+use crate::state::State;
+use crate::system::System;
+
+impl<S: System<V>, V: Vector> Ensemble<AtRunTime, S, V> {
+    /// [`new`](Ensemble::new) with a method that is known only when the program runs, and with [`Compensated`](crate::Compensated) sums.
+    ///
+    /// Trajectories of an explicit tableau of a separable system go side by side in lanes. Each trajectory has the bits that it has
+    /// alone in [`Integrator::at_run_time`](crate::Integrator::at_run_time).
+    ///
+    /// # Errors
+    ///
+    /// Those of [`new`](Ensemble::new); [`EnsembleError::All`] with [`Error::SeparableTableau`](crate::Error::SeparableTableau) where the
+    /// system is not separable and the tableau has a lower order there or is not symplectic, and [`EnsembleError::Start`] with
+    /// [`Error::NotQuadraticKinetic`](crate::Error::NotQuadraticKinetic) for a Nyström method where the velocity is not linear in the momentum.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use symplectic::ensemble::Ensemble;
+    /// use symplectic::{Orders, RunTimeCoefficients, RunTimeTableau, State};
+    ///
+    /// symplectic::hamiltonian! { Oscillator q: [x], p: [px]; H = px^2/2 + x^2/2 }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let verlet = RunTimeCoefficients {
+    ///     a: vec![vec![0.0, 0.0], vec![0.5, 0.5]],
+    ///     a_tilde: vec![vec![0.5, 0.0], vec![0.5, 0.0]],
+    ///     b: vec![0.5, 0.5],
+    ///     b_tilde: vec![0.5, 0.5],
+    ///     c: vec![0.0, 1.0],
+    ///     c_tilde: vec![0.5, 0.5],
+    /// };
+    /// let orders = Orders { general: 2, separable: 2, nystrom: 2 };
+    /// let verlet = RunTimeTableau::new("Störmer–Verlet", &verlet, orders)?;
+    ///
+    /// let starts = (0..100).map(|k| State::from_arrays(0.0, [0.01 * f64::from(k)], [0.0])).collect();
+    /// let ensemble = Ensemble::at_run_time(&verlet, Oscillator, starts, 0.01)?;
+    /// ensemble.integrate_to(1.0, |row| {
+    ///     let exact = 0.01 * row.trajectory as f64 * 1.0_f64.cos();
+    ///     assert!((row.state.q[0] - exact).abs() < 1e-5);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn at_run_time(
+        tableau: &RunTimeTableau,
+        system: S,
+        starts: Vec<State<V>>,
+        step_size: f64,
+    ) -> Result<Self, EnsembleError> {
+        Self::of_tableau(tableau, system, starts, step_size)
+    }
+}
+
+impl<S: System<V>, V: Vector> Ensemble<AtRunTime, S, V, Plain> {
+    /// [`at_run_time`](Ensemble::at_run_time) with [`Plain`] sums.
+    ///
+    /// # Errors
+    ///
+    /// As for [`at_run_time`](Ensemble::at_run_time).
+    pub fn plain_at_run_time(
+        tableau: &RunTimeTableau,
+        system: S,
+        starts: Vec<State<V>>,
+        step_size: f64,
+    ) -> Result<Self, EnsembleError> {
+        Self::of_tableau(tableau, system, starts, step_size)
+    }
+}
+
+impl<S: System<V>, V: Vector, R: Summation> Ensemble<AtRunTime, S, V, R> {
+    fn of_tableau(
+        tableau: &RunTimeTableau,
+        system: S,
+        starts: Vec<State<V>>,
+        step_size: f64,
+    ) -> Result<Self, EnsembleError> {
+        check_orders::<V, S>(tableau).map_err(EnsembleError::All)?;
+        Self::of([(system, starts)], step_size, Some(tableau))
+    }
+}
