@@ -96,6 +96,9 @@ impl Spec {
     }
 }
 
+/// A start, of any number of bodies.
+type Start = State<DVector<f64>>;
+
 /// The starts of a system, before it is known how many bodies it has.
 pub(super) struct Reader<'a> {
     pub(super) file: &'a File<'a>,
@@ -105,7 +108,7 @@ pub(super) struct Reader<'a> {
 
 impl Reader<'_> {
     /// The coordinates and the starts.
-    pub(super) fn read(&self) -> Result<(Coordinates, Vec<State<DVector<f64>>>), Error> {
+    pub(super) fn read(&self) -> Result<(Coordinates, Vec<Start>), Error> {
         let rows = match self.setup.starts.get_ref() {
             Starts::File(name) => {
                 self.refuse_needless_random(false)?;
