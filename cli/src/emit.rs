@@ -11,8 +11,8 @@ use crate::output;
 
 /// Write a program that takes steps of a method, in one file without any dependency.
 ///
-/// Methods that consist of drifts and kicks become a straight line of them; others solve for their stages until these stagnate. The
-/// programs in all languages give the same results to the last bit.
+/// Methods that consist of drifts and kicks become a sequence of them; others solve for their stages by fixed-point iteration. The
+/// programs in C, Rust and Python give the same results to the last bit.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// A method of the catalogue, or a TOML file with a definition as `derive` reads it.
@@ -43,9 +43,9 @@ enum Language {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Class {
-    /// Every H(q, p).
+    /// Every H(t, q, p).
     General,
-    /// H = T(p) + U(q).
+    /// H = T(t, p) + U(t, q).
     Separable,
 }
 

@@ -13,7 +13,7 @@ mod values;
 
 use std::io::IsTerminal;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
@@ -28,8 +28,8 @@ use symplectic_compiler::{Error, ErrorKind};
 
 use self::method::Method;
 use self::output::{Facts, Results, Seen, Target, Trajectory};
-use self::setup::{File, Setup, Sums};
-use self::starts::{Coordinates, Reader};
+use self::setup::{File, Setup, Starts, Sums, Times};
+use self::starts::{Coordinates, MOST, Reader};
 use self::system::{GeneralFormula, SeparableFormula, Tapes};
 use self::unroll::{MOST_STEPS, Refusal};
 use crate::output::print;
@@ -46,9 +46,12 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "I/N", value_parser = shard)]
     shard: Option<Shard>,
     /// How many threads [default: one for each core]. No bit of the results depends on it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
 }
+
+/// The most numbers of states that are kept.
+const MOST_NUMBERS: u128 = 1 << 28;
 
 /// One of several parts.
 #[derive(Debug, Clone, Copy)]
@@ -67,7 +70,7 @@ fn shard(text: &str) -> Result<Shard, String> {
 }
 
 type Vector = DVector<f64>;
-type Starts = Vec<State<Vector>>;
+type States = Vec<State<Vector>>;
 
 /// What is run, apart from the types that the formula chooses.
 struct Run<'a> {
@@ -115,6 +118,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
             .map_err(|error| document(format!("no threads: {error}")))?;
     }
     let path = file.beside(setup.output.file.get_ref());
+    refuse_overwriting(&file, &setup, &path)?;
+    let seen = times.as_ref().map_or(1, Vec::len) as u128 * starts.len() as u128;
+    let parts = arguments.shard.map_or(1, |shard| shard.count) as u128;
+    if seen * 2 * coordinates.dimension() as u128 / parts > MOST_NUMBERS {
+        let message = format!(
+            "the states take more than {MOST_NUMBERS} numbers: give fewer `times`, or run parts with `--shard`"
+        );
+        return Err(file.error(setup.starts.span(), message));
+    }
     let run = Run {
         file: &file,
         setup: &setup,
@@ -128,6 +140,21 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     match structure.split {
         Ok(_) => run.with_sums(SeparableFormula, starts),
         Err(_) => run.with_sums(GeneralFormula, starts),
+    }
+}
+
+/// Refuses to write results over the starts.
+fn refuse_overwriting(file: &File<'_>, setup: &Setup, output: &Path) -> Result<(), Error> {
+    let Starts::File(name) = setup.starts.get_ref() else {
+        return Ok(());
+    };
+    let (starts, output) = (file.beside(name).canonicalize(), output.canonicalize());
+    match (starts, output) {
+        (Ok(starts), Ok(output)) if starts == output => Err(file.error(
+            setup.output.file.span(),
+            "the output is the file of the starts, which would be lost: give another name",
+        )),
+        _ => Ok(()),
     }
 }
 
@@ -164,11 +191,14 @@ fn read_system(file: &File<'_>, setup: &Setup) -> Result<(System, Structure), Er
     match refused {
         Some(what) => Err(file.error(
             span,
-            format!("`symplectic run` has no {what}: take the macros, as the book describes"),
+            format!("`symplectic run` does not take {what}: write a program with the macros, as the book describes"),
         )),
         None => Ok((system, structure)),
     }
 }
+
+/// The most steps that can be counted.
+const MOST_STEPS_OF_A_RUN: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
 
 /// The times at which states are written; none if it is the end.
 fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
@@ -179,6 +209,12 @@ fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
         );
         return Err(file.error(setup.step_size.span(), message));
     }
+    if !start.is_finite() {
+        return Err(document(format!(
+            "{}: `start_time` is {start}: it must be finite",
+            file.path.display()
+        )));
+    }
     let behind = |time: f64| !time.is_finite() || (time - start) * size < 0.0;
     let refused = |time: f64, span| {
         let message = format!(
@@ -186,6 +222,29 @@ fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
         );
         Err(file.error(span, message))
     };
+    let last = match (&setup.end, &setup.times) {
+        (Some(end), _) => Some((*end.get_ref(), end.span())),
+        (None, Some(times)) => {
+            if let Times::Range(range) = times.get_ref()
+                && range.count > MOST
+            {
+                let message = format!("`times` has more than {MOST} entries");
+                return Err(file.error(times.span(), message));
+            }
+            times
+                .get_ref()
+                .list()
+                .last()
+                .map(|&time| (time, times.span()))
+        }
+        (None, None) => None,
+    };
+    if let Some((time, span)) = last
+        && ((time - start) / size).abs() > MOST_STEPS_OF_A_RUN
+    {
+        let message = format!("from {start} to {time} there are more than 2^53 steps of {size}");
+        return Err(file.error(span, message));
+    }
     match (&setup.end, &setup.times) {
         (Some(end), None) => match behind(*end.get_ref()) {
             true => refused(*end.get_ref(), end.span()),
@@ -197,12 +256,12 @@ fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
                 return refused(time, times.span());
             }
             match list.is_empty() || list.windows(2).any(|pair| (pair[1] - pair[0]) * size < 0.0) {
-                true => Err(file.error(times.span(), "`times` must be there, each after the one before")),
+                true => Err(file.error(times.span(), "`times` needs at least one time, and none before another one that stands before it")),
                 false => Ok(Some(list)),
             }
         }
         (None, None) => Err(document(format!(
-            "{}: how long does it run? Give `end`, or `times` at which states are written",
+            "{}: there is no end: give `end`, or `times` at which states are written",
             file.path.display()
         ))),
         (Some(_), Some(times)) => Err(file.error(
@@ -216,7 +275,7 @@ impl Run<'_> {
     fn with_sums<S>(
         self,
         system: impl Fn(Arc<Tapes>) -> S,
-        starts: Starts,
+        starts: States,
     ) -> Result<ExitCode, Error>
     where
         S: Hamiltonian<Vector<f64> = Vector> + Clone + Send + Sync,
@@ -312,7 +371,11 @@ impl Run<'_> {
             self.target.path().display()
         );
         self.target.write(&results)?;
-        print(&message)
+        let printed = print(&message)?;
+        Ok(match failed == rows.len() {
+            true => ExitCode::from(1),
+            false => printed,
+        })
     }
 
     /// Why there is no ensemble, in the words of the file.

@@ -61,10 +61,20 @@ impl Target {
             Some("csv") => true,
             Some("npz") => false,
             _ => {
-                let message = format!("`{}` is named neither .npz nor .csv", path.display());
+                let message = format!(
+                    "the output is called `{}`: its name must end in .npz or .csv",
+                    path.display()
+                );
                 return Err(ErrorKind::Document { message }.into());
             }
         };
+        if path.is_dir() {
+            let message = format!(
+                "the output `{}` is a folder; nothing was computed",
+                path.display()
+            );
+            return Err(ErrorKind::Document { message }.into());
+        }
         let mut name = path.file_name().unwrap_or_default().to_owned();
         name.push(format!(".{}.part", std::process::id()));
         let part = path.with_file_name(name);

@@ -6,7 +6,7 @@ use symplectic_compiler::formula::syntax::Length;
 use symplectic_compiler::formula::{Parameter, Shape, System};
 use toml::Value;
 
-use super::setup::{File, Setup, number};
+use super::setup::{self, File, Setup};
 use super::values::Values;
 
 /// Reads all parameters, and with them the lengths that the formula leaves open.
@@ -57,14 +57,18 @@ pub(super) fn read(
                 (None, Some(default)) => vec![vec![<f64 as Real>::number(default)]],
                 _ => {
                     let (value, span) = given(file, setup, name, "a number")?;
-                    let refused = || file.error(span, format!("`{name}`: expected a number"));
+                    let refused =
+                        || file.error(span, format!("`{name}`: expected a finite number"));
                     vec![vec![number(value).ok_or_else(refused)?]]
                 }
             },
             Shape::Array(lengths) => {
                 let (value, span) = given(file, setup, name, "a list of numbers")?;
                 let rows = array(value, lengths.len()).ok_or_else(|| {
-                    let what = ["a list of numbers", "a list of lists of numbers"];
+                    let what = [
+                        "a list of finite numbers",
+                        "a list of lists of finite numbers",
+                    ];
                     let what = what[usize::from(lengths.len() > 1)];
                     file.error(span.clone(), format!("`{name}`: expected {what}"))
                 })?;
@@ -99,7 +103,12 @@ pub(super) fn read(
     Ok(values)
 }
 
-/// The value of a parameter that has none of its own.
+/// A finite number.
+fn number(value: &Value) -> Option<f64> {
+    setup::number(value).filter(|number| number.is_finite())
+}
+
+/// The value of a parameter that the formula gives none.
 fn given<'a>(
     file: &File<'_>,
     setup: &'a Setup,

@@ -59,7 +59,7 @@ pub(super) enum Times {
 pub(super) struct Evenly {
     from: f64,
     to: f64,
-    count: usize,
+    pub(super) count: usize,
 }
 
 /// How many random starts there are at each point of the grid of the other coordinates.

@@ -14,9 +14,9 @@ use super::random;
 use super::setup::{Evenly, File, Grid, Random, Setup, Starts, number};
 
 /// The most starts of a run.
-const MOST: usize = 1 << 26;
+pub(super) const MOST: usize = 1 << 22;
 
-const EXPECTED: &str = "expected a number, { from, to, count }, { values = [...] }, { uniform = [low, high] } or { normal = [mean, deviation] }";
+const EXPECTED: &str = "expected a number, { from, to, count } with a count up to 4194304, { values = [...] }, { uniform = [low, high] } or { normal = [mean, deviation] }";
 
 /// The names of all components of positions and of momenta.
 #[derive(Debug, Clone)]
@@ -50,11 +50,12 @@ impl Coordinates {
         self.0.iter().flatten()
     }
 
+    /// Their names, the first ones if there are many.
     fn listed(&self) -> String {
-        self.all()
-            .map(String::as_str)
-            .collect::<Vec<_>>()
-            .join(", ")
+        let mut names = self.all().map(String::as_str);
+        let first: Vec<&str> = names.by_ref().take(20).collect();
+        let rest = if names.next().is_some() { ", …" } else { "" };
+        first.join(", ") + rest
     }
 }
 
@@ -85,6 +86,7 @@ impl Spec {
             .or_else(|| pair("uniform").map(Spec::Uniform))
             .or_else(|| pair("normal").map(Spec::Normal)),
             _ => range()
+                .filter(|range| range.count <= MOST)
                 .map(Evenly::numbers)
                 .filter(|list| !list.is_empty())
                 .map(Spec::Values),
@@ -203,6 +205,10 @@ impl Reader<'_> {
             for (place, name, leaf) in leaves {
                 let spec =
                     read(leaf, &name).map_err(|message| self.file.error(value.span(), message))?;
+                if axes.iter().any(|(found, _)| *found == place) {
+                    let message = format!("`{name}` has two starts: leave one of them out");
+                    return Err(self.file.error(value.span(), message));
+                }
                 axes.push((place, spec));
             }
         }
@@ -245,17 +251,23 @@ impl Reader<'_> {
         let mut found = Vec::new();
         let nested = matches!(self.system.layout, Layout::Numbered(_, Some(_)));
         let list = value.as_array().map(Vec::as_slice).unwrap_or_default();
+        let components = self.system.layout.components();
         for entry in list {
             match (nested, entry.as_array()) {
-                (true, Some(components)) => found.extend(components),
-                _ => found.push(entry),
+                (true, Some(own)) if own.len() == components => found.extend(own),
+                (true, _) => {
+                    return Err(format!(
+                        "`{key}`: expected a list of lists of {components} numbers, one for each body"
+                    ));
+                }
+                (false, _) => found.push(entry),
             }
         }
         if found.len() != half {
             return Err(format!(
-                "`{key}` has {} numbers, and {half} are needed: {}",
+                "`{key}` has {} numbers, and {half} are needed; the coordinates are {}",
                 found.len(),
-                coordinates.0[usize::from(offset > 0)].join(", ")
+                coordinates.listed()
             ));
         }
         let names = coordinates.all().skip(offset).cloned();
@@ -352,15 +364,19 @@ impl Reader<'_> {
             return Err(refused(format!("line 1: the column `{name}` is missing")));
         }
         let mut rows = Vec::new();
-        for record in reader.records() {
+        for (number, record) in reader.records().enumerate() {
             let record = record.map_err(|error| refused(error.to_string()))?;
-            let line = record.position().map_or(0, csv::Position::line);
+            if number == MOST {
+                return Err(refused(format!(
+                    "more than {MOST} starts: split it into several files"
+                )));
+            }
             let mut row = vec![0.0; places.len()];
             for ((place, text), name) in places.iter().zip(&record).zip(&header) {
                 let value: Option<f64> = text.parse().ok().filter(|value: &f64| value.is_finite());
                 row[*place] = value.ok_or_else(|| {
                     refused(format!(
-                        "line {line}, column `{name}`: `{text}` is no finite number"
+                        "start {number}, column `{name}`: expected a finite number, found `{text}`"
                     ))
                 })?;
             }

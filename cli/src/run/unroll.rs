@@ -1,6 +1,7 @@
 //! From a formula to a tape: loops are unrolled, parameters are numbers, equal operations are done once.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::rc::Rc;
 
 use symplectic_compiler::formula::System;
 use symplectic_compiler::formula::derivative::Scatter;
@@ -46,7 +47,9 @@ pub(super) struct Unrolled<'a> {
     values: &'a Values,
     operations: Operations<'a>,
     /// The operations that change in each loop, in their order.
-    changing: HashMap<LoopId, Vec<Op>>,
+    changing: HashMap<LoopId, Rc<[Op]>>,
+    /// Those of them that an operation in the loop is made of.
+    needed: HashMap<(LoopId, Op), Rc<[Op]>>,
     indices: Indices,
     bound: u64,
     /// What operations are at these indices.
@@ -69,6 +72,7 @@ impl<'a> Unrolled<'a> {
             values,
             operations,
             changing: HashMap::new(),
+            needed: HashMap::new(),
             indices: HashMap::new(),
             bound: 0,
             known: HashMap::new(),
@@ -115,7 +119,7 @@ impl<'a> Unrolled<'a> {
         sums: &mut [Option<Number>],
     ) -> Result<(), Refusal> {
         if let Some(&over) = part.loops.get(depth) {
-            return self.each(over, &mut |this| {
+            return self.each(over, self.operations.of(part.value), &mut |this| {
                 this.scatter(part, depth + 1, components, sums)
             });
         }
@@ -132,16 +136,36 @@ impl<'a> Unrolled<'a> {
         Ok(())
     }
 
-    /// Does something for every index of a loop.
+    /// The operations that change in a loop and that `wanted` is made of, in their order.
+    fn needed(&mut self, over: LoopId, wanted: Op) -> Rc<[Op]> {
+        if let Some(needed) = self.needed.get(&(over, wanted)) {
+            return Rc::clone(needed);
+        }
+        let mut below = HashSet::from([wanted]);
+        let mut open = vec![wanted];
+        while let Some(op) = open.pop() {
+            let operands = self.operations.get(op).operands();
+            open.extend(operands.into_iter().filter(|op| below.insert(*op)));
+        }
+        let changing = self.changing.get(&over);
+        let needed = changing.iter().flat_map(|all| all.iter()).copied();
+        let needed: Rc<[Op]> = needed.filter(|op| below.contains(op)).collect();
+        self.needed.insert((over, wanted), Rc::clone(&needed));
+        needed
+    }
+
+    /// Does something for every index of a loop, with what `wanted` is made of.
     fn each(
         &mut self,
         over: LoopId,
+        wanted: Op,
         work: &mut dyn FnMut(&mut Self) -> Result<(), Refusal>,
     ) -> Result<(), Refusal> {
         let system = self.system;
         let range = self
             .values
             .range(system, &self.indices, system.graph.get_loop(over));
+        let needed = self.needed(over, wanted);
         let changing = self.changing.get(&over).cloned().unwrap_or_default();
         // The loop may be one that is run already, around this one.
         let before = self.indices.get(&over).copied();
@@ -154,14 +178,15 @@ impl<'a> Unrolled<'a> {
         let outcome = range.ok_or(Refusal::Outside).and_then(|mut range| {
             range.try_for_each(|index| {
                 self.indices.insert(over, index);
-                for op in &changing {
+                for op in changing.iter() {
                     self.known.remove(op);
                 }
-                self.compute_all(&changing)?;
+                self.look_at(1 + needed.len())?;
+                self.compute_all(&needed)?;
                 work(self)
             })
         });
-        for op in &changing {
+        for op in changing.iter() {
             self.known.remove(op);
         }
         self.bound = bound;
@@ -189,10 +214,7 @@ impl<'a> Unrolled<'a> {
 
     /// An operation; `None` where it asks for something that does not exist: only a result that needs it is refused.
     fn compute(&mut self, op: Op) -> Result<Option<Number>, Refusal> {
-        self.looked_at += 1;
-        if self.looked_at > MOST_VALUES {
-            return Err(Refusal::TooLong);
-        }
+        self.look_at(1)?;
         let operation = self.operations.get(op).clone();
         let mut operands = Vec::new();
         if !matches!(operation, Operation::Total(..)) {
@@ -270,9 +292,18 @@ impl<'a> Unrolled<'a> {
         self.step(code, &operands).map(Some)
     }
 
+    /// Counts values, so that none of this is endless.
+    fn look_at(&mut self, count: usize) -> Result<(), Refusal> {
+        self.looked_at += count;
+        match self.looked_at > MOST_VALUES {
+            true => Err(Refusal::TooLong),
+            false => Ok(()),
+        }
+    }
+
     fn total(&mut self, over: LoopId, body: Op) -> Result<Number, Refusal> {
         let mut sum = None;
-        self.each(over, &mut |this| {
+        self.each(over, body, &mut |this| {
             let term = *this.known.get(&body).ok_or(Refusal::Outside)?;
             sum = Some(match sum {
                 Some(sum) => this.step(Code::Add, &[sum, term])?,
@@ -308,6 +339,7 @@ impl<'a> Unrolled<'a> {
         if let Some(&number) = self.numbers.get(&value) {
             return Ok(number);
         }
+        self.look_at(1)?;
         let number = Number::try_from(self.list.len()).map_err(|_| Refusal::TooLong)?;
         self.list.push(value);
         self.numbers.insert(value, number);

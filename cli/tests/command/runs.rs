@@ -462,7 +462,7 @@ fn wrong_files_are_refused_at_their_place() {
     }
     for (file, message) in [
         ("nowhere/out.csv", "nothing was computed"),
-        ("out.txt", "neither .npz nor .csv"),
+        ("out.txt", "must end in .npz or .csv"),
     ] {
         let output = call(&folder, &replaced("out.csv", file), &[]);
         let error = String::from_utf8_lossy(&output.stderr);
@@ -478,7 +478,7 @@ fn wrong_files_are_refused_at_their_place() {
     for (text, message) in [
         (
             "a,pa\n0,1\n0,nan\n",
-            "line 3, column `pa`: `nan` is no finite number",
+            "column `pa`: expected a finite number, found `nan`",
         ),
         ("a,pb\n0,1\n", "line 1: the column `pb` is no coordinate"),
         ("a\n0\n", "line 1: the column `pa` is missing"),
@@ -491,6 +491,84 @@ fn wrong_files_are_refused_at_their_place() {
             "{error}"
         );
     }
+}
+
+/// H = Σ p²/2 + (Σ_i Σ_j A_ij q_i q_j)/2: a free sum in a sum. From q = (1, 0) with A = [[2, -1], [-1, 2]] the frequencies are 1 and √3.
+#[test]
+fn a_sum_in_a_sum() {
+    let folder = folder("sums");
+    let setup = |end: f64| {
+        format!(
+            r#"
+    system = "Coupled {{ A: [.., ..] }} q: [..], p: [..]; H = sum(i: p[i]^2/2) + sum(i: sum(j: A[i, j] q[i] q[j]))/2"
+    method = "blanes-moan-2002-s10"
+    step_size = 0.05
+    end = {end}
+    parameters.A = [[2, -1], [-1, 2]]
+    starts = {{ q = [1, 0], p = [0, 0] }}
+    output.file = "out.csv"
+"#
+        )
+    };
+    let found = columns(&csv(&folder, &setup(7.0)), &["q[0]", "q[1]"]);
+    let (slow, fast) = (7.0_f64.cos() / 2.0, (7.0 * 3.0_f64.sqrt()).cos() / 2.0);
+    assert_near(&found, &[vec![slow + fast, slow - fast]], 1e-8);
+}
+
+/// What would lose something, or take all memory, is refused before anything is run.
+#[test]
+fn nothing_is_lost_and_nothing_is_endless() {
+    let folder = folder("refused");
+    fs::write(folder.join("starts.csv"), "a,pa\n1,0\n").expect("a file");
+    fs::create_dir_all(folder.join("there.csv")).expect("a folder");
+    let starts = "[starts]\n    a = { from = -1, to = 1, count = 11 }\n    pa = 0.5\n";
+    assert!(PENDULUM.contains(starts));
+    let of_file = PENDULUM
+        .replace(&format!("    {starts}"), "")
+        .replace("step_size", "starts = \"starts.csv\"\n    step_size");
+    let cases = [
+        (
+            of_file.replace("out.csv", "starts.csv"),
+            "which would be lost",
+        ),
+        (PENDULUM.replace("out.csv", "there.csv"), "is a folder"),
+        (
+            PENDULUM.replace("count = 11", "count = 1000000000000"),
+            "up to 4194304",
+        ),
+        (
+            PENDULUM.replace(
+                "end = 10.0",
+                "times = { from = 0, to = 1, count = 1000000000000 }",
+            ),
+            "more than 4194304 entries",
+        ),
+        (
+            PENDULUM
+                .replace(
+                    "end = 10.0",
+                    "times = { from = 0, to = 1, count = 4000000 }",
+                )
+                .replace("count = 11", "count = 1000"),
+            "numbers: give fewer",
+        ),
+        (
+            PENDULUM.replace("end = 10.0", "end = 1e300"),
+            "more than 2^53 steps",
+        ),
+        (
+            PENDULUM.replace("g = 4", "g = inf"),
+            "expected a finite number",
+        ),
+    ];
+    for (setup, told) in cases {
+        let output = call(&folder, &setup, &[]);
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{told}: {errors}");
+        assert!(errors.contains(told), "{told}: {errors}");
+    }
+    let kept = fs::read_to_string(folder.join("starts.csv")).expect("the starts");
+    assert_eq!(kept, "a,pa\n1,0\n");
 }
 
 #[test]

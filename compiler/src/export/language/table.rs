@@ -121,7 +121,7 @@ impl<'a> Table<'a> {
     /// Name, definition, sources, and what is proved; one line each.
     pub fn description(&self) -> Vec<String> {
         let provenance = self.tableau.provenance();
-        let mut title: Vec<String> = self.tableau.name().map(str::to_owned).into_iter().collect();
+        let mut title: Vec<String> = self.tableau.name().map(one_line).into_iter().collect();
         title.push(match self.tableau.stages() {
             1 => "1 stage".to_owned(),
             stages => format!("{stages} stages"),

@@ -48,8 +48,7 @@ impl Stepper {
     /// Writes a stepper. Without a class it is for separable Hamiltonians if the method then consists of drifts and kicks, else
     /// for all.
     ///
-    /// The C, Rust, Julia and Python of one method make the same operations in the same order, so that their results are the same
-    /// to the last bit.
+    /// All languages make the same operations in the same order: a test compares the bits of C, Rust and Python.
     ///
     /// ```
     /// use symplectic_compiler::derive;
@@ -103,18 +102,18 @@ fn about(table: &Table<'_>, plan: &Plan<'_>) -> Vec<String> {
     let (class, what) = match plan {
         Plan::Splitting(_) => (
             HamiltonianClass::Separable,
-            "A step of H = T(p) + U(q): drifts and kicks, with compensated sums.",
+            "A step of H = T(t, p) + U(t, q): drifts and kicks, with compensated sums.",
         ),
         Plan::Coupled(_) => (
             HamiltonianClass::General,
-            "A step of every H(q, p): the stages are solved for by fixed-point iteration, with compensated sums.",
+            "A step of every H(t, q, p): the stages are solved for by fixed-point iteration, with compensated sums.",
         ),
     };
     lines.push(what.to_owned());
     let [order, most] = [class, HamiltonianClass::Nystrom].map(|class| table.order(class));
     if most > order {
         lines.push(format!(
-            "The order {most} needs a kinetic energy that is quadratic in p; else it is {order}."
+            "The order {most} needs a kinetic energy that is quadratic in p and does not depend on t; else it is {order}."
         ));
     }
     lines

@@ -18,7 +18,7 @@ pub(super) enum Plan<'t> {
 /// The coefficients of coupled stages: `Q_i = q + Σ_j μ_ij (h b_j velocity_j)`, `P_i = p + Σ_j μ̃_ij (h b̃_j force_j)`.
 pub(super) struct Coupled {
     /// Nodes and weights by name.
-    pub vectors: [(&'static str, Vec<Entry>); 4],
+    pub vectors: [(&'static str, Vec<Entry>); 3],
     /// μ and μ̃ by name.
     pub matrices: [(&'static str, Vec<Vec<f64>>); 2],
 }
@@ -60,19 +60,16 @@ impl Coupled {
                 "its stages are solved for, and one has the weight zero: a_ij / b_j does not exist",
             )
         })?;
-        // Both evaluations are made at the same stages.
+        // Both evaluations are made at the same stages, and at one time: it is one more position. So a step is symplectic where H depends
+        // on time, too.
         let nodes = |kind: fn(usize) -> Node| (0..graph.forces.len()).map(kind);
         let weights = |kind| -> Vec<Entry> {
             nodes(kind)
                 .map(|n| weight(&graph, n, &forms, digits))
                 .collect()
         };
-        let times = |kind, entries: &[Entry]| -> Vec<Entry> {
-            let stage = |node| graph.stages_of(graph.evaluation(node))[0];
-            nodes(kind)
-                .map(|node| entries[stage(node)].clone())
-                .collect()
-        };
+        let stage = |node| graph.stages_of(graph.evaluation(node))[0];
+        let times = nodes(Node::Force).map(|node| table.entries.c[stage(node)].clone());
         let doubles =
             |row: &[Rounded]| -> Vec<f64> { row.iter().map(|entry| entry.double).collect() };
         let positions = graph.forces.iter().filter_map(|force| force.position);
@@ -82,8 +79,7 @@ impl Coupled {
             .filter_map(|velocity| velocity.momentum);
         Ok(Coupled {
             vectors: [
-                ("c", times(Node::Force, &table.entries.c)),
-                ("c_tilde", times(Node::Velocity, &table.entries.c_tilde)),
+                ("c", times.collect()),
                 ("b", weights(Node::Velocity)),
                 ("b_tilde", weights(Node::Force)),
             ],

@@ -5,7 +5,7 @@
 # order 1 for every H (proved), 4 for T(p) + U(q) (proved), 4 for T quadratic (proved)
 # symplectic(separable) (proved), symmetric(separable) (proved)
 # written by symplectic VERSION
-# A step of H = T(p) + U(q): drifts and kicks, with compensated sums.
+# A step of H = T(t, p) + U(t, q): drifts and kicks, with compensated sums.
 #
 # Usage, for H = T(t, p) + U(t, q), with velocity!(v, t, p) that writes dT/dp and force!(f, t, q) that writes -dU/dq:
 #
@@ -23,7 +23,7 @@ mutable struct State
     p_low::Vector{Float64}
     slope::Vector{Float64}
     start::Vector{Vector{Float64}}
-    # Set it to false after a change of q or of the force.
+    # Set it to false after a change of q, of the force, or of the time other than by a step.
     force_is_known::Bool
 end
 

@@ -7,7 +7,7 @@
    order 4 for every H (proved), 4 for T(p) + U(q) (proved), 4 for T quadratic (proved)
    symplectic (proved), symmetric (proved)
    written by symplectic VERSION
-   A step of every H(q, p): the stages are solved for by fixed-point iteration, with compensated sums. */
+   A step of every H(t, q, p): the stages are solved for by fixed-point iteration, with compensated sums. */
 /* Usage, in n dimensions:
 
        double memory[GAUSS_2_DOUBLES(n)];
@@ -48,10 +48,6 @@ typedef struct {
 } gauss_2_state;
 
 static const double gauss_2_c[GAUSS_2_STAGES] = {
-    0x1.b0cb174df99c7p-3, /* 1/2 - sqrt(3)/6 = 0.21132486540518712 */
-    0x1.93cd3a2c8198ep-1, /* 1/2 + sqrt(3)/6 = 0.78867513459481288 */
-};
-static const double gauss_2_c_tilde[GAUSS_2_STAGES] = {
     0x1.b0cb174df99c7p-3, /* 1/2 - sqrt(3)/6 = 0.21132486540518712 */
     0x1.93cd3a2c8198ep-1, /* 1/2 + sqrt(3)/6 = 0.78867513459481288 */
 };
@@ -121,13 +117,13 @@ static inline void gauss_2_kicks(gauss_2_state *s, const gauss_2_system *system,
 static inline void gauss_2_drifts(gauss_2_state *s, const gauss_2_system *system, double t, double h) {
     for (size_t k = 0; k < GAUSS_2_STAGES; k++) {
         size_t at = k * s->n;
-        system->velocity(t + h * gauss_2_c_tilde[k], s->stage_q + at, s->stage_p + at, s->slope, system->context);
+        system->velocity(t + h * gauss_2_c[k], s->stage_q + at, s->stage_p + at, s->slope, system->context);
         for (size_t i = 0; i < s->n; i++) s->drift[at + i] = h * gauss_2_b[k] * s->slope[i];
     }
 }
 
-/* A step of size h from the time t. Stages are iterated until they stagnate: nothing moves, or they move by rounding errors
-   and no less than before. Where they do not, or are not finite, the state stays as it was. */
+/* A step of size h from the time t. Stages are iterated until they no longer change, or change by rounding errors only and
+   twice no less than before. Where they do not, or are not finite, the state stays as it was. */
 static inline int gauss_2_step(gauss_2_state *s, const gauss_2_system *system, double t, double h) {
     for (size_t k = 0; k < GAUSS_2_STAGES; k++) {
         for (size_t i = 0; i < s->n; i++) {
@@ -139,7 +135,7 @@ static inline int gauss_2_step(gauss_2_state *s, const gauss_2_system *system, d
     double moved = gauss_2_stages(s->n, s->q, s->q_low, gauss_2_mu, s->drift, s->stage_q);
     if (!isfinite(moved)) return GAUSS_2_NOT_FINITE;
     double least = INFINITY;
-    int sweeps = 0;
+    int sweeps = 0, stalled = 0;
     for (;;) {
         gauss_2_kicks(s, system, t, h);
         double moved_p = gauss_2_stages(s->n, s->p, s->p_low, gauss_2_mu_tilde, s->kick, s->stage_p);
@@ -148,7 +144,8 @@ static inline int gauss_2_step(gauss_2_state *s, const gauss_2_system *system, d
         double moved_q = gauss_2_stages(s->n, s->q, s->q_low, gauss_2_mu, s->drift, s->stage_q);
         if (!isfinite(moved_q)) return GAUSS_2_NOT_FINITE;
         moved = fmax(moved_q, moved_p);
-        if (moved == 0.0 || (moved <= 64.0 * DBL_EPSILON && moved >= least)) break;
+        if (moved >= least) stalled++;
+        if (moved == 0.0 || (stalled >= 2 && fmin(moved_q, moved_p) <= 64.0 * DBL_EPSILON)) break;
         least = fmin(least, moved);
         if (++sweeps == GAUSS_2_MOST_SWEEPS) return GAUSS_2_DOES_NOT_CONVERGE;
     }

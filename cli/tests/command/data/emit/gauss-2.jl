@@ -7,7 +7,7 @@
 # order 4 for every H (proved), 4 for T(p) + U(q) (proved), 4 for T quadratic (proved)
 # symplectic (proved), symmetric (proved)
 # written by symplectic VERSION
-# A step of every H(q, p): the stages are solved for by fixed-point iteration, with compensated sums.
+# A step of every H(t, q, p): the stages are solved for by fixed-point iteration, with compensated sums.
 #
 # Usage, with velocity!(v, t, q, p) that writes dH/dp and force!(f, t, q, p) that writes -dH/dq:
 #
@@ -20,10 +20,6 @@ module Gauss2
 const STAGES = 2
 const MOST_SWEEPS = 100
 const C = [
-    0.2113248654051871, # 1/2 - sqrt(3)/6 = 0.21132486540518712
-    0.7886751345948129, # 1/2 + sqrt(3)/6 = 0.78867513459481288
-]
-const C_TILDE = [
     0.2113248654051871, # 1/2 - sqrt(3)/6 = 0.21132486540518712
     0.7886751345948129, # 1/2 + sqrt(3)/6 = 0.78867513459481288
 ]
@@ -63,7 +59,7 @@ function State(q, p)
     State(copy(q), zero(q), copy(p), zero(p), zero(q), stages(), stages(), stages(), stages())
 end
 
-# A step of size h from the time t. Stages are iterated until they stagnate: nothing moves, or they move by rounding errors and
+# A step of size h from the time t. Stages are iterated until they no longer change, or change by rounding errors only and twice
 # no less than before. Returns :ok, or :not_finite or :does_not_converge, where the state stays as it was.
 function step!(s::State, velocity!, force!, t, h)
     for k in 1:STAGES
@@ -73,7 +69,7 @@ function step!(s::State, velocity!, force!, t, h)
     drifts!(s, velocity!, t, h)
     moved = stages!(s.q, s.q_low, MU, s.drift, s.stage_q)
     isfinite(moved) || return :not_finite
-    least, sweeps = Inf, 0
+    least, sweeps, stalled = Inf, 0, 0
     while true
         kicks!(s, force!, t, h)
         moved_p = stages!(s.p, s.p_low, MU_TILDE, s.kick, s.stage_p)
@@ -82,7 +78,8 @@ function step!(s::State, velocity!, force!, t, h)
         moved_q = stages!(s.q, s.q_low, MU, s.drift, s.stage_q)
         isfinite(moved_q) || return :not_finite
         moved = max(moved_q, moved_p)
-        if moved == 0.0 || (moved <= 64.0 * eps() && moved >= least)
+        stalled += moved >= least
+        if moved == 0.0 || (stalled >= 2 && min(moved_q, moved_p) <= 64.0 * eps())
             break
         end
         least = min(least, moved)
@@ -105,7 +102,7 @@ end
 
 function drifts!(s, velocity!, t, h)
     for k in 1:STAGES
-        velocity!(s.slope, t + h * C_TILDE[k], s.stage_q[k], s.stage_p[k])
+        velocity!(s.slope, t + h * C[k], s.stage_q[k], s.stage_p[k])
         s.drift[k] .= (h * B[k]) .* s.slope
     end
 end

@@ -7,7 +7,7 @@
 # order 4 for every H (proved), 4 for T(p) + U(q) (proved), 4 for T quadratic (proved)
 # symplectic (proved), symmetric (proved)
 # written by symplectic VERSION
-# A step of every H(q, p): the stages are solved for by fixed-point iteration, with compensated sums.
+# A step of every H(t, q, p): the stages are solved for by fixed-point iteration, with compensated sums.
 #
 # Usage, with velocity(t, q, p) = dH/dp and force(t, q, p) = -dH/dq as lists:
 #
@@ -20,10 +20,6 @@ import sys
 STAGES = 2
 MOST_SWEEPS = 100
 C = [
-    0.2113248654051871,  # 1/2 - sqrt(3)/6 = 0.21132486540518712
-    0.7886751345948129,  # 1/2 + sqrt(3)/6 = 0.78867513459481288
-]
-C_TILDE = [
     0.2113248654051871,  # 1/2 - sqrt(3)/6 = 0.21132486540518712
     0.7886751345948129,  # 1/2 + sqrt(3)/6 = 0.78867513459481288
 ]
@@ -63,29 +59,28 @@ class State:
 
 
 def step(state, velocity, force, t, h):
-    """A step of size h from the time t. Stages are iterated until they stagnate: nothing moves, or they move by rounding
-    errors and no less than before. Where they do not, or are not finite, the state stays as it was."""
+    """A step of size h from the time t. Stages are iterated until they no longer change, or change by rounding
+    errors only and twice no less than before. Where they do not, or are not finite, the state stays as it was."""
 
     def kicks():
-        slopes = [force(t + h * C[k], stage_q[k], stage_p[k]) for k in range(STAGES)]
-        return [[h * B_TILDE[k] * f for f in slopes[k]] for k in range(STAGES)]
+        return [[h * B_TILDE[k] * f for f in force(t + h * C[k], stage_q[k], stage_p[k])] for k in range(STAGES)]
 
     def drifts():
-        slopes = [velocity(t + h * C_TILDE[k], stage_q[k], stage_p[k]) for k in range(STAGES)]
-        return [[h * B[k] * v for v in slopes[k]] for k in range(STAGES)]
+        return [[h * B[k] * v for v in velocity(t + h * C[k], stage_q[k], stage_p[k])] for k in range(STAGES)]
 
     stage_q = [state.q[:] for _ in range(STAGES)]
     stage_p = [state.p[:] for _ in range(STAGES)]
     drift = drifts()
     _stages(state.q, state.q_low, MU, drift, stage_q)
-    least, sweeps = math.inf, 0
+    least, sweeps, stalled = math.inf, 0, 0
     while True:
         kick = kicks()
         moved_p = _stages(state.p, state.p_low, MU_TILDE, kick, stage_p)
         drift = drifts()
         moved_q = _stages(state.q, state.q_low, MU, drift, stage_q)
         moved = max(moved_q, moved_p)
-        if moved == 0.0 or (moved <= 64.0 * sys.float_info.epsilon and moved >= least):
+        stalled += moved >= least
+        if moved == 0.0 or (stalled >= 2 and min(moved_q, moved_p) <= 64.0 * sys.float_info.epsilon):
             break
         least = min(least, moved)
         sweeps += 1

@@ -7,7 +7,7 @@
 // order 4 for every H (proved), 4 for T(p) + U(q) (proved), 4 for T quadratic (proved)
 // symplectic (proved), symmetric (proved)
 // written by symplectic VERSION
-// A step of every H(q, p): the stages are solved for by fixed-point iteration, with compensated sums.
+// A step of every H(t, q, p): the stages are solved for by fixed-point iteration, with compensated sums.
 //
 // Usage, in N dimensions, with a type that implements `System<N>`:
 //
@@ -38,10 +38,6 @@ const STAGES: usize = 2;
 const MOST_SWEEPS: usize = 100;
 
 const C: [f64; STAGES] = [
-    0.2113248654051871, // 1/2 - sqrt(3)/6 = 0.21132486540518712
-    0.7886751345948129, // 1/2 + sqrt(3)/6 = 0.78867513459481288
-];
-const C_TILDE: [f64; STAGES] = [
     0.2113248654051871, // 1/2 - sqrt(3)/6 = 0.21132486540518712
     0.7886751345948129, // 1/2 + sqrt(3)/6 = 0.78867513459481288
 ];
@@ -80,21 +76,23 @@ impl<const N: usize> State<N> {
         State { q, q_low: [0.0; N], p, p_low: [0.0; N] }
     }
 
-    /// A step of size `h` from the time `t`. Stages are iterated until they stagnate: nothing moves, or they move by rounding
-    /// errors and no less than before. Where they do not, or are not finite, the state stays as it was.
+    /// A step of size `h` from the time `t`. Stages are iterated until they no longer change, or change by rounding
+    /// errors only and twice no less than before. Where they do not, or are not finite, the state stays as it was. They are
+    /// on the stack.
     pub fn step(&mut self, system: &impl System<N>, t: f64, h: f64) -> Result<(), Failure> {
         let (mut stage_q, mut stage_p) = ([self.q; STAGES], [self.p; STAGES]);
         let mut drift = drifts(system, t, h, &stage_q, &stage_p);
         stages(&self.q, &self.q_low, &MU, &drift, &mut stage_q)?;
         let mut least = f64::INFINITY;
-        let mut sweeps = 0;
+        let (mut sweeps, mut stalled) = (0, 0);
         let kick = loop {
             let kick = kicks(system, t, h, &stage_q, &stage_p);
             let moved_p = stages(&self.p, &self.p_low, &MU_TILDE, &kick, &mut stage_p)?;
             drift = drifts(system, t, h, &stage_q, &stage_p);
             let moved_q = stages(&self.q, &self.q_low, &MU, &drift, &mut stage_q)?;
             let moved = moved_q.max(moved_p);
-            if moved == 0.0 || (moved <= 64.0 * f64::EPSILON && moved >= least) {
+            stalled += usize::from(moved >= least);
+            if moved == 0.0 || (stalled >= 2 && moved_q.min(moved_p) <= 64.0 * f64::EPSILON) {
                 break kick;
             }
             least = least.min(moved);
@@ -122,7 +120,7 @@ fn kicks<const N: usize>(
 fn drifts<const N: usize>(
     system: &impl System<N>, t: f64, h: f64, q: &Stages<N>, p: &Stages<N>,
 ) -> Stages<N> {
-    core::array::from_fn(|k| system.velocity(t + h * C_TILDE[k], &q[k], &p[k]).map(|v| h * B[k] * v))
+    core::array::from_fn(|k| system.velocity(t + h * C[k], &q[k], &p[k]).map(|v| h * B[k] * v))
 }
 
 /// Stages as sums of increments: `x + (low + sum_j factors[j] increments[j])`. Returns how far they moved, relative to the

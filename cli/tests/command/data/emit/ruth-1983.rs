@@ -3,7 +3,7 @@
 // order 1 for every H (proved), 3 for T(p) + U(q) (proved), 3 for T quadratic (proved)
 // symplectic(separable) (proved)
 // written by symplectic VERSION
-// A step of H = T(p) + U(q): drifts and kicks, with compensated sums.
+// A step of H = T(t, p) + U(t, q): drifts and kicks, with compensated sums.
 //
 // Usage, in N dimensions, with a type that implements `System<N>`:
 //
@@ -35,7 +35,8 @@ pub struct State<const N: usize> {
     pub q_low: [f64; N],
     pub p: [f64; N],
     pub p_low: [f64; N],
-    /// The force at the end of the last step: set it to `None` after a change of `q` or of the force.
+    /// The force at the end of the last step: set it to `None` after a change of `q`, of the force, or of the
+    /// time other than by a step.
     pub force: Option<[f64; N]>,
 }
 

@@ -7,7 +7,7 @@
    order 2 for every H (proved), 2 for T(p) + U(q) (proved), 2 for T quadratic (proved)
    symplectic (proved), symmetric (proved)
    written by symplectic VERSION
-   A step of H = T(p) + U(q): drifts and kicks, with compensated sums. */
+   A step of H = T(t, p) + U(t, q): drifts and kicks, with compensated sums. */
 /* Usage, in n dimensions:
 
        double memory[STORMER_VERLET_DOUBLES(n)];
@@ -42,7 +42,7 @@ typedef struct {
     double *q, *q_low, *p, *p_low;
     double *slope; /* the last velocity or force */
     double *start; /* the state before the step */
-    int force_is_known; /* set it to 0 after a change of q or of the force */
+    int force_is_known; /* set it to 0 after a change of q, of the force, or of the time other than by a step */
 } stormer_verlet_state;
 
 static inline void stormer_verlet_start(stormer_verlet_state *s, size_t n, double *memory) {

@@ -7,7 +7,7 @@ pub(super) const NOTATION: Notation = Notation {
     splitting: include_str!("../templates/splitting.py.txt"),
     coupled: include_str!("../templates/coupled.py.txt"),
     add: include_str!("../templates/add.py.txt"),
-    carries: ["None", "f"],
+    carries: ["None", "list(f)"],
     kick: "    f = force(@time@, q)
     _advance(p, p_low, h * @weight@, f)  # @remark@
 ",
