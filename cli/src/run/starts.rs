@@ -23,7 +23,7 @@ const EXPECTED: &str = "expected a number, { from, to, count } with a count up t
 pub(super) struct Coordinates(pub(super) [Vec<String>; 2]);
 
 impl Coordinates {
-    /// Those of so many bodies.
+    /// The coordinates of a number of bodies.
     pub(super) fn new(system: &System, bodies: usize) -> Self {
         let names = |half| {
             let of = |body| {
@@ -277,7 +277,7 @@ impl Reader<'_> {
             .collect())
     }
 
-    /// All combinations, the last coordinate the fastest, and of each so many draws.
+    /// All combinations, of which the last coordinate changes fastest, and `count` draws of each.
     fn product(
         &self,
         axes: &[(usize, Spec)],

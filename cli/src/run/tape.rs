@@ -1,7 +1,7 @@
 //! A formula as a list of operations on registers, and its interpreter over any scalar.
 //!
-//! A tape runs over whole lanes: each operation is done on all trajectories side by side before the next one is read. It has the bits of
-//! the code that the macro emits for the same formula.
+//! A tape runs over whole lanes: each operation is done on all trajectories side by side before the next one is read. Its operations
+//! are those that the macro emits for the same formula.
 
 use symplectic::Scalar;
 

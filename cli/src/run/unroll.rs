@@ -48,7 +48,7 @@ pub(super) struct Unrolled<'a> {
     operations: Operations<'a>,
     /// The operations that change in each loop, in their order.
     changing: HashMap<LoopId, Rc<[Op]>>,
-    /// Those of them that an operation in the loop is made of.
+    /// The operations below one in a loop that change in the loop.
     needed: HashMap<(LoopId, Op), Rc<[Op]>>,
     indices: Indices,
     bound: u64,
@@ -136,7 +136,8 @@ impl<'a> Unrolled<'a> {
         Ok(())
     }
 
-    /// The operations that change in a loop and that `wanted` is made of, in their order.
+    /// The operations below `wanted` that change in a loop, operands first. Others are not computed: of a sum in a sum each would open
+    /// the other one without end.
     fn needed(&mut self, over: LoopId, wanted: Op) -> Rc<[Op]> {
         if let Some(needed) = self.needed.get(&(over, wanted)) {
             return Rc::clone(needed);
@@ -154,7 +155,7 @@ impl<'a> Unrolled<'a> {
         needed
     }
 
-    /// Does something for every index of a loop, with what `wanted` is made of.
+    /// Does `work` for every index of a loop, when `wanted` is known at it.
     fn each(
         &mut self,
         over: LoopId,
