@@ -144,8 +144,8 @@ pub(crate) fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
 
 /// The stages of a method in lanes.
 ///
-/// With plain sums, velocities and forces are not scaled to increments during the iteration; the matrices contain the factors
-/// `h b_i` instead.
+/// With plain sums, velocities and forces are not scaled to increments during the iteration; the matrices contain the scale
+/// factors instead.
 pub(crate) struct ByLanes<'a, P: StageTableau, R, V: Vector, S> {
     pub(crate) step: &'a Step<'a, V>,
     pub(crate) system: &'a S,
