@@ -24,33 +24,33 @@ use crate::system::{Class, System};
 /// The iteration runs until it stagnates, because with a tolerance above the rounding errors the energy would drift
 /// (Hairer, McLachlan & Razakarivony, 2008). It has settled when a sweep changes nothing, or when the change has
 /// stopped shrinking and is at the level of rounding errors. That level is 64 units of
-/// [`Scalar::EPSILON`](crate::Scalar::EPSILON) relative to the largest position and the largest momentum: in either half for a
-/// separable system, in both for a general one.
+/// [`Scalar::EPSILON`](crate::Scalar::EPSILON) relative to the largest position and the largest momentum. A separable system must
+/// reach it in either half, a general one in both.
 /// The change has stopped shrinking after at least one sweep, and more than a sixteenth of all sweeps, without progress. A slow
 /// iteration with oscillations has changes that grow now and then before that. In the last allowed sweep, one suffices.
 ///
 /// If evaluations are noisier than that, or sweeps amplify rounding errors, the iteration has also settled under four conditions. The
 /// change has shrunk by a factor of 1024, and made no progress for ten sweeps. The smallest change was at most 64 units in one half,
-/// and the current change is at most four times that. The first nine sweeps do not count while the change is above 4096 units
-/// of the first stages or, after a warm start, while no change has been within 64 units.
+/// and the current change is at most 256 units. The first nine sweeps do not count while the change is above 4096 units
+/// of the first stages. After a warm start, they do not count while no change has been within 64 units.
 ///
 /// If the iteration settles with a nonzero change, rounding makes the stages alternate between two values. The side
 /// from which the starting values come decides at which of them it ends. This would cause an energy drift, though only of a relative
 /// 1e-21 per step (measured; Hénon–Heiles, Gauss 8). In half of these steps, by a pseudo-random bit of their time, one more sweep is
 /// made.
 ///
-/// If the stages stand still, they stand at one of several roundings that solve the rounded equations, and the same side decides at
-/// which. For a system that is not separable this is a relative energy drift of 1e-20 per step (measured;
+/// If the stages stand still, they stand at one of several roundings that solve the rounded equations. The same side decides at
+/// which. For a system that is not separable the relative energy drift is 1e-20 per step (measured;
 /// `(q² + 1)(p² + 1)/2`, Gauss 6 and 8). In such a system, half of the steps with a warm start, by another such bit, therefore
 /// come from the other side. Their second sweep moves the stages twice as far: if sweeps converge fast, to about the mirror image of
 /// the stages after the first sweep. Both sweeps are counted. If fewer than ten sweeps are allowed, this is omitted.
 ///
 /// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for stagnation. It
-/// ends with a change of at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) if the next change, predicted by the same
-/// contraction rate, is at most one unit. With a [tolerance](crate::Integrator::set_tolerance) the first change within it is the last;
-/// a tolerance below eight units is not waited for.
+/// ends with a change of at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) if the next change would be at most one unit.
+/// The next change is predicted by the same contraction rate. With a [tolerance](crate::Integrator::set_tolerance) the first change
+/// within it is the last; a tolerance below eight units is not waited for.
 ///
-/// After a warm start, the largest position and momentum of the previous step are used as long as they are correct up to a
+/// After a warm start, the largest position and momentum of the previous step are used if they are correct up to a
 /// factor of two. In the first nine sweeps nothing else is tested before a change is within 64 units of them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint;

@@ -279,7 +279,7 @@ fn value<R: Summation, T: Scalar>(base: T, low: T, row: &Row, term: impl Fn(usiz
     base + sum_of_products(start, row.len(), product)
 }
 
-/// `out = base + low + Σ increments`, over the increments with nonzero weight, with the rounding error of the result in `out_low`.
+/// `out = base + low + Σ increments`, over the evaluations that enter the result, with the rounding error of the sum in `out_low`.
 #[inline]
 fn total<R: Summation, V: Vector>(
     (out, out_low): (&mut V, &mut V),

@@ -74,7 +74,7 @@ pub(super) fn solve<C: Class, T: Scalar, W: Sweeps>(
 
 /// Sweeps until stagnation; returns the number of sweeps, and the sizes of the stages, if known.
 ///
-/// A growing change does not end the iteration: with many stages and a far from normal coupling matrix, it can
+/// A growing change does not end the iteration. With many stages and a coupling matrix far from normal, it can
 /// grow for many sweeps and vanish after all. A true divergence ends at the bound or overflows.
 fn iterate<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,

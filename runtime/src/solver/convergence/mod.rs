@@ -193,7 +193,7 @@ pub(crate) struct Begun<M> {
     /// Number of sweeps made.
     iterations: u32,
     /// The change of the first sweep, if it was not examined but may be needed. It is not kept if that sweep was
-    /// [unseen](Sweeps::unseen); a change then counts as noise if it is small compared with the changes that were examined.
+    /// [unseen](Sweeps::unseen). A change then counts as noise if it is small compared with the examined changes.
     first: Option<M>,
     /// The change of the last sweep but one.
     before: Option<M>,
@@ -279,7 +279,7 @@ fn is_square_safe(size: f64) -> bool {
 ///
 /// Where stages stagnate without standing still, rounding makes them alternate between two values from sweep to sweep.
 /// The side from which the iteration approaches decides at which of the two it ends. The starting values lie on the same side
-/// in every step, so the energy would drift: for Hénon–Heiles and Gauss 8 by a relative 1e-21 per step.
+/// in every step, so the energy would drift. For Hénon–Heiles and Gauss 8 the relative drift would be 1e-21 per step.
 #[inline]
 pub(crate) const fn dither_last_sweep(time: f64) -> bool {
     bits(time) & 1 == 1
@@ -288,7 +288,7 @@ pub(crate) const fn dither_last_sweep(time: f64) -> bool {
 /// A second pseudo-random bit of the time, independent of [`dither_last_sweep`].
 ///
 /// Where stages stand still, they stand at one of several roundings that solve the rounded equations. Which one also depends on the
-/// side from which they came. For `(q² + 1)(p² + 1)/2` and Gauss 6 the energy would drift by a relative 1e-20 per step.
+/// side from which they came. For `(q² + 1)(p² + 1)/2` and Gauss 6 the relative energy drift would be 1e-20 per step.
 #[inline]
 const fn dither_side(time: f64) -> bool {
     bits(time) & 2 == 2
@@ -314,7 +314,7 @@ mod tests;
 
 /// The relative change of the stages that must be at the level of rounding errors when an iteration has settled.
 ///
-/// In a general system both halves must be. In a separable system one half suffices, once the positions have stopped shrinking: the
+/// In a general system both halves must be. In a separable system one half suffices, once the positions have stopped shrinking. The
 /// other half then moves at most by the noise of the system's evaluations. This noise can be far above the rounding errors of a
 /// sum, as with stiff springs between masses far from the origin. One half alone proves nothing: beside a huge momentum, the changes
 /// of all other momenta are negligible from the start.

@@ -349,7 +349,7 @@ fn changes_far_from_rounding_are_not_looked_at_in_the_first_sweeps() {
 
 #[test]
 fn a_slow_iteration_that_grows_for_a_sweep_goes_on() {
-    // The change shrinks by a factor 0.8 per sweep, but every other change is half of that: from the 44th sweep on it is at most
+    // The change shrinks by a factor 0.8 per sweep, but every other change is half of that. From the 44th sweep on it is at most
     // 64 units, and it grows at the 45th.
     let mut changes: Vec<[f64; 2]> = (0..64)
         .map(|sweep| 1e6 * 0.8_f64.powi(sweep) / f64::from(1 + sweep % 2))

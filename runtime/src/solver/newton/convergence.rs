@@ -12,7 +12,7 @@ use crate::system::{Class, Separable, System};
 
 /// The change stagnates if it has not halved in this many sweeps.
 ///
-/// In the rounded equations a change can shrink for thousands of sweeps by less than a part in a thousand: the force at a rounded
+/// In the rounded equations a change can shrink for thousands of sweeps by less than a part in a thousand. The force at a rounded
 /// stage stays the same while the increments approach it.
 const SLOW: u32 = 3;
 

@@ -45,25 +45,27 @@ use sweep::ByIncrements;
 ///
 /// and that of a general system is `(1 − h A ⊗ J) (x, y) = (ρ_v, ρ_f)`, where the columns of `y` have `Ã`. The
 /// [`Decoupling`](crate::solver::Decoupling) of the method decouples the stages: s/2 complex matrices with n rows replace
-/// one matrix with sn rows, as in Hairer & Wanner, *Solving ODEs II*, IV.8.
+/// one matrix with sn rows (Hairer & Wanner, *Solving ODEs II*, IV.8).
 ///
 /// # Derivatives
 ///
-/// The factors are kept from step to step. They are recomputed if the step size changes, if nothing is [kept](WarmStart::stages) of the
-/// previous step, or after a step in which the change shrank by less than a factor of 32 per sweep. They are recomputed at once if
-/// the contraction rate predicts more than 16 sweeps. Derivatives at one point do not suffice for all stages if a stiff direction
-/// turns within the step, as on a pendulum with a spring of frequency ω if `h²ω` is above 1. If recomputed derivatives still contract
+/// The factors are kept from step to step. They are recomputed if the step size changes, or if nothing is [kept](WarmStart::stages) of
+/// the previous step. They are also recomputed after a step in which the change shrank by less than a factor of 32 per sweep. They are
+/// recomputed within the step if the contraction rate predicts more than 16 sweeps.
+///
+/// Derivatives at one point do not suffice for all stages if a stiff direction turns within the step. An example is a pendulum with a
+/// spring of frequency ω if `h²ω` is above 1. If recomputed derivatives still contract
 /// too slowly, the step starts again with full Newton, with the derivatives of every stage in every sweep
 /// ([`LinearSolver::correct`]). The next 16 steps also use full Newton.
 ///
 /// # Convergence
 ///
-/// The iteration stops if the change of the stages no longer shrinks and is at the level of rounding, so that the remaining error
-/// causes no energy drift:
+/// The iteration stops if the change of the stages no longer shrinks and is at the level of rounding. The remaining error then
+/// causes no energy drift.
 ///
-/// * The change stagnates if it has not become smaller for at least one sweep and more than a sixteenth of all sweeps, or has not
-///   halved in three sweeps.
-/// * It is at the level of rounding if it is at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) of the largest position or
+/// * The change stagnates if it has not halved in three sweeps. It also stagnates if it has not become smaller for at least one
+///   sweep and more than a sixteenth of all sweeps.
+/// * The level of rounding is 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) of the largest position or
 ///   momentum; one half suffices for a separable system. Otherwise the noise is measured: the arguments of
 ///   all evaluations move by one unit, and a change up to 16 times the response is noise. A stiff spring `k (r − 1)` is evaluated with an
 ///   error of `k` units; momenta are then uncertain by `1/h` units of the positions.

@@ -153,8 +153,8 @@ where
         Ok(change)
     }
 
-    /// How far rounding alone moves the positions and the momenta of the stages in a sweep: the response of the sweep to components
-    /// that are off by one unit of EPSILON, up or down.
+    /// How far rounding alone moves the positions and the momenta of the stages in a sweep. It is the response of the sweep to
+    /// components that are off by one unit of EPSILON, up or down.
     pub(super) fn noise(&mut self) -> Result<[f64; 2], Failure> {
         self.evaluate();
         self.residuals();

@@ -197,7 +197,7 @@ where
     }
 }
 
-/// Neither the size of the stages nor NaN or infinite values are tested here: an iteration that does not settle in its early sweeps
+/// Neither the size of the stages nor NaN or infinite values are tested here. An iteration that does not settle in its early sweeps
 /// [continues](Sweeps::go_on) with [`Positions`].
 impl<P, R, V, S> Sweeps for Locally<'_, '_, P, R, V, S>
 where

@@ -1,8 +1,8 @@
 //! Second-order systems whose force is computed in rows: eight neighbouring components side by side, for all stages at once.
 //!
-//! From step to step the forces are stored in the place of the velocities, which unit masses leave unused: row by row, and within a
-//! row stage by stage. During a step without a warm start, or one that does not settle in its early sweeps, they are in their own
-//! place: component by component, with the stages in lanes.
+//! From step to step the forces are stored in the place of the velocities, which unit masses leave unused. They are stored row by
+//! row, and within a row stage by stage. During a step without a warm start they are in their own place, component by component with
+//! the stages in lanes. The same holds for a step that does not settle in its early sweeps.
 
 use core::marker::PhantomData;
 

@@ -27,7 +27,7 @@ use crate::system::{Class, System};
 /// system computes two, four or eight stages.
 ///
 /// The system must be generic over the scalar. Long vectors are allowed. [`FixedPoint`](crate::solver::FixedPoint) vectorises along
-/// the components instead, but its sums over the stages are slower than sums with all stages of a component at hand
+/// the components instead. Its sums over the stages are slower than sums with all stages of a component at hand
 /// (`--example ratios` of the contest times both for a chain of 1024 particles).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SimdFixedPoint;
@@ -118,7 +118,7 @@ pub(crate) fn totals<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
     );
 }
 
-/// Adds to `out` the part of the interpolation that vanishes at both ends of the step, from the evaluations of one half by stage
+/// Adds to `out` the part of the interpolation that vanishes at both ends of the step. `evaluation` gives those of one half by stage
 /// and component.
 pub(crate) fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
     half: &HalfTableau,
@@ -320,7 +320,7 @@ where
         }
     }
 
-    /// Applies `go_on` to a copy of these stages, unless they are large or on the heap: stages to which no pointer exists can stay in
+    /// Applies `go_on` to a copy of these stages, unless they are large or on the heap. Stages to which no pointer exists can stay in
     /// registers from step to step. If the iteration begins `anew`, the old positions and momenta are not copied.
     #[inline(always)]
     pub(crate) fn elsewhere<T>(
@@ -487,7 +487,7 @@ pub(crate) fn fill<P: StageTableau, V: Vector<Scalar = f64>>(groups: &mut [Laned
 }
 
 // Functions that read from groups take slices instead of references to arrays. If LLVM knows the length of the referenced array, it
-// widens loads of single lanes beyond the group, and the processor has to wait until both groups are in memory.
+// widens loads of single lanes beyond the group. The processor then has to wait until both groups are in memory.
 
 /// The entry of one stage in one component.
 #[inline(always)]
