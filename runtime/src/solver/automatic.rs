@@ -1,4 +1,4 @@
-//! The solver of systems that are known over every scalar.
+//! The default solver, for systems that are generic over the scalar.
 
 use core::fmt;
 
@@ -20,8 +20,8 @@ use crate::solver::simd::gauss_seidel::gauss_seidel;
 use crate::solver::simd::jacobi::jacobi;
 use crate::system::{Class, OverEveryScalar, System};
 
-/// The fastest of the fixed-point iterations for a method, a system and its scalar: what an
-/// [`Integrator`](crate::Integrator) takes unless another solver is named.
+/// The fastest fixed-point iteration for a method, a system and its scalar. It is the default of an
+/// [`Integrator`](crate::Integrator).
 ///
 /// | Scalar | Hamiltonian | Iteration |
 /// |---|---|---|
@@ -30,15 +30,15 @@ use crate::system::{Class, OverEveryScalar, System};
 /// | f64 | other | [`SimdJacobi`](crate::solver::SimdJacobi) |
 /// | other | any | [`FixedPoint`] |
 ///
-/// Whether the velocity is linear in the momentum, and does not depend on time, is tried when the integrator is made.
+/// When the integrator is constructed, it tests whether the velocity is linear in the momentum and independent of time.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Automatic;
 
 /// The memory of [`Automatic`].
 pub enum AutomaticStages<V: Vector, S: OverEveryScalar<V>, P: StageTableau> {
-    /// Of doubles.
+    /// Stages of doubles, in lanes.
     InLanes(NystromStages<S::Doubles, P>),
-    /// Of other scalars.
+    /// Stages of other scalars, one by one.
     OneByOne(P::Stages<V>),
 }
 
@@ -57,7 +57,7 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> fmt::Debug for Automatic
     }
 }
 
-/// What can only be if a scalar is called a double and is none.
+/// Message of a failure that is possible only if a scalar claims to be `f64` but is not.
 const NO_DOUBLES: &str = "vectors over f64 are those of the system over f64";
 
 impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
@@ -69,7 +69,7 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
     };
 
     fn like(prototype: &V) -> Self {
-        // A constant: for doubles no other code is made, and for other scalars none in lanes.
+        // A constant condition: doubles compile without the other branch, and other scalars without code for lanes.
         if V::Scalar::IS_DOUBLE {
             let prototype = same::<V, S::Doubles>(prototype).expect(NO_DOUBLES);
             Self::InLanes(NystromStages::like(prototype))
@@ -127,7 +127,7 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
         R: Summation,
         S: System<V, Class = P::Class>,
     {
-        // A constant, as above.
+        // A constant condition, as above.
         if !V::Scalar::IS_DOUBLE {
             let AutomaticStages::OneByOne(stages) = memory else {
                 unreachable!("{NO_DOUBLES}");

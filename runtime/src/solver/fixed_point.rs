@@ -18,37 +18,40 @@ use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
 use crate::solver::run_time::by_rows;
 use crate::system::{Class, System};
 
-/// Fixed-point iteration: sweep after sweep from the latest evaluations to new stages. It converges where the step size
+/// Fixed-point iteration: each sweep computes new stages from the latest evaluations. It converges if the step size
 /// times the Lipschitz constant of the system is small.
 ///
-/// The iteration runs until it stagnates, for a tolerance above the rounding errors would let the energy drift
+/// The iteration runs until it stagnates, because with a tolerance above the rounding errors the energy would drift
 /// (Hairer, McLachlan & Razakarivony, 2008). It has settled when a sweep changes nothing, or when the change has
-/// stopped shrinking and is down to rounding errors, at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) relative to the
-/// largest position and the largest momentum: in either half for a separable system, in both for a general one
-/// . It has stopped when it has not shrunk further for one sweep and a sixteenth of
-/// all: where sweeps take little and turn the stages as they do, changes grow now and then before that. In the last sweep that
-/// is allowed one will do.
-/// Where evaluations are noisier than that, or sweeps amplify what rounding does, it is enough that the change has shrunk a
-/// thousandfold, has stopped for ten sweeps too, that the smallest one was down to rounding errors in one half, and that it is at
-/// most four times as much; sweeps are counted from the tenth on while the change is above 4096 units of the first stages or, in a
-/// step that goes on from another one, while none has been within 64 units.
+/// stopped shrinking and is at the level of rounding errors. That level is 64 units of
+/// [`Scalar::EPSILON`](crate::Scalar::EPSILON) relative to the largest position and the largest momentum. A separable system must
+/// reach it in either half, a general one in both.
+/// The change has stopped shrinking after at least one sweep, and more than a sixteenth of all sweeps, without progress. A slow
+/// iteration with oscillations has changes that grow now and then before that. In the last allowed sweep, one suffices.
 ///
-/// Where it has settled with a change that is not zero, rounding makes stages jump to and fro between two values, and the side
-/// that the starting values come from says at which of them it ends. The energy would drift by that too, though by 1e-21 of it
-/// a step (measured; Hénon–Heiles, Gauss 8). At half of these steps, by a bit of their time that is as good as random, there
-/// is one sweep more. Where it stands still, at one of several roundings that solve the rounded equations,
-/// that side says at which: a drift of 1e-20 of the energy a step of a system that is not separable (measured;
-/// `(q² + 1)(p² + 1)/2`, Gauss 6 and 8). Of such a system half of the steps that go on from another one, by another such bit, therefore
-/// come from the other side: their second sweep moves the stages twice as far, where sweeps converge fast to about the mirror image of
-/// where the first one had left them. Both count; where less than ten sweeps are allowed there is none of it.
+/// If evaluations are noisier than that, or sweeps amplify rounding errors, the iteration has also settled under four conditions. The
+/// change has shrunk by a factor of 1024, and made no progress for ten sweeps. The smallest change was at most 64 units in one half,
+/// and the current change is at most 256 units. The first nine sweeps do not count while the change is above 4096 units
+/// of the first stages. After a warm start, they do not count while no change has been within 64 units.
 ///
-/// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for the stagnation: it
-/// ends with a change that is at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) if the next one, should it shrink by the same factor,
-/// would be at most one. With a [tolerance](crate::Integrator::set_tolerance) the first change within it is the last; one of less
-/// than eight units is not waited for.
+/// If the iteration settles with a nonzero change, rounding makes the stages alternate between two values. The side
+/// from which the starting values come decides at which of them it ends. This would cause an energy drift, though only of a relative
+/// 1e-21 per step (measured; Hénon–Heiles, Gauss 8). In half of these steps, by a pseudo-random bit of their time, one more sweep is
+/// made.
 ///
-/// In a step that goes on from another one the largest position and momentum are those there as long as they are right but for a
-/// factor of two, and nothing is looked at in the first nine sweeps before a change is within 64 units of them.
+/// If the stages stand still, they stand at one of several roundings that solve the rounded equations. The same side decides at
+/// which. For a system that is not separable the relative energy drift is 1e-20 per step (measured;
+/// `(q² + 1)(p² + 1)/2`, Gauss 6 and 8). In such a system, half of the steps with a warm start, by another such bit, therefore
+/// come from the other side. Their second sweep moves the stages twice as far: if sweeps converge fast, to about the mirror image of
+/// the stages after the first sweep. Both sweeps are counted. If fewer than ten sweeps are allowed, this is omitted.
+///
+/// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for stagnation. It
+/// ends with a change of at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) if the next change would be at most one unit.
+/// The next change is predicted by the same contraction rate. With a [tolerance](crate::Integrator::set_tolerance) the first change
+/// within it is the last; a tolerance below eight units is not waited for.
+///
+/// After a warm start, the largest position and momentum of the previous step are used if they are correct up to a
+/// factor of two. In the first nine sweeps nothing else is tested before a change is within 64 units of them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint;
 
@@ -96,7 +99,7 @@ impl<V: Vector, S: System<V>> Solver<V, S> for FixedPoint {
     }
 }
 
-/// Takes a step stage by stage; returns what it took.
+/// Takes a step stage by stage; returns its statistics.
 #[inline]
 pub(crate) fn by_stages<P, R, V, S>(
     step: &Step<'_, V>,
@@ -127,7 +130,7 @@ where
     Ok(work)
 }
 
-/// The stages of a plan, one after another.
+/// The stages of a method, computed one after another.
 struct ByStages<'a, P: StagePlan, R, V: Vector, S> {
     step: &'a Step<'a, V>,
     system: &'a S,

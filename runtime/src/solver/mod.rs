@@ -1,4 +1,4 @@
-//! How coupled stages are found.
+//! Solvers for coupled stages.
 
 pub(crate) mod automatic;
 pub(crate) mod convergence;

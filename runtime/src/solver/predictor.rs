@@ -1,22 +1,22 @@
-//! Stage values at the start of an iteration, from the increments of the step before at once.
+//! Predictor: stage values at the start of an iteration, directly from the increments of the previous step.
 
 use core::marker::PhantomData;
 
 use crate::method::{HalfTableau, StageTableau};
 
-/// The most stages of which starting values are made at once.
+/// The largest number of stages whose starting values are computed directly.
 pub(crate) const MOST: usize = 16;
 
-/// `μ E` by its columns: the matrix `E` takes the increments of one half to those of the next step, and `μ` these to stage values
-/// of the other half. A product of doubles, for it is only where iterations start.
+/// The columns of `μ E`. The matrix `E` extrapolates the increments of one half to the next step, and `μ` turns them into stage values
+/// of the other half. The product is rounded to doubles, because it only gives starting values.
 pub(crate) type StartingColumns = [[f64; MOST]; MOST];
 
-/// Whether there is an extrapolation of the increments of a half, and there are few enough for [`starting_columns`].
+/// Whether the increments of a half can be extrapolated, and are few enough for [`starting_columns`].
 pub(crate) const fn starts_at_once(half: &HalfTableau) -> bool {
     !half.extrapolation.is_empty() && half.extrapolation.len() <= MOST
 }
 
-/// The product of the matrix with these columns and the extrapolation of the increments of a half; zero where it does not
+/// The product of the matrix with these columns and the extrapolation matrix of a half; zero if the half does not
 /// [start at once](starts_at_once).
 pub(crate) const fn starting_columns(matrix: &[&[f64]], half: &HalfTableau) -> StartingColumns {
     let mut product = [[0.0; MOST]; MOST];
@@ -40,7 +40,7 @@ pub(crate) const fn starting_columns(matrix: &[&[f64]], half: &HalfTableau) -> S
     product
 }
 
-/// Columns times weights.
+/// Multiplies each column by its weight.
 pub(crate) const fn weighted(columns: &StartingColumns, weights: &[f64]) -> StartingColumns {
     let mut product = *columns;
     let mut k = 0;
@@ -55,7 +55,7 @@ pub(crate) const fn weighted(columns: &StartingColumns, weights: &[f64]) -> Star
     product
 }
 
-/// The [`starting_columns`] of positions and of momenta.
+/// The [`starting_columns`] for positions and for momenta.
 pub(crate) struct Starting<P>(PhantomData<P>);
 
 impl<P: StageTableau> Starting<P> {

@@ -1,4 +1,4 @@
-//! New values of stages that are solved for, and how much they changed.
+//! Computes new values of coupled stages, and their change.
 
 use num_traits::Zero;
 
@@ -9,7 +9,7 @@ use crate::number::rows::{Eight, Row, splats};
 use crate::number::summation::moved;
 use crate::number::{F64x8, Lanes, Scalar, Summation, Vector};
 
-/// [`combine`](crate::emitted::combine) for a stage that is solved for: notes in `change` how far `out` moved.
+/// [`combine`](crate::emitted::combine) for a coupled stage: records the change of `out` in `change`.
 #[inline(always)]
 pub fn relax<R: Summation, V: Vector, const N: usize>(
     out: &mut V,
@@ -34,7 +34,7 @@ pub fn relax<R: Summation, V: Vector, const N: usize>(
     *change = local;
 }
 
-/// [`relax`], with eight components side by side where they are doubles; returns from which one on they are left.
+/// [`relax`] with eight components side by side, for doubles; returns the index of the first remaining component.
 #[inline(always)]
 fn relax_rows<R: Summation, T: Scalar, const N: usize>(
     out: &mut [T],

@@ -1,4 +1,4 @@
-//! Coupled stages of a tableau at run time, by fixed-point iteration.
+//! Coupled stages of a tableau that is known only at run time, by fixed-point iteration.
 
 use core::marker::PhantomData;
 
@@ -71,7 +71,7 @@ where
     Ok(work)
 }
 
-/// The stages of a step. Evaluations are increments: multiplied by the step size and their weights.
+/// The stages of a step. Velocities and forces are stored as increments: multiplied by the step size and their weights.
 struct ByRows<'a, R, V, S> {
     step: &'a Step<'a, V>,
     system: &'a S,
@@ -88,7 +88,7 @@ impl<R: Summation, V: Vector, S: System<V>> ByRows<'_, R, V, S> {
         let mut change = StageChange::default();
         let Coupled { positions, momenta } = self.coupled;
         let step = self.step;
-        // Of a separable system the other argument is whatever is at hand.
+        // In a separable system the other argument is not read, so any vector will do.
         for (i, (force, evaluation)) in self
             .force
             .iter_mut()
@@ -191,7 +191,7 @@ impl<R: Summation, V: Vector, S: System<V>> Sweeps for ByRows<'_, R, V, S> {
     }
 }
 
-/// `out = base + low + Σ factor increment` over a row; notes in `change` how far `out` moved.
+/// `out = base + low + Σ factor increment` over a row; records the change of `out` in `change`.
 #[inline]
 fn relax<R: Summation, V: Vector>(
     out: &mut V,
@@ -220,7 +220,7 @@ fn relax<R: Summation, V: Vector>(
     *change = local;
 }
 
-/// [`relax`], with eight components side by side where they are doubles; returns from which one on they are left.
+/// [`relax`] with eight components side by side, for doubles; returns the index of the first remaining component.
 #[inline]
 fn relax_rows<R: Summation, V: Vector>(
     out: &mut [V::Scalar],
@@ -265,7 +265,7 @@ fn relax_rows<R: Summation, V: Vector>(
     n * Eight::WIDTH
 }
 
-/// One component of a stage, or eight.
+/// One component of a stage, or eight components side by side.
 #[inline(always)]
 fn value<R: Summation, T: Scalar>(base: T, low: T, row: &Row, term: impl Fn(usize) -> T) -> T {
     if row.is_empty() {
@@ -279,7 +279,7 @@ fn value<R: Summation, T: Scalar>(base: T, low: T, row: &Row, term: impl Fn(usiz
     base + sum_of_products(start, row.len(), product)
 }
 
-/// `out = base + low + Σ increments`, of those that count, with what that leaves out in `out_low`.
+/// `out = base + low + Σ increments`, over the evaluations that enter the result, with the rounding error of the sum in `out_low`.
 #[inline]
 fn total<R: Summation, V: Vector>(
     (out, out_low): (&mut V, &mut V),
@@ -303,7 +303,7 @@ fn total<R: Summation, V: Vector>(
     }
 }
 
-/// `vectors_i = Σ_j matrix_ij vectors_j`, of no more than [`MOST`] vectors.
+/// `vectors_i = Σ_j matrix_ij vectors_j`, for at most [`MOST`] vectors.
 fn transform<V: Vector>(vectors: &mut [V], matrix: &[alloc::vec::Vec<f64>]) {
     let count = vectors.len().min(MOST);
     let lengths = vectors.iter().map(|vector| vector.as_slice().len());

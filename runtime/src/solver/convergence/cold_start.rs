@@ -1,4 +1,4 @@
-//! Sweeps that are looked at one by one.
+//! Convergence test that examines each sweep.
 
 use super::{
     AMPLIFIED, Begun, CONTRACTION, FAR, Movement, NOISIEST, PATIENCE, ROUNDING, STAGNATION, Sweeps,
@@ -10,9 +10,9 @@ use crate::number::Scalar;
 use crate::solver::convergence::settling;
 use crate::system::{Class, Separable};
 
-/// Iterates until the stages have settled, from where that was begun; returns what all of it took.
+/// Iterates until the stages have settled, starting from `begun`; returns the statistics of all sweeps.
 ///
-/// A function of its own: what it needs is not in the registers of the steps that can do without.
+/// A function of its own, so that its variables take no registers in steps that do not need it.
 #[inline(never)]
 pub(crate) fn patiently<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
@@ -27,12 +27,12 @@ pub(crate) fn patiently<C: Class, T: Scalar, W: Sweeps>(
         if solved.is_ok() || !kept.stages {
             return solved.map(|()| work);
         }
-        // What the step before was like may say nothing about this one: once more without it.
+        // The warm start may be misleading: repeat the iteration without it.
         (kept.stages, begun) = (false, Begun::NOTHING);
     }
 }
 
-/// Finds the coupled stages, and adds to `work` what that took.
+/// Finds the coupled stages, and adds the statistics to `work`.
 pub(super) fn solve<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
     kept: WarmStart,
@@ -46,7 +46,7 @@ pub(super) fn solve<C: Class, T: Scalar, W: Sweeps>(
     let counts = sweeps.evaluations();
     let made = counts.at_begin(kept);
     work.evaluations += made;
-    // With stages that are kept the first sweep shows it, and the attempt without them is looked at.
+    // After a warm start the first sweep reveals it, and the second attempt, without the warm start, reports it.
     if made > 0
         && !kept.stages
         && let Some((what, stage)) = sweeps.non_finite()
@@ -72,9 +72,9 @@ pub(super) fn solve<C: Class, T: Scalar, W: Sweeps>(
     solved.map(|_| ())
 }
 
-/// Sweeps until stagnation; returns the number of sweeps, and how large the stages are, if that is known.
+/// Sweeps until stagnation; returns the number of sweeps, and the sizes of the stages, if known.
 ///
-/// A change that grows ends nothing: where the stages are many and their coupling is far from normal, it can
+/// A growing change does not end the iteration. With many stages and a coupling matrix far from normal, it can
 /// grow for many sweeps and vanish after all. A true divergence ends at the bound or overflows.
 fn iterate<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
@@ -94,13 +94,13 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         true => change.residual(),
         false => change.q.relative(),
     };
-    // What shrinks from sweep to sweep: without a division where it is one half.
+    // The size that shrinks from sweep to sweep; for one half alone no division is needed.
     let size_of = |change: &StageChange| match both {
         true => change.residual(),
         false => change.q.difference(),
     };
-    // Whether there are changes that are not looked at, and which: without stages that are kept the first sweep shows what is
-    // not finite.
+    // Whether large changes are skipped, and how large: without a warm start the first sweep must be examined for NaN or infinite
+    // values.
     let is_known = kept.stages && is_known::<T>(kept.scales, both);
     let mut overlooks = is_known;
     let mut far = units::<T>(FAR, kept.scales);
@@ -115,7 +115,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0);
     let mut least = last;
     let mut idle = 0;
-    // The last change that was at most half of this before, and those since.
+    // The last change that was at most half of the previous mark, and the number of sweeps since.
     let (mut mark, mut slow) = (f64::INFINITY, 0);
     let mut once_more = false;
     if let Some((sweep, movement)) = &seen {
@@ -149,7 +149,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
                         &change,
                     ));
                 }
-                // It has run away: the change before is shown, if it was looked at.
+                // The iteration diverged: report the previous change, if it was examined.
                 let residual = match looked + 1 == iteration {
                     true => relative(&last),
                     false => f64::INFINITY,
@@ -170,7 +170,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
             }
             (last, looked) = (change, iteration);
             largest = larger(size, largest);
-            // Comparisons, for it is a number: `min` and `max` look whether it is.
+            // Comparisons, because `size` is not NaN: `min` and `max` would test for it.
             (smallest, least, idle) = if size < smallest {
                 (size, change, 0)
             } else {
@@ -182,7 +182,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
                 (mark, slow + 1)
             };
             let is_rounding = || settling::<C>(&change) <= ROUNDING * T::EPSILON;
-            // What rounding does may be amplified by all sweeps after the one whose change was the smallest.
+            // After the sweep with the smallest change, later sweeps may amplify rounding errors.
             let is_noise = || {
                 let at_first = first.map_or(0.0, |first| size_of(&sweeps.change(&first)));
                 smallest <= CONTRACTION * larger(at_first, largest)
@@ -192,10 +192,10 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
             if size == 0.0 {
                 return Ok((iteration, change.scales()));
             }
-            // At the bound one sweep without progress will do.
+            // At the bound, one sweep without progress suffices.
             let waited = iteration == max_iterations || idle > iteration / STAGNATION;
             if idle > 0 && waited && (is_rounding() || idle >= PATIENCE && is_noise()) {
-                // At the bound there is no sweep left to make.
+                // At the bound, no further sweep is allowed.
                 if W::STOPS_AT_ROUNDING
                     || iteration == max_iterations
                     || !dither_last_sweep(sweeps.time())
@@ -207,7 +207,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         }
     }
     let (residual, iterations) = (relative(&last), max_iterations);
-    // It came down and stands still, at its noise.
+    // The change shrank and then stagnated at the level of its noise.
     let came_down = residual <= NOISIEST
         && smallest <= CONTRACTION * largest
         && size_of(&last) <= ROUNDING * smallest;
@@ -224,7 +224,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
     })
 }
 
-/// Whether a change, after the one `before`, is the last of an iteration that does not wait for stagnation.
+/// Whether this change, after the change `before`, ends an iteration that does not wait for stagnation.
 #[inline(always)]
 pub(crate) fn is_last<T: Scalar>(
     before: Option<StageChange>,
@@ -233,7 +233,7 @@ pub(crate) fn is_last<T: Scalar>(
 ) -> bool {
     let of = |before: Option<f64>, change: &HalfChange| {
         let (unit, this) = (T::EPSILON * change.scale(), change.difference());
-        // The next one by a quotient, for numbers of any size.
+        // Estimates the next change by a quotient, which works for numbers of any size.
         let is_next_within = |before| this / before * this <= unit;
         this <= unit || this <= ROUNDING * unit && before.is_some_and(is_next_within)
     };
@@ -241,7 +241,7 @@ pub(crate) fn is_last<T: Scalar>(
         && (!both || of(before.map(|x| x.p.difference()), &change.p))
 }
 
-/// What is to blame for a first sweep that is not finite: the force of a stage, or the first evaluation that is not finite.
+/// The cause of a first sweep that is NaN or infinite: the force of a stage, or the first such evaluation.
 pub(crate) fn non_finite(
     force: Option<usize>,
     evaluation: impl FnOnce() -> Option<(Quantity, usize)>,

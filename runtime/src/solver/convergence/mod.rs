@@ -1,4 +1,4 @@
-//! Sweep after sweep over coupled stages, until they have settled.
+//! Fixed-point iteration of coupled stages until they have settled.
 
 mod cold_start;
 mod warm_start;
@@ -13,89 +13,90 @@ use crate::number::Scalar;
 use crate::system::Class;
 
 /// Changes up to this many units of EPSILON can be rounding errors: one sweep rounds s products, s sums and the
-/// evaluations, s ≤ 20 in practice. The change also has to have stopped shrinking, so that an iteration which still
+/// evaluations, s ≤ 20 in practice. The change must also have stopped shrinking, so that an iteration that still
 /// gains digits below the threshold goes on.
 pub(crate) const ROUNDING: f64 = 64.0;
 
-/// Sweeps without progress after which a change that has shrunk by [`CONTRACTION`] counts as noise; before as many all
-/// sweeps are early ones.
+/// Sweeps without progress after which a change that has shrunk by [`CONTRACTION`] counts as noise. The sweeps before
+/// this one are the early sweeps.
 pub(crate) const PATIENCE: u32 = 10;
 
-/// The part of its sweeps for which an iteration has to be without progress: where it converges slowly and turns as it does,
-/// changes grow now and then long before it has settled. Of fewer sweeps one without progress will do.
+/// An iteration has stagnated when the latest 1/`STAGNATION` of its sweeps made no progress. If it converges slowly and with
+/// oscillations, its change grows now and then long before it has settled. With fewer sweeps, one without progress suffices.
 pub(crate) const STAGNATION: u32 = 16;
 
-/// Changes above this many units of EPSILON, of the stages of the step before or of those that were looked at first, are not looked
-/// at further in the first sweeps: none of them is the last.
+/// Early sweeps that change the stages by more than this many units of EPSILON are not examined further: none of them is the last.
+/// The unit refers to the stages of the previous step, or to the first stages that were examined.
 const FAR: f64 = ROUNDING * ROUNDING;
 
-/// Noise up to this many units of EPSILON is noise still where the smallest change was at most [`ROUNDING`].
+/// Noise up to this many units of EPSILON still counts as noise if the smallest change was at most [`ROUNDING`].
 const AMPLIFIED: f64 = 4.0 * ROUNDING;
 
-/// What tells an iteration that came down to its noise from one that never got anywhere.
+/// Contraction of the change that distinguishes an iteration that reached its noise from one that made no progress.
 pub(crate) const CONTRACTION: f64 = 1.0 / 1024.0;
 
-/// A relative change above this is not the noise of evaluations that are good for anything.
+/// A relative change above this is not noise: evaluations that noisy would be useless.
 pub(crate) const NOISIEST: f64 = 1e-5;
 
-/// Stages that are iterated.
+/// Fixed-point sweeps over coupled stages.
 pub(crate) trait Sweeps {
-    /// How a sweep moves them.
+    /// Change of the stages in a sweep.
     type Movement: Movement;
 
-    /// Whether a change that is down to rounding errors is the last where the next one would be down to a unit of EPSILON.
+    /// Whether a change at the level of rounding errors is the last if the next one would be at most one unit of EPSILON.
     const STOPS_AT_ROUNDING: bool;
 
-    /// Whether it is known after each sweep how large they are; else only what they [are about](Self::are_about), from the start.
+    /// Whether the size of the stages is measured after each sweep. Otherwise it is measured at the start of the step only, and serves
+    /// for [`are_about`](Self::are_about).
     const MEASURED: bool = true;
 
-    /// How many evaluations they make.
+    /// Numbers of evaluations that a step makes.
     fn evaluations(&self) -> EvaluationCounts;
 
-    /// Whether the momenta too show that the iteration goes on: not where they are a function of the positions before.
+    /// Whether the momenta are tested for convergence too. They are not if the sweep computes them from its old positions.
     #[inline(always)]
     fn both<C: Class>() -> bool {
         !C::SEPARABLE
     }
 
-    /// When the step starts.
+    /// Time at the start of the step.
     fn time(&self) -> f64;
 
-    /// Starting values; evaluations that are made once.
+    /// Computes the starting values and the evaluations that are made once.
     fn begin(&mut self, kept: WarmStart);
 
-    /// The first evaluation that is not finite although its argument is.
+    /// The first evaluation that is NaN or infinite although its argument is finite.
     fn non_finite(&self) -> Option<(Quantity, usize)>;
 
-    /// The first stage, from 1, whose force is not finite: forces come first in a sweep.
+    /// The first stage, from 1, whose force is NaN or infinite: forces come first in a sweep.
     fn non_finite_force(&self) -> Option<usize>;
 
-    /// One sweep over all of them.
+    /// One sweep over all stages.
     fn sweep(&mut self) -> Self::Movement;
 
-    /// How many sweeps are not worth a look, for there will be others: at the start of a step that goes on from one before.
+    /// Number of sweeps at the start of a step with a warm start whose change need not be measured, because further sweeps follow.
     #[inline(always)]
     fn unseen(&self) -> u32 {
         0
     }
 
-    /// A sweep of which nobody wants to know how it moves the stages.
+    /// A sweep whose change is not needed.
     #[inline(always)]
     fn sweep_unseen(&mut self) {
         self.sweep();
     }
 
-    /// One that moves them twice as far. Only asked for of systems that are not separable, of sums that wait for stagnation, and where
-    /// changes that are far from rounding are not looked at: others need not have it.
+    /// A sweep that moves the stages twice as far (over-relaxation with factor 2). It is called only for systems that are not separable,
+    /// with sums that wait for stagnation, in a warm start. Other implementations need not override it.
     #[inline(always)]
     fn overrelaxed_sweep(&mut self) -> Self::Movement {
         self.sweep()
     }
 
-    /// By how much that moved them altogether, where they are [measured](Self::MEASURED).
+    /// The change of all stages together in a sweep; see [`MEASURED`](Self::MEASURED) for the size.
     fn change(&self, movement: &Self::Movement) -> StageChange;
 
-    /// [`patiently`], in another place where that leaves these stages in registers.
+    /// [`patiently`], on a copy of the stages if that keeps the original in registers.
     fn go_on<C: Class, T: Scalar>(
         &mut self,
         kept: WarmStart,
@@ -108,7 +109,7 @@ pub(crate) trait Sweeps {
         patiently::<C, T, _>(self, kept, stopping, begun)
     }
 
-    /// Whether the positions, and the momenta where they count, are as large as this but for a factor of two.
+    /// Whether the positions, and if `both` the momenta, have these sizes up to a factor of two.
     #[inline(always)]
     fn are_about(&self, movement: &Self::Movement, [q, p]: [f64; 2], both: bool) -> bool {
         let is_about = |size: f64, other: f64| size > 0.5 * other && size <= 2.0 * other;
@@ -117,28 +118,28 @@ pub(crate) trait Sweeps {
     }
 }
 
-/// How a sweep moved the stages. Comparisons, but for [`is_within`](Self::is_within), may lose what is not a number: see
+/// Change of the stages in a sweep. All comparisons except [`is_within`](Self::is_within) may miss a NaN: see
 /// [`is_number`](Self::is_number).
 pub(crate) trait Movement: Copy {
-    /// Whether the positions moved, and the momenta where they count, by no more than these bounds, and both by numbers.
+    /// Whether the changes of the positions, and if `both` of the momenta, are within these bounds, and neither change is NaN.
     fn is_within(&self, bounds: [f64; 2], both: bool) -> bool;
 
-    /// [`is_within`](Self::is_within), but either half will do where the momenta do not count: [`settling`].
+    /// Like [`is_within`](Self::is_within), but without `both` one of the two halves suffices: [`settling`].
     fn settles_within(&self, bounds: [f64; 2], both: bool) -> bool;
 
-    /// Whether the positions moved, and the momenta where they count, by more than these bounds.
+    /// Whether the changes of the positions, and if `both` of the momenta, exceed these bounds.
     fn exceeds(&self, bounds: [f64; 2], both: bool) -> bool;
 
-    /// Whether the positions, and the momenta where they count, [would move](is_next_within) by no more than these bounds next.
+    /// Whether the next change of the positions, and if `both` of the momenta, [would be within](is_next_within) these bounds.
     fn is_next_within(&self, before: &Self, bounds: [f64; 2], both: bool) -> bool;
 
-    /// By how much the positions moved; where the momenta count, the larger of both, each multiplied by its weight.
+    /// The change of the positions; if `both`, the larger of the changes of positions and momenta, each multiplied by its weight.
     fn size(&self, weights: [f64; 2], both: bool) -> f64;
 
-    /// Whether that is below this, but not zero.
+    /// Whether the [size](Self::size) is below this bound, but not zero.
     fn shrinks(&self, below: f64, weights: [f64; 2], both: bool) -> bool;
 
-    /// Whether it is a number, of all components: to be looked at where an iteration could end.
+    /// Whether no component of the change is NaN. Checked wherever an iteration could end.
     fn is_number(&self) -> bool;
 }
 
@@ -181,29 +182,29 @@ impl Movement for StageChange {
 
     #[inline(always)]
     fn is_number(&self) -> bool {
-        // What is none is neither within a bound nor above it.
+        // A NaN is neither within a bound nor above it.
         true
     }
 }
 
-/// An iteration that has not come to its end.
+/// An iteration that has not ended yet.
 #[derive(Clone, Copy)]
 pub(crate) struct Begun<M> {
-    /// How many sweeps were made.
+    /// Number of sweeps made.
     iterations: u32,
-    /// The first one, where it was not looked at and somebody may want to know; where it was [not seen](Sweeps::unseen) nobody does, and
-    /// what is then noise counts as such if it is small beside what was looked at.
+    /// The change of the first sweep, if it was not examined but may be needed. It is not kept if that sweep was
+    /// [unseen](Sweeps::unseen). A change then counts as noise if it is small compared with the examined changes.
     first: Option<M>,
-    /// The one before the last.
+    /// The change of the last sweep but one.
     before: Option<M>,
-    /// The one that moved the stages least of those that were looked at, and which it was.
+    /// The smallest of the examined changes, and the number of its sweep.
     least: Option<(u32, M)>,
-    /// The last one, if it was not looked at.
+    /// The change of the last sweep, if it was not examined.
     last: Option<M>,
 }
 
 impl<M> Begun<M> {
-    /// One that has not begun.
+    /// An iteration that has not begun.
     const NOTHING: Self = Self {
         iterations: 0,
         first: None,
@@ -212,14 +213,14 @@ impl<M> Begun<M> {
         last: None,
     };
 
-    /// Whether it has not begun.
+    /// Whether the iteration has not begun.
     #[inline(always)]
     pub(crate) const fn is_nothing(&self) -> bool {
         self.iterations == 0
     }
 }
 
-/// Iterates until the stages have settled; returns what that took.
+/// Iterates until the stages have settled; returns the statistics of the step.
 #[inline(always)]
 pub(crate) fn settle<C: Class, T: Scalar>(
     sweeps: &mut impl Sweeps,
@@ -240,20 +241,20 @@ pub(crate) fn settle<C: Class, T: Scalar>(
     }
 }
 
-/// So many units of EPSILON of positions and of momenta.
+/// `count` units of EPSILON of positions and of momenta of these sizes.
 #[inline(always)]
 fn units<T: Scalar>(count: f64, [q, p]: [f64; 2]) -> [f64; 2] {
     [count * T::EPSILON * q, count * T::EPSILON * p]
 }
 
-/// Whether it is known how large positions, and momenta where they count, were: numbers that can be squared.
+/// Whether the sizes of the positions, and if `both` of the momenta, are known and their rounding errors can be squared safely.
 #[inline(always)]
 fn is_known<T: Scalar>(scales: [f64; 2], both: bool) -> bool {
     let [q, p] = units::<T>(1.0, scales);
     is_square_safe(q) && (!both || is_square_safe(p))
 }
 
-/// These sizes where they are [known](is_known), zero elsewhere.
+/// These sizes if they are [known](is_known), zero otherwise.
 fn known<T: Scalar>(scales: [f64; 2], both: bool) -> [f64; 2] {
     match is_known::<T>(scales, both) {
         true => scales,
@@ -261,39 +262,39 @@ fn known<T: Scalar>(scales: [f64; 2], both: bool) -> [f64; 2] {
     }
 }
 
-/// Whether the change after two others, `this²/before` should they shrink by one factor, is within a bound the square of which
-/// [is a number](is_square_safe).
+/// Whether the next change is within a bound. It is estimated as `this²/before`, by a constant contraction rate.
+/// The square of the bound [must neither overflow nor underflow](is_square_safe).
 #[inline(always)]
 pub(crate) fn is_next_within(before: f64, this: f64, bound: f64) -> bool {
     this * this <= before * bound
 }
 
-/// Whether squares of numbers of this size are far from the smallest and the largest numbers.
+/// Whether the square of a number of this size neither overflows nor underflows.
 #[inline(always)]
 fn is_square_safe(size: f64) -> bool {
     size > 1e-140 && size < 1e140
 }
 
-/// A bit of the time that is as good as random, and the same on every run.
+/// A pseudo-random bit that depends on the time only, so that it is the same in every run.
 ///
-/// Where stages stagnate without standing still, rounding lets them jump to and fro, from sweep to sweep, between two values.
-/// At which of the two the iteration ends goes with the side from which it came, and starting values come from the same side
-/// at every step: the energy would drift, for Hénon–Heiles and Gauss 8 by 1e-21 of it a step.
+/// Where stages stagnate without standing still, rounding makes them alternate between two values from sweep to sweep.
+/// The side from which the iteration approaches decides at which of the two it ends. The starting values lie on the same side
+/// in every step, so the energy would drift. For Hénon–Heiles and Gauss 8 the relative drift would be 1e-21 per step.
 #[inline]
 pub(crate) const fn dither_last_sweep(time: f64) -> bool {
     bits(time) & 1 == 1
 }
 
-/// Another one.
+/// A second pseudo-random bit of the time, independent of [`dither_last_sweep`].
 ///
-/// Where stages stand still they do so at one of several roundings that solve the rounded equations, and that too goes with the side
-/// from which they came. For `(q² + 1)(p² + 1)/2` and Gauss 6 the energy would drift by 1e-20 of it a step.
+/// Where stages stand still, they stand at one of several roundings that solve the rounded equations. Which one also depends on the
+/// side from which they came. For `(q² + 1)(p² + 1)/2` and Gauss 6 the relative energy drift would be 1e-20 per step.
 #[inline]
 const fn dither_side(time: f64) -> bool {
     bits(time) & 2 == 2
 }
 
-/// All bits of the time go into every bit (Appleby, MurmurHash3, the last mixing).
+/// Mixes all bits of the time into every bit (Appleby, MurmurHash3, final mixing).
 #[inline]
 const fn bits(time: f64) -> u64 {
     let mut bits = time.to_bits();
@@ -311,11 +312,12 @@ fn larger(a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests;
 
-/// The relative change of the stages that has to be down to rounding errors where an iteration has settled.
+/// The relative change of the stages that must be at the level of rounding errors when an iteration has settled.
 ///
-/// Of a general system both halves have to be. Of a separable one either will do, once the positions have stopped shrinking: then
-/// the other half moves by the noise of the system's own evaluations at most. This noise can be far above the rounding errors of a
-/// sum: stiff springs between masses far from the origin. Alone it proves nothing: beside a huge momentum the others rest at once.
+/// In a general system both halves must be. In a separable system one half suffices, once the positions have stopped shrinking. The
+/// other half then moves at most by the noise of the system's evaluations. This noise can be far above the rounding errors of a
+/// sum, as with stiff springs between masses far from the origin. One half alone proves nothing: beside a huge momentum, the changes
+/// of all other momenta are negligible from the start.
 #[inline]
 pub(crate) fn settling<C: Class>(change: &StageChange) -> f64 {
     if C::SEPARABLE {

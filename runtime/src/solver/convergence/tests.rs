@@ -1,4 +1,4 @@
-//! Iterations with changes that are made up.
+//! Iterations with prescribed changes.
 
 use super::cold_start::solve;
 use super::*;
@@ -7,17 +7,17 @@ use crate::system::{General, Separable};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Stages whose changes are given, in units of EPSILON of the values.
+/// Stages with prescribed changes, in units of EPSILON of the values.
 struct Scripted<'a, const STOPS_AT_ROUNDING: bool> {
     changes: &'a [[f64; 2]],
-    /// Of the values in each sweep; the last one in all that follow.
+    /// Sizes of the values in each sweep; the last entry holds for all later sweeps.
     scales: &'a [f64],
     made: usize,
-    /// How often it was begun.
+    /// Number of calls of `begin`.
     begun: usize,
-    /// How many sweeps there were before the one that moved the stages twice as far.
+    /// Number of sweeps before the over-relaxed sweep.
     beyond: Option<usize>,
-    /// How many sweeps need not be looked at, and how many were not.
+    /// The number of sweeps that may be unseen, and the number that were.
     unseen: [u32; 2],
     time: f64,
 }
@@ -94,7 +94,7 @@ impl<const STOPS_AT_ROUNDING: bool> Sweeps for Scripted<'_, STOPS_AT_ROUNDING> {
     }
 }
 
-/// The sweeps of one iteration, not taken again without stages that are kept, and how large its stages are.
+/// The number of sweeps of one iteration, not repeated without a warm start, and the sizes of its stages.
 fn made<C: Class, W: Sweeps>(
     sweeps: &mut W,
     kept: WarmStart,
@@ -108,7 +108,7 @@ fn made<C: Class, W: Sweeps>(
     })
 }
 
-/// A time with this side of the coin, at which stages do not come from the other side.
+/// A time with this `dither_last_sweep` at which `dither_side` is false.
 fn time(side: bool) -> f64 {
     let mut time = 1.0;
     while dither_last_sweep(time) != side || dither_side(time) {
@@ -117,7 +117,7 @@ fn time(side: bool) -> f64 {
     time
 }
 
-/// The sweeps of an iteration with these changes that begins at a time with this coin.
+/// The number of sweeps of an iteration with these changes, at a time with this `dither_last_sweep`.
 fn sweeps<C: Class, const STOPS_AT_ROUNDING: bool>(
     changes: &[[f64; 2]],
     scales: &[f64],
@@ -128,15 +128,15 @@ fn sweeps<C: Class, const STOPS_AT_ROUNDING: bool>(
     settled.map(|(iterations, _)| iterations)
 }
 
-/// The sweeps of a hasty iteration of values that are one, after those of a step in which they were this, and how large they
-/// are then known to be.
+/// The number of sweeps of an iteration that stops at rounding, and the sizes of the stages that it returns. All values are one;
+/// in the previous step they had the sizes `before`.
 fn after<C: Class>(before: [f64; 2], changes: &[[f64; 2]]) -> Result<(u32, [f64; 2]), Failure> {
     let mut script = Scripted::<true>::new(changes, &[1.0], 1.0);
     let before = known::<f64>(before, !C::SEPARABLE);
     made::<C, _>(&mut script, stages(before), at_most(changes.len()))
 }
 
-/// So many sweeps, to rounding.
+/// At most `sweeps` sweeps, to rounding.
 fn at_most(sweeps: usize) -> Stopping {
     Stopping {
         max_iterations: sweeps as u32,
@@ -144,7 +144,7 @@ fn at_most(sweeps: usize) -> Stopping {
     }
 }
 
-/// The stages of the step before are kept, and were as large as this.
+/// A warm start from stages of these sizes.
 fn stages(scales: [f64; 2]) -> WarmStart {
     WarmStart {
         scales,
@@ -152,7 +152,7 @@ fn stages(scales: [f64; 2]) -> WarmStart {
     }
 }
 
-/// The same changes of both halves.
+/// The same changes in both halves.
 fn alike<const N: usize>(changes: [f64; N]) -> [[f64; 2]; N] {
     changes.map(|units| [units, units])
 }
@@ -162,10 +162,10 @@ fn what_stagnates_has_one_sweep_more_at_half_of_all_times() {
     let changes = alike([1e12, 1e6, 10.0, 1.0, 1.0, 1.0, 1.0]);
     assert_eq!(sweeps::<Separable, false>(&changes, &[1.0], false), Ok(5));
     assert_eq!(sweeps::<Separable, false>(&changes, &[1.0], true), Ok(6));
-    // Not where the bound is reached.
+    // Not at the bound.
     let bounded = sweeps::<Separable, false>(&changes[..5], &[1.0], true);
     assert_eq!(bounded, Ok(5));
-    // What stands still has not: nothing would change.
+    // Stages that stand still get no further sweep: nothing would change.
     let changes = alike([1e12, 1e6, 10.0, 0.0, 0.0, 0.0]);
     assert_eq!(sweeps::<Separable, false>(&changes, &[1.0], true), Ok(4));
 }
@@ -177,7 +177,7 @@ fn what_stagnates_after_another_step_has_one_sweep_more_at_half_of_all_times() {
         let mut script = Scripted::<false>::new(&changes, &[1.0], time(dither_last_sweep));
         made::<Separable, _>(&mut script, stages([1.0; 2]), at_most(bound)).map(|x| x.0)
     };
-    // The bound may come right after.
+    // The bound may follow immediately.
     for bound in [6, 7] {
         assert_eq!(after(false, bound), Ok(5));
         assert_eq!(after(true, bound), Ok(6));
@@ -186,7 +186,7 @@ fn what_stagnates_after_another_step_has_one_sweep_more_at_half_of_all_times() {
     assert!(after(true, 4).is_err());
 }
 
-/// The sweeps of an iteration of which so many need not be looked at, and how many were not.
+/// The number of sweeps of an iteration that may leave `unseen` sweeps unexamined, and the number that it left.
 fn passing_over<const STOPS_AT_ROUNDING: bool>(
     unseen: u32,
     changes: &[f64],
@@ -207,14 +207,14 @@ fn sweeps_that_others_follow_are_not_looked_at() {
             let found = passing_over::<STOPS_AT_ROUNDING>(unseen, &changes, 20);
             assert_eq!(found, (settled, unseen), "{STOPS_AT_ROUNDING}");
         }
-        // At least two are looked at, and no more are made than there may be.
+        // At least two sweeps are examined, and the bound is kept.
         for bound in 2..=sweeps as usize {
             let (settled, passed_over) = passing_over::<STOPS_AT_ROUNDING>(9, &changes, bound);
             assert_eq!(passed_over, bound as u32 - 2, "{STOPS_AT_ROUNDING}");
             let (expected, _) = passing_over::<STOPS_AT_ROUNDING>(0, &changes, bound);
             assert_eq!(settled, expected, "{STOPS_AT_ROUNDING} {bound}");
         }
-        // What is not a number is missed where it does not stay, and only there.
+        // A NaN is missed only if it does not persist.
         let mut changes = changes;
         changes[0] = f64::NAN;
         assert_eq!(
@@ -227,7 +227,7 @@ fn sweeps_that_others_follow_are_not_looked_at() {
     let mut changes = [0.5; 12];
     changes[..3].copy_from_slice(&[1e3, 200.0, 50.0]);
     check::<true>(changes, 4, 1);
-    // Only of two that are looked at is it known that the second is not smaller.
+    // Two sweeps must be examined to see that the second change is not smaller.
     let mut changes = [6.0; 12];
     changes[..5].copy_from_slice(&[1e12, 1e6, 50.0, 4.0, 5.0]);
     check::<false>(changes, 5, 2);
@@ -263,7 +263,7 @@ fn to_a_tolerance_there_are_more_sweeps_where_both_halves_count() {
 fn the_sweep_more_does_not_depend_on_how_many_there_were() {
     let near = [60.0, 50.0, 40.0, 30.0, 20.0, 10.0, 5.0, 6.0, 6.0, 6.0];
     for far in 1..=20 {
-        // Each ends where what is near has grown: with more than sixteen sweeps, for two of them.
+        // Each ends when a change at the level of rounding has grown; with more than sixteen sweeps, when two have.
         let first = (0..far).map(|sweep| 1e12 / 3_f64.powi(sweep));
         let changes: Vec<_> = first.chain(near).map(|change| [change; 2]).collect();
         let made = |kept: WarmStart, dither_last_sweep: bool| {
@@ -293,7 +293,7 @@ fn an_iteration_is_begun_once_whatever_its_bound_is() {
         check::<false>(bound);
         check::<true>(bound);
     }
-    // What fails is tried once more without the stages, and counts.
+    // A failed iteration is repeated without the warm start, and its sweeps are counted.
     let changes = alike([1e3, 1.0]);
     let mut script = Scripted::<true>::new(&changes, &[1.0], 1.0);
     let work = settle::<General, f64>(&mut script, stages([1.0; 2]), at_most(1));
@@ -322,7 +322,7 @@ fn the_coin_falls_as_often_on_either_side_whatever_the_steps_are() {
             let pairs =
                 (0..10_000).filter(|&step| dither_last_sweep(step) == dither_last_sweep(step + 1));
             let pairs = pairs.count();
-            // Four standard deviations of as many independent ones.
+            // Four standard deviations of as many independent bits.
             assert!(heads.abs_diff(5_000) <= 200, "{size} {start}: {heads}");
             assert!(pairs.abs_diff(5_000) <= 200, "{size} {start}: {pairs}");
         }
@@ -331,11 +331,11 @@ fn the_coin_falls_as_often_on_either_side_whatever_the_steps_are() {
 
 #[test]
 fn changes_far_from_rounding_are_not_looked_at_in_the_first_sweeps() {
-    // It would be noise at the third sweep: 2^-10 of the first, and not shrinking, but not rounding errors.
+    // At the third sweep the change would count as noise: 2^-10 of the first, not shrinking, but above rounding errors.
     let far = 5e3;
     let changes = alike([1e12, far, far, far, far, far, far, far, far, 1.0, 1.0]);
     assert_eq!(sweeps::<Separable, false>(&changes, &[1.0], false), Ok(11));
-    // A bound that comes first is not missed by it.
+    // An earlier bound is still respected.
     let shown = sweeps::<Separable, false>(&changes[..5], &[1.0], false);
     let Err(Failure::NoConvergence {
         residual,
@@ -349,15 +349,15 @@ fn changes_far_from_rounding_are_not_looked_at_in_the_first_sweeps() {
 
 #[test]
 fn a_slow_iteration_that_grows_for_a_sweep_goes_on() {
-    // Four fifths a sweep, but every other change is half of that: from the 44th it is down to 64 units, and it grows
-    // at the 45th.
+    // The change shrinks by a factor 0.8 per sweep, but every other change is half of that. From the 44th sweep on it is at most
+    // 64 units, and it grows at the 45th.
     let mut changes: Vec<[f64; 2]> = (0..64)
         .map(|sweep| 1e6 * 0.8_f64.powi(sweep) / f64::from(1 + sweep % 2))
         .map(|units| [units, units])
         .collect();
     changes.extend([[1.0, 1.0]; 10]);
     assert_eq!(sweeps::<Separable, false>(&changes, &[1.0], false), Ok(69));
-    // Where the bound comes first, one that grows will do.
+    // If the bound comes first, one growing change suffices.
     let bounded = |bound| sweeps::<Separable, false>(&changes[..bound], &[1.0], false);
     assert_eq!(bounded(45), Ok(45));
     assert!(bounded(46).is_err(), "{:?}", bounded(46));
@@ -389,7 +389,7 @@ fn noise_is_noise_where_the_sweeps_before_it_were_not_looked_at() {
     };
     assert_eq!(settled(WarmStart::default()), Ok((15, [1.0; 2])));
     assert_eq!(settled(stages([1.0; 2])), Ok((15, [1.0; 2])));
-    // Where one half never settles, the other says nothing.
+    // If one half never settles, the other does not end the iteration.
     let changes = [[0.5, 1e12]; 40];
     for kept in [WarmStart::default(), stages([1.0; 2])] {
         let mut script = Scripted::<false>::new(&changes, &[1.0], 1.0);
@@ -400,7 +400,7 @@ fn noise_is_noise_where_the_sweeps_before_it_were_not_looked_at() {
     assert!(settled.is_err(), "{settled:?}");
 }
 
-/// The sweeps of a hasty iteration of values that are one, to a tolerance in units of EPSILON.
+/// The sweeps of an iteration that stops at rounding, with values of size one, to a tolerance in units of EPSILON.
 fn tolerant<C: Class>(
     units: f64,
     kept: WarmStart,
@@ -428,13 +428,13 @@ fn a_tolerance_ends_an_iteration_at_the_first_change_within_it() {
             assert_eq!(made.map(|(made, _)| made), Ok(sweeps), "{units} {kept:?}");
         }
     }
-    // Also in the last sweep that is allowed.
+    // Also in the last allowed sweep.
     for bound in 1..=5 {
         let kept = stages([1.0; 2]);
         let made = tolerant::<General>(2.0, kept, &changes[..bound]);
         assert_eq!(made.is_ok(), bound == 5, "{bound}");
     }
-    // Momenta count where they count.
+    // Momenta are tested in general systems only.
     let changes = [[1e12, 1e12], [1.0, 1e6], [1.0, 1.0]];
     for (kept, general) in [(WarmStart::default(), 3), (stages([1.0; 2]), 3)] {
         assert_eq!(
@@ -454,13 +454,13 @@ fn a_tolerance_below_rounding_is_not_waited_for() {
     let changes = alike([1e12, 1e9, 1e6, 30.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0]);
     assert_eq!(tolerant::<General>(1.0, kept, &changes), Ok((4, [1.0; 2])));
     assert_eq!(tolerant::<General>(7.9, kept, &changes), Ok((4, [1.0; 2])));
-    // Eight units are.
+    // The iteration waits for eight units.
     assert_eq!(tolerant::<General>(8.0, kept, &changes), Ok((5, [1.0; 2])));
     let changes = alike([1e12, 1e9, 100.0, 60.0, 30.0, 20.0, 20.0]);
     assert_eq!(tolerant::<General>(25.0, kept, &changes), Ok((6, [1.0; 2])));
     let changes = alike([1e12, 1e9, 1e6, 30.0, 2.0, 0.7, 0.7, 0.7, 0.7, 0.7, 0.7, 0.7]);
     assert_eq!(tolerant::<General>(1e-3, kept, &changes), Ok((4, [1.0; 2])));
-    // What was larger once leaves no bound that is too wide, and is known better after.
+    // Larger values in the previous step leave no bound that is too wide, and the new sizes are returned.
     let kept = stages([1e9; 2]);
     let made = tolerant::<General>(1.0, kept, &changes);
     assert_eq!(made, Ok((4, [1.0; 2])));
@@ -513,16 +513,16 @@ fn a_hasty_iteration_after_another_ends_at_the_same_sweep() {
                 panic!("{now:?}");
             };
             assert_eq!(made, sweeps, "{before}");
-            // What is not known but for a factor of two is looked at.
+            // A size is measured again unless it is known up to a factor of two.
             assert!(0.5 * size < 1.0 && 1.0 <= 2.0 * size, "{before}: {size}");
         }
     }
-    // Momenta that do not count need not be known.
+    // The size of momenta that are not tested need not be known.
     assert_eq!(after::<Separable>([1.0, 0.0], &near), Ok((4, [1.0, 0.0])));
     assert_eq!(after::<General>([1.0, 0.0], &near), Ok((4, [1.0; 2])));
 }
 
-/// Changes that shrink from far, each by its own factor, to noise.
+/// Changes that shrink from a large value to noise, each sequence by its own factor.
 fn shrinking(seed: u64) -> Vec<[f64; 2]> {
     let mut state = seed;
     let mut random = || {
@@ -540,7 +540,7 @@ fn shrinking(seed: u64) -> Vec<[f64; 2]> {
     changes
 }
 
-/// How many of a thousand iterations end at another sweep after a step with values this large than without one; values are one.
+/// How many of a thousand iterations end at a different sweep after a warm start with values of size `before`; the values are one.
 fn others<C: Class, const STOPS_AT_ROUNDING: bool>(before: f64) -> usize {
     let scripted = |seed: u64, changes: &[[f64; 2]], kept: WarmStart| {
         let mut script =
@@ -561,7 +561,7 @@ fn others<C: Class, const STOPS_AT_ROUNDING: bool>(before: f64) -> usize {
         quick += usize::from(hastened);
         others += usize::from(after != alone);
     }
-    // Those of the smaller factors come down to 64 units in nine sweeps, more of them in fifteen, and of those of little noise to one.
+    // Sequences with small factors reach 64 units in nine sweeps, more of them in fifteen. Of those with little noise, some reach one.
     let least = match (STOPS_AT_ROUNDING, C::SEPARABLE) {
         (true, _) => 50,
         (false, true) => 250,
@@ -581,17 +581,17 @@ fn an_iteration_after_another_ends_at_the_same_sweep() {
             others::<Separable, true>(before),
         ]
     };
-    // What is not known but for a factor of two is looked at.
+    // The previous sizes equal those of the values, or differ so much that the sizes are measured again.
     for before in [1.0, 30.0] {
         let [general, separable, hasty @ ..] = all(before);
         assert_eq!(general, 0, "{before}");
-        // Where the momenta say that a change is near, and the positions moved less in one that was not.
+        // Exceptions: the momenta were near rounding, and in an earlier sweep that was not near the positions moved less.
         assert!(separable <= 5, "{before}: {separable}");
-        // Of changes that grow and shrink again among rounding errors only the last two are looked at.
+        // If changes grow and shrink again at the level of rounding errors, only the last two are examined.
         assert!(hasty.iter().all(|&others| others <= 10), "{hasty:?}");
     }
-    // Which half moves more, and what is down to rounding, goes with how large they are said to be: of iterations with this much
-    // noise for one in twenty at most, for one in fifteen where fifteen sweeps may be quick.
+    // The assumed sizes decide which half moves more and which change counts as rounding. With this much noise, at most one iteration in
+    // twenty differs; one in fifteen where a warm start may take fifteen sweeps.
     for before in [0.6, 1.9] {
         let [general, others @ ..] = all(before);
         assert!(general <= 66, "{before}: {general}");
@@ -604,7 +604,7 @@ fn a_hasty_iteration_of_what_was_small_looks_at_the_tenth_sweep() {
     let changes = alike([
         1e12, 1e9, 1e6, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0,
     ]);
-    // No change is near to the rounding errors of what it was before.
+    // No change is at the level of rounding errors of the previous step's values.
     assert_eq!(after::<General>([0.1; 2], &changes), Ok((11, [1.0; 2])));
     assert_eq!(after::<General>([1.0; 2], &changes), Ok((4, [1.0; 2])));
 }
@@ -689,14 +689,14 @@ fn a_half_that_is_near_is_looked_at_beside_one_that_is_far() {
 
 #[test]
 fn values_that_were_large_once_leave_no_bound_that_is_too_wide() {
-    // The changes go with values that shrink from 10⁶ to 1: 50 units of 10⁶ are many of 1.
+    // The values shrink from 10⁶ to 1 together with the changes: 50 units of 10⁶ are many units of 1.
     let scales = [1e6, 1.0];
     let changes = alike([1e12, 5e7, 1e4, 1.0, 0.5]);
     assert_eq!(sweeps::<Separable, true>(&changes, &scales, true), Ok(4));
 }
 
-/// Only where the other half of the stages does not follow from the first, where changes are waited for that stagnate, after a step,
-/// and where there are sweeps enough.
+/// Over-relaxation is used only for general systems, with sums that wait for stagnation, after a warm start, and if the bound
+/// allows enough sweeps.
 #[test]
 fn half_of_the_steps_come_from_the_other_side() {
     fn beyond<C: Class, const STOPS_AT_ROUNDING: bool>(
@@ -707,7 +707,7 @@ fn half_of_the_steps_come_from_the_other_side() {
         let changes: Vec<_> = [1e6, 1e3, 1e6, 1.0, 0.0].map(|x| [x; 2]).to_vec();
         let mut script = Scripted::<STOPS_AT_ROUNDING>::new(&changes, &[1.0], time);
         let (made, _) = made::<C, _>(&mut script, kept, at_most(sweeps)).expect("settled");
-        // It counts.
+        // The over-relaxed sweep is counted.
         assert_eq!(made as usize, script.made);
         script.beyond
     }

@@ -1,20 +1,20 @@
-//! Sweeps that are compared with the stages of the step before: how nearly all iterations end.
+//! Convergence test after a warm start: sweeps are compared with the stages of the previous step. Nearly all iterations end here.
 //!
-//! The processor need not wait for the largest of all lanes, and nothing is made ready for what is rarely needed.
+//! The processor need not wait for the maximum over all lanes, and nothing is prepared that is rarely needed.
 
 use super::{
     Begun, Class, Movement, PATIENCE, ROUNDING, STAGNATION, Scalar, Stopping, Sweeps, WarmStart,
     dither_last_sweep, dither_side, is_known, units,
 };
 
-/// A tolerance of so many units of EPSILON is waited for, for as long as sweeps are [early](PATIENCE), or, where both halves count, one
-/// without progress would [do](STAGNATION): rounding lets changes come down to it but for noisy evaluations.
+/// Smallest tolerance, in units of EPSILON, that the [early](PATIENCE) sweeps wait for; if both halves must settle, the sweeps for
+/// which [one without progress suffices](STAGNATION). Rounding lets changes shrink to it unless the evaluations are noisy.
 const WITHIN_REACH: f64 = 8.0;
 
-/// The sweeps of an iteration that has settled, and how large its stages are; or what is begun of one that has not.
+/// The number of sweeps and the sizes of the stages if the iteration has settled; otherwise the state from which it can go on.
 type Hastened<M> = Result<(u32, [f64; 2]), Begun<M>>;
 
-/// Sweeps on from the stages of the step before.
+/// Iterates from the stages of the previous step.
 #[inline(always)]
 pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
@@ -23,13 +23,13 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
 ) -> Hastened<W::Movement> {
     let both = W::both::<C>();
     let goes_on = kept.stages && kept.scales[0] > 0.0;
-    // The last sweep that is allowed is looked at.
+    // The last allowed sweep is left to the cold start, which examines it.
     if !goes_on || stopping.max_iterations < 2 {
         return Err(Begun::NOTHING);
     }
     sweeps.begin(kept);
     let late = stopping.max_iterations.min(PATIENCE);
-    // Two are looked at, whatever was before.
+    // At least two early sweeps are examined.
     let unseen = sweeps.unseen().min(late - 2);
     for _ in 0..unseen {
         sweeps.sweep_unseen();
@@ -39,11 +39,11 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
         ..Begun::NOTHING
     };
     let bound = stopping.max_iterations.min(STAGNATION);
-    // Where either half will do, the smallest change may be one of many that were not near; where both count, none of them is.
+    // If one half suffices, the smallest change may belong to a sweep that was not near rounding; if both must settle, it cannot.
     let near_by = if C::SEPARABLE { late } else { bound };
     if !W::STOPS_AT_ROUNDING {
         if !C::SEPARABLE && late == PATIENCE && dither_side(sweeps.time()) {
-            // From the other side. An ordinary sweep comes first: it leaves mostly the error that shrinks least, to be mirrored.
+            // Approach from the other side. An ordinary sweep comes first: it leaves mostly the slowest error component, to be reflected.
             begun.first = Some(sweeps.sweep());
             sweeps.overrelaxed_sweep();
             begun.iterations += 2;
@@ -60,7 +60,7 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     }
 }
 
-/// To the first change within a tolerance, after so many sweeps.
+/// Sweeps, after `iterations` earlier ones, until a change is within the tolerance.
 #[inline(always)]
 fn to_tolerance<W: Sweeps>(
     sweeps: &mut W,
@@ -82,7 +82,7 @@ fn to_tolerance<W: Sweeps>(
     })
 }
 
-/// To a change that can be rounding errors, if the next one would be a unit of EPSILON.
+/// Sweeps until a change can be rounding errors and the next one would be at most one unit of EPSILON.
 #[inline(always)]
 fn to_rounding<T: Scalar, W: Sweeps>(
     sweeps: &mut W,
@@ -135,7 +135,7 @@ fn to_rounding<T: Scalar, W: Sweeps>(
     Err(begun)
 }
 
-/// Until changes that can be rounding errors have stopped shrinking, and at the times of one side of the [`dither_last_sweep`] for a sweep more.
+/// Sweeps until changes that can be rounding errors have stopped shrinking, and once more if [`dither_last_sweep`] says so.
 #[inline(always)]
 fn to_stagnation<T: Scalar, W: Sweeps>(
     sweeps: &mut W,
@@ -173,7 +173,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
         }
     };
     let mut smallest = f64::INFINITY;
-    // One branch decides: most sweeps are foreseen by the processor, and where one is not it waits for nothing else.
+    // A single branch decides: the processor predicts it in most sweeps, and a misprediction waits for nothing else.
     while this.shrinks(smallest, size.weights, both) {
         if begun.iterations + 1 >= bound {
             begun.last = Some(this);
@@ -188,7 +188,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
         begun.last = Some(this);
         return Err(begun);
     }
-    // Whatever moves them at all is below infinity.
+    // Any nonzero change is below infinity.
     let moves = this.shrinks(f64::INFINITY, size.weights, both);
     if moves && dither_last_sweep(sweeps.time()) {
         sweeps.sweep_unseen();
@@ -197,13 +197,13 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
     Ok((begun.iterations, size.scales))
 }
 
-/// How large stages are.
+/// Sizes of the stages.
 struct Size {
-    /// Positions and momenta, but for a factor of two.
+    /// Sizes of positions and momenta, up to a factor of two.
     scales: [f64; 2],
-    /// What changes of each are multiplied by to be compared with those of the other: the scale of the other.
+    /// Weights that make the changes of the two halves comparable: each is the scale of the other half.
     weights: [f64; 2],
-    /// What can be rounding errors.
+    /// Bounds below which a change can be rounding errors.
     near: [f64; 2],
 }
 

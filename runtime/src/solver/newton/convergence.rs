@@ -1,4 +1,4 @@
-//! When a Newton iteration has settled, and what is done where it does not.
+//! Convergence test of the Newton iteration, and the attempts of a step.
 
 use super::linear_solver::LinearSolver;
 use super::sweep::ByIncrements;
@@ -10,41 +10,41 @@ use crate::solver::convergence::{
 };
 use crate::system::{Class, Separable, System};
 
-/// Sweeps in which the change has not halved, after which it stagnates.
+/// The change stagnates if it has not halved in this many sweeps.
 ///
-/// In the rounded equations a change can shrink for thousands of sweeps by less than a part in a thousand: the force at a rounded
+/// In the rounded equations a change can shrink for thousands of sweeps by less than a part in a thousand. The force at a rounded
 /// stage stays the same while the increments approach it.
 const SLOW: u32 = 3;
 
-/// Changes up to this many times a [measured](ByIncrements::noise) noise are noise: a sweep rounds in more places than there are
+/// Changes up to this multiple of the [measured](ByIncrements::noise) noise are noise: a sweep rounds at more places than there are
 /// arguments.
 const NOISY: f64 = 16.0;
 
-/// Changes of so many units of EPSILON cannot be told from smaller ones: a component that ought to be zero may shrink to 10⁻³⁰⁰.
+/// Changes below this many units of EPSILON count as equal: a component that should be zero may shrink to 10⁻³⁰⁰.
 const FLOOR: f64 = 0.25;
 
-/// The noise is measured at most this often in one attempt.
+/// Maximal number of noise measurements in one attempt.
 const MOST_MEASUREMENTS: u32 = 4;
 
-/// Sweeps that an attempt with the derivatives at one point may take where the derivatives at every stage can be had.
+/// Maximal number of sweeps of an attempt with the derivatives at one point, if those at every stage are available.
 pub(super) const MOST_SWEEPS: u32 = 16;
 
-/// Steps that are left to the derivatives at every stage after one that needed them.
+/// Steps that use the derivatives at every stage after a step that needed them.
 const STEPS_IN_FULL: u32 = 16;
 
-/// Where the iteration starts, and which derivatives it takes.
+/// The starting values of an iteration, and the derivatives that it uses.
 #[derive(Clone, Copy)]
 pub(super) struct Attempt {
-    /// From the stages of the step before.
+    /// Whether it starts from the stages of the previous step.
     pub(super) kept: bool,
-    /// The derivatives at every stage, anew in every sweep.
+    /// Whether it uses the derivatives at every stage, anew in every sweep.
     pub(super) in_full: bool,
     /// Whether another attempt follows.
     gives_up: bool,
 }
 
-/// The attempts of a step, one after another: from the stages of the step before, if they are kept, then from the start of the step;
-/// with the derivatives at one point, then with those at every stage, where these can be had. `in_full`: with those at once.
+/// The attempts of a step, in order. Starting values: the stages of the previous step, if they are kept, then the start of the step.
+/// Derivatives: at one point, then at every stage, if `available`; with `in_full`, at every stage only.
 fn attempts(kept: bool, in_full: bool, available: bool) -> impl Iterator<Item = Attempt> {
     let all = [(true, false), (true, true), (false, false), (false, true)];
     let attempts = all.into_iter().filter(move |&(from_kept, full)| {
@@ -57,7 +57,7 @@ fn attempts(kept: bool, in_full: bool, available: bool) -> impl Iterator<Item = 
     })
 }
 
-/// Iterates until the stages have settled; returns what that took.
+/// Iterates until the stages have settled; returns the statistics of the step.
 pub(super) fn settle<P, R, V, S, L>(
     sweeps: &mut ByIncrements<'_, P, R, V, S, L>,
     kept: WarmStart,
@@ -83,7 +83,7 @@ where
                 }
                 return Ok(work);
             }
-            // Every other attempt from the start of the step begins with the same evaluations.
+            // Any other attempt from the start of the step begins with the same evaluations.
             Err(failure @ Failure::NonFinite { stage: Some(_), .. }) if !attempt.kept => {
                 return Err(failure);
             }
@@ -141,7 +141,7 @@ where
         }
         if course.stagnates(iteration, max_iterations) {
             let is_within = |size: f64| size <= ROUNDING * V::Scalar::EPSILON;
-            // The noise of derivatives at one point may be larger than it has to be.
+            // The noise with derivatives at one point may be larger than necessary.
             let may_be_noise = !attempt.gives_up || is_within(settling::<Separable>(&change));
             let is_noise = is_within(settling::<P::Class>(&change))
                 || may_be_noise && course.may_be_noise() && measurements < MOST_MEASUREMENTS && {
@@ -169,9 +169,9 @@ where
     Err(course.failure(max_iterations))
 }
 
-/// How large a change is: for a separable system the relative change of the positions, for where they rest, so do the forces, and
-/// the momenta follow. Momenta may rest before: beside one that is huge, the others change by nothing. For a general system it is the
-/// larger of both.
+/// Size of a change. For a separable system it is the relative change of the positions: if they stand still, so do the forces, and
+/// the momenta follow. Momenta may stand still earlier: beside a huge momentum, changes of the others are negligible. For a general
+/// system it is the larger of both relative changes.
 pub(super) fn size<C: Class>(change: &StageChange) -> f64 {
     if C::SEPARABLE {
         change.q.relative()
@@ -180,23 +180,23 @@ pub(super) fn size<C: Class>(change: &StageChange) -> f64 {
     }
 }
 
-/// How the changes have gone so far, by their [`size`].
+/// The history of the changes, measured by their [`size`].
 #[derive(Default)]
 struct Course {
     last: Option<StageChange>,
-    /// The smallest one, and sweeps since.
+    /// The smallest change, and the number of sweeps since.
     smallest: Option<f64>,
     idle: u32,
-    /// The last one that was at most half of this before, and sweeps since.
+    /// The last change that was at most half of the previous mark, and the number of sweeps since.
     mark: Option<f64>,
     slow: u32,
     largest: f64,
-    /// Sweeps in a row in which one half rested.
+    /// Number of consecutive sweeps in which one half stood still.
     resting: u32,
 }
 
 impl Course {
-    /// Takes note of a change; one below `floor` is not told from a smaller one.
+    /// Records a change; sizes below `floor` count as `floor`.
     fn note<C: Class>(&mut self, change: &StageChange, floor: f64) {
         let size = size::<C>(change).max(floor);
         self.last = Some(*change);
@@ -217,13 +217,13 @@ impl Course {
         };
     }
 
-    /// Whether the changes have stopped shrinking; at the bound one sweep without progress will do.
+    /// Whether the changes have stopped shrinking; at the bound, one sweep without progress suffices.
     const fn stagnates(&self, iteration: u32, max_iterations: u32) -> bool {
         let waited = iteration == max_iterations || self.idle > iteration / STAGNATION;
         self.idle > 0 && waited || self.slow >= SLOW || self.resting > 1
     }
 
-    /// Whether it is worthwhile to measure the noise: not while the iteration may be finding its way.
+    /// Whether it is worthwhile to measure the noise: not while the iteration may still be in its initial phase.
     fn may_be_noise(&self) -> bool {
         self.slow >= SLOW || self.resting > 1 || self.has_come_down()
     }
@@ -233,7 +233,7 @@ impl Course {
             .is_some_and(|smallest| smallest <= CONTRACTION * self.largest)
     }
 
-    /// Why it has not settled.
+    /// The reason why the iteration has not settled.
     fn failure(&self, iterations: u32) -> Failure {
         let residual = self.last.map_or(f64::INFINITY, |change| change.residual());
         let is_low = |smallest: f64| residual <= NOISIEST.min(ROUNDING * smallest);

@@ -17,7 +17,7 @@ macro_rules! forward {
     };
 }
 
-/// A number and its derivative.
+/// A dual number: a value and its derivative.
 impl Scalar for Dual64 {
     const EPSILON: f64 = f64::EPSILON;
 
@@ -58,7 +58,7 @@ impl Scalar for Dual64 {
     forward! { sqrt recip exp ln sin cos tan asin acos atan sinh cosh tanh }
 }
 
-/// A system over vectors of doubles and over vectors of dual numbers: every one that is written for every scalar.
+/// A system over vectors of doubles and over vectors of dual numbers. Every system that is generic over the scalar implements it.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a Hamiltonian system over the vectors `{V}` with dual numbers in place of doubles",
     label = "this needs a system that is written for every `Scalar`: `SeparableHamiltonian` or `Hamiltonian`"
@@ -67,8 +67,8 @@ pub trait SystemInDuals<V: Vector>: System<V> + System<V::With<Dual64>> {}
 
 impl<V: Vector, S> SystemInDuals<V> for S where S: System<V> + System<V::With<Dual64>> {}
 
-/// Dual numbers through the code of the system, which has to be written for every scalar: exact derivatives, one evaluation
-/// for each component or, of a band, for each of its columns.
+/// Derivatives by dual numbers, which pass through the code of the system. The system must be generic over the scalar. The derivatives
+/// are exact; they take one evaluation for each component or, for a band, for each of its columns.
 ///
 /// ```
 /// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
@@ -165,7 +165,7 @@ where
     }
 }
 
-/// A vector with the derivative 1 in every component whose number is that of the group, 0 in the others.
+/// A vector with derivative 1 in every component of this group, that is, with an index equal to `group` modulo `groups`, and 0 elsewhere.
 fn seed<V: Vector<Scalar = f64>>(out: &mut V::With<Dual64>, from: &V, group: usize, groups: usize) {
     let pairs = out.as_mut_slice().iter_mut().zip(from.as_slice());
     for (i, (out, &from)) in pairs.enumerate() {

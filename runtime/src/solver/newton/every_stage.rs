@@ -1,4 +1,4 @@
-//! One linear system for all stages, with the derivatives at each of them.
+//! Full Newton: one linear system for all stages, with the derivatives at each of them.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -9,30 +9,31 @@ use crate::number::Scalar;
 use crate::number::elimination::Elimination;
 use crate::system::Jacobian;
 
-/// All stages of a step, for a [`LinearSolver`](crate::solver::LinearSolver) that takes the derivatives at each of them.
+/// All stages of a step, for a [`LinearSolver`](crate::solver::LinearSolver) that evaluates the derivatives at each of them.
 #[derive(Clone, Copy, Debug)]
 pub struct EveryStage<'a, V> {
-    /// Positions of the stages, where the forces are.
+    /// Positions of the stages, at which the forces are evaluated.
     pub q: &'a [V],
-    /// Momenta of the stages, where the velocities are. Of a separable system there may be more of these than of positions, or fewer.
+    /// Momenta of the stages, at which the velocities are evaluated. In a separable system their number may differ from that of the
+    /// positions.
     pub p: &'a [V],
     /// Position and momentum at the start of the step, for evaluations that do not depend on them.
     pub start: (&'a V, &'a V),
     /// The times of the stages.
     pub times: &'a [f64],
-    /// `h a_ij` by rows: what a velocity `j` adds to a position `i`.
+    /// `h a_ij` by rows: coefficient of velocity `j` in position `i`.
     pub positions: &'a [f64],
-    /// `h ã_ij` by rows: what a force `j` adds to a momentum `i`.
+    /// `h ã_ij` by rows: coefficient of force `j` in momentum `i`.
     pub momenta: &'a [f64],
 }
 
 impl<'a, V> EveryStage<'a, V> {
-    /// The number of points to take derivatives at.
+    /// The number of points at which derivatives are evaluated.
     pub fn count(&self) -> usize {
         self.q.len().max(self.p.len())
     }
 
-    /// One of them.
+    /// Time, position and momentum of one of these points.
     pub fn point(&self, number: usize) -> (f64, &'a V, &'a V) {
         let time = self.times.get(number).copied().unwrap_or(f64::NAN);
         let q = self.q.get(number).unwrap_or(self.start.0);
@@ -40,7 +41,7 @@ impl<'a, V> EveryStage<'a, V> {
     }
 }
 
-/// Memory for that.
+/// Memory of full Newton.
 #[derive(Clone, Debug)]
 pub(super) struct AllStages<T> {
     pub(super) jacobians: Vec<Jacobian<T>>,
@@ -50,7 +51,7 @@ pub(super) struct AllStages<T> {
 }
 
 impl<T: Scalar> AllStages<T> {
-    /// For `points` stages with derivatives like these, `momenta` of which have a velocity.
+    /// For `points` stages with derivatives of the shape of `like`; `momenta` of the stages have a velocity.
     pub(super) fn new(like: &Jacobian<T>, points: usize, momenta: usize, separable: bool) -> Self {
         let (n, half) = (
             like.force_by_position.size(),
@@ -72,7 +73,7 @@ impl<T: Scalar> AllStages<T> {
         }
     }
 
-    /// Residuals become corrections, for a separable system: `x` of the velocities, `y` of the forces, stage by stage.
+    /// Turns residuals into corrections, for a separable system: `x` for the velocities, `y` for the forces, stage by stage.
     ///
     /// ```text
     /// x_j − V_j Σ_i ã_ji F_i Σ_l a_il x_l = ρ_j + V_j Σ_i ã_ji σ_i      y_i = σ_i + F_i Σ_l a_il x_l
@@ -132,7 +133,7 @@ impl<T: Scalar> AllStages<T> {
         Ok(())
     }
 
-    /// The same for a general system: of velocities and forces by turns.
+    /// Turns residuals into corrections, for a general system; `x` alternates between velocities and forces.
     pub(super) fn correct_general<V>(
         &mut self,
         stages: &EveryStage<'_, V>,
@@ -166,7 +167,7 @@ impl<T: Scalar> AllStages<T> {
     }
 }
 
-/// Solves for an unknown that stands stage by stage; the linear system has it component by component.
+/// Solves for an unknown that is stored stage by stage; the linear system orders it component by component.
 fn solve<T: Scalar>(
     elimination: &mut Elimination<T>,
     entry: impl Fn(usize, usize) -> T,
@@ -187,7 +188,7 @@ fn solve<T: Scalar>(
     Ok(())
 }
 
-/// What is wrong where derivatives are not finite.
+/// Error if derivatives are NaN or infinite.
 pub(super) const NOT_FINITE: Failure = Failure::NonFinite {
     what: Quantity::Derivative,
     stage: None,

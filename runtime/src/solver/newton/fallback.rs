@@ -1,4 +1,4 @@
-//! The fixed-point iteration first, and Newton's where it fails.
+//! The fixed-point iteration with a fallback to Newton's.
 
 use core::fmt;
 
@@ -15,13 +15,13 @@ use crate::solver::FixedPoint;
 use crate::solver::fixed_point::by_stages;
 use crate::system::System;
 
-/// Steps that are left to Newton's iteration after one that the fixed-point iteration has failed at.
+/// Steps that use Newton's iteration after a step in which the fixed-point iteration failed.
 const PATIENCE: u32 = 16;
 
-/// [`FixedPoint`](crate::solver::FixedPoint), and [`Newton`] where that fails: for systems that are stiff for a while.
+/// [`FixedPoint`](crate::solver::FixedPoint) with a fallback to [`Newton`], for systems that are stiff for some time.
 ///
-/// A step that the fixed-point iteration fails at is counted as [rejected](crate::Statistics::rejected); the next 16 go to
-/// Newton's at once. Where it fails too, the error is that of Newton's iteration.
+/// A step in which the fixed-point iteration fails is counted as [rejected](crate::Statistics::rejected). That step and the next 16
+/// use Newton's iteration. If it fails too, the error is that of Newton's iteration.
 ///
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
@@ -72,7 +72,7 @@ impl<L> fmt::Debug for FixedPointThenNewton<L> {
     }
 }
 
-/// The memory of [`FixedPointThenNewton`] for the plan `P`.
+/// The memory of [`FixedPointThenNewton`] for the method `P`.
 pub struct FixedPointThenNewtonMemory<
     V: Vector,
     P: StageTableau,
@@ -81,9 +81,9 @@ pub struct FixedPointThenNewtonMemory<
 > {
     fixed_point: P::Stages<V>,
     newton: NewtonMemory<V, P, S, L>,
-    /// Whether the step before was Newton's.
+    /// Whether the previous step used Newton's iteration.
     was_newton: bool,
-    /// Steps that are left to Newton's iteration.
+    /// Number of further steps that use Newton's iteration.
     waiting: u32,
 }
 
@@ -160,7 +160,7 @@ where
         R: Summation,
         S: System<V, Class = P::Class>,
     {
-        // What is kept is kept by the solver of the step before.
+        // A warm start is valid only if the same solver took the previous step.
         let if_kept = |is: bool| if is { kept } else { WarmStart::default() };
         let mut rejected = 0;
         if memory.waiting == 0 {
@@ -176,7 +176,7 @@ where
                 memory.was_newton = false;
                 return taken;
             }
-            // It is full of numbers that have run away.
+            // The stages have diverged: clear them.
             memory.fixed_point = StageStorage::like(step.q);
             (rejected, memory.waiting) = (1, PATIENCE + 1);
         }

@@ -1,19 +1,19 @@
-//! Where the derivatives of a system are from.
+//! Sources of the derivatives of a system.
 
 use core::fmt::Debug;
 
 use crate::number::{Scalar, Vector};
 use crate::system::{BandMatrix, Jacobian, System};
 
-/// Where the derivatives of a system `S` over the vectors `V` are from.
+/// A source of the derivatives of a system `S` over the vectors `V`.
 pub trait Derivatives<V: Vector, S: System<V>>: Copy + Debug + 'static {
-    /// What it needs, made once.
+    /// Its memory, allocated once.
     type Memory: Clone + Debug;
 
-    /// That, for vectors of the dimension of `prototype`.
+    /// Allocates the memory, for vectors of the dimension of `prototype`.
     fn memory(prototype: &V) -> Self::Memory;
 
-    /// Writes the derivatives at `(time, q, p)` into `jacobian`, which is zero before.
+    /// Writes the derivatives at `(time, q, p)` into `jacobian`, which is zero on entry.
     fn evaluate(
         memory: &mut Self::Memory,
         system: &S,
@@ -24,7 +24,7 @@ pub trait Derivatives<V: Vector, S: System<V>>: Copy + Debug + 'static {
     );
 }
 
-/// The [second derivatives](System::second_derivatives) that the system gives; [`Differences`] for a system that gives none.
+/// The [second derivatives](System::second_derivatives) that the system provides; otherwise [`Differences`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AnalyticOrDifferences;
 
@@ -50,14 +50,14 @@ impl<V: Vector, S: System<V>> Derivatives<V, S> for AnalyticOrDifferences {
     }
 }
 
-/// Quotients of central differences: for every system.
+/// Central difference quotients, for every system.
 ///
-/// About ten digits of a derivative are right, relative to the largest one: enough for a Newton iteration to converge fast as long as
-/// `h²` times that derivative is below 10⁸ or so. This never makes its result less precise.
+/// About ten digits of a derivative are correct, relative to the largest one. A Newton iteration then converges fast if
+/// `h²` times that derivative is below about 10⁸. Inexact derivatives never make the result less precise.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Differences;
 
-/// Memory of [`Differences`]: an argument next to the point, and the values on both sides.
+/// Memory of [`Differences`]: the shifted argument, and the values on both sides.
 type Pairs<V> = [V; 5];
 
 impl<V: Vector, S: System<V>> Derivatives<V, S> for Differences {
@@ -117,8 +117,8 @@ impl<V: Vector, S: System<V>> Derivatives<V, S> for Differences {
     }
 }
 
-/// Two fifths of the digits below the largest component: rounding and truncation make small errors both, and the neighbourhood is
-/// small.
+/// The step of the differences: `EPSILON^(2/5)` times the largest component. Rounding and truncation errors are then both small, and
+/// the neighbourhood is small.
 fn step<V: Vector>(vector: &V) -> f64 {
     let components = vector.as_slice().iter().map(|x| x.magnitude());
     let largest = components.fold(0.0, f64::max);
@@ -130,7 +130,7 @@ fn step<V: Vector>(vector: &V) -> f64 {
     }
 }
 
-/// Moves every component whose number is that of the group.
+/// Shifts every component of this group, that is, with an index equal to `group` modulo `groups`.
 fn shift<V: Vector>(out: &mut V, from: &V, by: f64, group: usize, groups: usize) {
     let pairs = out.as_mut_slice().iter_mut().zip(from.as_slice());
     for (i, (out, from)) in pairs.enumerate() {
@@ -142,14 +142,14 @@ fn shift<V: Vector>(out: &mut V, from: &V, by: f64, group: usize, groups: usize)
     }
 }
 
-/// How many groups of columns there are: those in one have no row in common, and are found together (Curtis, Powell &
+/// Number of groups of columns. Columns in a group have no row in common and are found together (Curtis, Powell &
 /// Reid, 1974).
 pub(super) fn groups<T: Scalar>(jacobian: &Jacobian<T>) -> usize {
     let matrix = &jacobian.force_by_position;
     (2 * matrix.half_bandwidth() + 1).min(matrix.size()).max(1)
 }
 
-/// Writes the derivatives in the direction of the columns of a group to their places.
+/// Writes the derivatives of a group of columns into the matrix.
 pub(super) fn scatter<T: Scalar>(
     matrix: &mut BandMatrix<T>,
     group: usize,

@@ -12,18 +12,18 @@ use crate::number::words::words;
 use crate::number::{Scalar, Vector, Visit, scalar_words};
 use crate::system::{BandMatrix, Class, Jacobian, System};
 
-/// How the parts of the unknown of a linear system depend on each other: the factor `γ` in `(1 − γ J) x = r`.
+/// Coupling between the parts of the unknown of a linear system: the factor `γ` in `(1 − γ J) x = r`.
 ///
-/// `J` is `∂velocity/∂p · ∂force/∂q`, n×n, for a separable system, with `γ ~ h²`. For a general one it is
+/// For a separable system `J` is `∂velocity/∂p · ∂force/∂q`, n×n, with `γ ~ h²`. For a general system it is
 /// `∂(velocity, force)/∂(q, p)`, 2n×2n, with `γ ~ h`; there the components of a vector are `q_1, p_1, q_2, p_2, …`
 #[derive(Clone, Copy, Debug)]
 pub enum Coupling<'a> {
-    /// A number.
+    /// A real number.
     Real(f64),
-    /// A complex number, its real and its imaginary part: of an unknown of two parts, `x_1 + i x_2`.
+    /// A complex number, by its real and imaginary part; the unknown has two parts, `x_1 + i x_2`.
     Complex(f64, f64),
-    /// A matrix over the stages: the columns of `J` are multiplied by the first one of the two if they belong to
-    /// positions, by the second one if they belong to momenta; `J` of a separable system is by the first.
+    /// Matrices over the stages. The columns of `J` that belong to positions are multiplied by the first matrix, those that belong
+    /// to momenta by the second. For a separable system all columns are multiplied by the first.
     Stages {
         /// The number of stages, and of parts of the unknown.
         count: usize,
@@ -34,19 +34,19 @@ pub enum Coupling<'a> {
     },
 }
 
-/// How many parts the unknown of a linear system has.
+/// The number of parts of the unknown of a linear system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parts {
     /// One: [`Coupling::Real`].
     One,
     /// Two: [`Coupling::Complex`].
     Two,
-    /// One a stage: [`Coupling::Stages`].
+    /// One per stage: [`Coupling::Stages`].
     Stages(usize),
 }
 
 impl Parts {
-    /// The number.
+    /// The number of parts.
     pub const fn count(self) -> usize {
         match self {
             Self::One => 1,
@@ -58,20 +58,20 @@ impl Parts {
 
 /// Solves the linear systems of a [`Newton`](crate::solver::Newton) iteration for a system `S` over the vectors `V`.
 ///
-/// [`BandOrDense`], [`Dense`] and [`Banded`] hold matrices. One that holds none, such as a Krylov method, notes the point in
-/// [`linearize`](Self::linearize), has nothing or a preconditioner to do in [`factor`](Self::factor), and applies the
-/// derivatives of the system where it solves: it needs to solve no more exactly than the iteration has to contract.
+/// [`BandOrDense`], [`Dense`] and [`Banded`] store matrices. A solver without matrices, such as a Krylov method, stores the point in
+/// [`linearize`](Self::linearize). In [`factor`](Self::factor) it computes at most a preconditioner, and in
+/// [`solve`](Self::solve) it applies the derivatives of the system. It need not solve more exactly than the iteration has to contract.
 pub trait LinearSolver<V: Vector, S: System<V>>: Copy + Debug + 'static {
-    /// What it needs, made once and used for every step.
+    /// Its memory, allocated once and used for every step.
     type Memory: Clone + Debug;
 
-    /// That, for vectors of the dimension of `prototype`, and linear systems with these parts.
+    /// Allocates the memory, for vectors of the dimension of `prototype` and linear systems with these parts.
     fn memory(prototype: &V, systems: &[Parts]) -> Self::Memory;
 
-    /// Shows `visit` all numbers that are left for the next step, the factors of the linear systems say: a checkpoint holds them.
+    /// Passes to `visit` all numbers that the next step uses, such as the factors of the linear systems: a checkpoint stores them.
     fn words(memory: &mut Self::Memory, visit: &mut Visit<'_>);
 
-    /// Takes the derivatives at `(time, q, p)` from here on; returns whether they are finite.
+    /// Evaluates the derivatives at `(time, q, p)` for the following calls; returns whether they are finite.
     fn linearize(memory: &mut Self::Memory, system: &S, time: V::Scalar, q: &V, p: &V) -> bool;
 
     /// Prepares the linear system with this number, from 0; returns whether it is regular.
@@ -82,7 +82,7 @@ pub trait LinearSolver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     /// its parts.
     fn solve(memory: &mut Self::Memory, system: &S, number: usize, unknown: &mut [V::Scalar]);
 
-    /// Writes `∂velocity/∂p · vector`; asked for separable systems only.
+    /// Writes `∂velocity/∂p · vector`; called for separable systems only.
     fn velocity_by_momentum(
         memory: &Self::Memory,
         system: &S,
@@ -90,7 +90,7 @@ pub trait LinearSolver<V: Vector, S: System<V>>: Copy + Debug + 'static {
         product: &mut [V::Scalar],
     );
 
-    /// Writes `∂force/∂q · vector`; asked for separable systems only.
+    /// Writes `∂force/∂q · vector`; called for separable systems only.
     fn force_by_position(
         memory: &Self::Memory,
         system: &S,
@@ -101,14 +101,14 @@ pub trait LinearSolver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     /// Whether [`correct`](Self::correct) is implemented.
     const EVERY_STAGE: bool = false;
 
-    /// Full Newton: takes the derivatives at every stage, and makes corrections of the residuals `x` of `h velocity` and `y` of
-    /// `h force`, stage by stage; of a general system both are in `x`, component by component by turns.
+    /// Full Newton: evaluates the derivatives at every stage, and turns residuals into corrections, in place. `x` holds the residuals of
+    /// `h velocity` and `y` those of `h force`, stage by stage. For a general system `x` holds both, alternating component by component.
     ///
-    /// [`Newton`](crate::solver::Newton) asks for it where derivatives at one point do not contract well.
+    /// [`Newton`](crate::solver::Newton) calls it if derivatives at one point contract too slowly.
     ///
     /// # Errors
     ///
-    /// [`Failure::NonFinite`], where a derivative is not finite; [`Failure::SingularMatrix`].
+    /// [`Failure::NonFinite`] if a derivative is NaN or infinite; [`Failure::SingularMatrix`] if the linear system is singular.
     fn correct(
         _memory: &mut Self::Memory,
         _system: &S,
@@ -120,8 +120,8 @@ pub trait LinearSolver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     }
 }
 
-/// Bands as wide as the [half bandwidth](System::half_bandwidth) of the system says, with derivatives from `D`; full matrices for a
-/// system that does not know it.
+/// Band matrices with the [half bandwidth](System::half_bandwidth) of the system, and derivatives from `D`. A system with an unknown
+/// half bandwidth gets full matrices.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BandOrDense<D>(PhantomData<D>);
 
@@ -129,9 +129,9 @@ pub struct BandOrDense<D>(PhantomData<D>);
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Dense<D>(PhantomData<D>);
 
-/// Bands, with derivatives from `D`: those of a component are zero but by the `HALF` components before and after it.
+/// Band matrices, with derivatives from `D`: a component depends only on the `HALF` components before and after it.
 ///
-/// Entries outside are left out. Those that are small make the iteration slower, and never its result wrong.
+/// Entries outside the band are neglected. If they are small, the iteration is slower, but its result is never wrong.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Banded<const HALF: usize, D>(PhantomData<D>);
 
@@ -145,7 +145,7 @@ pub struct Matrices<T, D> {
     /// The matrix `J` of [`Coupling`].
     matrix: BandMatrix<T>,
     factors: Vec<Factors<T>>,
-    /// Made when first needed.
+    /// Allocated when first needed.
     all_stages: Option<AllStages<T>>,
 }
 
@@ -177,7 +177,7 @@ impl<T: Scalar, D> Matrices<T, D> {
         matrices
     }
 
-    /// Makes room for derivatives of this half bandwidth.
+    /// Allocates matrices for derivatives of this half bandwidth.
     fn allocate(&mut self, half_bandwidth: usize) {
         let dimension = self.jacobian.force_by_position.size();
         self.jacobian = Jacobian::new(dimension, half_bandwidth);
@@ -200,7 +200,7 @@ impl<T: Scalar, D> Matrices<T, D> {
         self.all_stages = None;
     }
 
-    /// The same for another half bandwidth; nothing is done if it is the present one.
+    /// Allocates anew for another half bandwidth; does nothing if it has not changed.
     fn fit(&mut self, half_bandwidth: usize) {
         let matrix = &self.jacobian.force_by_position;
         if matrix.half_bandwidth() != half_bandwidth.min(matrix.size().saturating_sub(1)) {
@@ -208,7 +208,7 @@ impl<T: Scalar, D> Matrices<T, D> {
         }
     }
 
-    /// The derivatives, and the factors made of them; those of all stages are made anew in every sweep.
+    /// Visits the derivatives and the factors computed from them; those of all stages are recomputed in every sweep.
     fn words(&mut self, visit: &mut Visit<'_>) {
         let mut half_bandwidth = self.jacobian.force_by_position.half_bandwidth();
         words!(visit: half_bandwidth);
@@ -236,7 +236,7 @@ impl<T: Scalar, D> Matrices<T, D> {
         }
     }
 
-    /// Makes the matrix of the derivatives.
+    /// Computes the matrix `J` from the derivatives.
     fn assemble(&mut self, separable: bool) {
         let Jacobian {
             velocity_by_position,
@@ -433,7 +433,7 @@ macro_rules! matrices {
     };
 }
 
-// The half bandwidth that there is room for at first, and that of a system.
+// The initial half bandwidth, and that of a system.
 matrices!([] BandOrDense<D>, 0, |system: &S| system.half_bandwidth());
 matrices!([] Dense<D>, usize::MAX, |_: &S| usize::MAX);
 matrices!([const HALF: usize] Banded<HALF, D>, HALF, |_: &S| HALF);

@@ -1,4 +1,4 @@
-//! What a Newton iteration keeps.
+//! Memory of the Newton iteration.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -15,59 +15,59 @@ use crate::number::words::words;
 use crate::number::{Vector, Visit, vector_words};
 use crate::system::{Class, System};
 
-/// The memory of a [`Newton`](crate::solver::Newton) iteration for the plan `P`.
+/// The memory of a [`Newton`](crate::solver::Newton) iteration for the method `P`.
 pub struct NewtonMemory<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> {
     /// Stage values.
     pub(super) q: Vec<V>,
     pub(super) p: Vec<V>,
-    /// Evaluations there.
+    /// Evaluations at the stages.
     pub(super) velocity: Vec<V>,
     pub(super) force: Vec<V>,
-    /// Increments of the position and of the momentum, in the form of the plan.
+    /// Increments of the position and of the momentum, in the scaling that the tableau uses.
     pub(super) u: Vec<V>,
     pub(super) w: Vec<V>,
     /// A point in the middle of the stages.
     pub(super) middle: (V, V),
-    /// Residuals and corrections, one stage after another: of `h velocity` and `h force`, or, of a general system, of both
-    /// in `x`, by turns.
+    /// Residuals and corrections, stage by stage: of `h velocity` in `x` and `h force` in `y`. For a general system `x` holds both,
+    /// alternating.
     pub(super) x: Vec<V::Scalar>,
     pub(super) y: Vec<V::Scalar>,
-    /// The same after the transformation, and the unknown of one linear system.
+    /// `x` after the transformation that decouples the stages, and the unknown of one linear system.
     pub(super) transformed: Vec<V::Scalar>,
     pub(super) unknown: Vec<V::Scalar>,
-    /// Two vectors.
+    /// Two scratch vectors.
     pub(super) vectors: [Vec<V::Scalar>; 2],
-    /// Matrices over the stages, where these stay coupled.
+    /// Coupling matrices over the stages, for methods without a decoupling.
     pub(super) couplings: [Vec<f64>; 2],
     pub(super) linear: L::Memory,
-    /// The step size that the factors are for.
+    /// The step size for which the systems were factored.
     pub(super) factored: Option<f64>,
-    /// Whether the derivatives are to be taken anew.
+    /// Whether the derivatives must be recomputed.
     pub(super) stale: bool,
-    /// The largest factor from one change to the next in this step.
+    /// The largest contraction rate of this step.
     pub(super) contraction: f64,
-    /// How often the linear systems were factored in this step.
+    /// Number of factorisations of the linear systems in this step.
     pub(super) factorisations: u32,
     /// The times of all stages, and `h a_ij` and `h ã_ij` by rows: for derivatives at every stage.
     pub(super) times: Vec<f64>,
     pub(super) scaled: [Vec<f64>; 2],
-    /// Steps that are left to the derivatives at every stage.
+    /// Number of further steps that use the derivatives at every stage.
     pub(super) steps_in_full: u32,
-    /// Residuals, to tell their noise by.
+    /// Copies of the residuals, for the measurement of their noise.
     pub(super) residuals: [Vec<V::Scalar>; 2],
-    /// The first change of this step, if it began with extrapolated values.
+    /// The first change of this step, if it began with extrapolated starting values.
     pub(super) first_change: Option<f64>,
-    /// Steps to go before starting values are extrapolated again.
+    /// Number of steps before starting values are extrapolated again.
     pub(super) waiting: u32,
     plan: PhantomData<(P, S)>,
 }
 
-/// The number of components that a linear system has for each part, for vectors of dimension `n`.
+/// The number of rows of a linear system per part of its unknown, for vectors of dimension `n`.
 pub(super) const fn rows<P: StageTableau>(n: usize) -> usize {
     if P::Class::SEPARABLE { n } else { 2 * n }
 }
 
-/// The linear systems of a plan.
+/// The linear systems of a method.
 fn systems<P: StageTableau>() -> Vec<Parts> {
     let Some(decoupling) = P::DECOUPLING else {
         return vec![Parts::Stages(P::MOMENTA.count)];
@@ -152,7 +152,7 @@ impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStora
         }
     }
 
-    /// What a step begins with: the increments that stages are extrapolated from, the factors, and what the steps before were like.
+    /// What the next step starts from: increments for the extrapolation, factors, and the contraction history.
     fn words(&mut self, visit: &mut Visit<'_>) {
         for vectors in [
             &mut self.q,

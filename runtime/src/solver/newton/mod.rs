@@ -30,47 +30,51 @@ use crate::system::System;
 use convergence::settle;
 use sweep::ByIncrements;
 
-/// The simplified Newton iteration, for stiff and strongly coupled systems; `L`, a [`LinearSolver`], solves its linear
-/// systems. [`by_newton`](crate::Integrator::by_newton) takes what the system knows of its second derivatives:
-/// [`BandOrDense`] matrices, [`AnalyticOrDifferences`]. Another choice is named: [`Dense`] or [`Banded`] matrices, of dual numbers or
-/// [`Differences`].
+/// The simplified Newton iteration, for stiff and strongly coupled systems. The [`LinearSolver`] `L` solves its linear
+/// systems. [`by_newton`](crate::Integrator::by_newton) uses what the system provides of its second derivatives:
+/// [`BandOrDense`] matrices, [`AnalyticOrDifferences`]. Alternatives are named explicitly: [`Dense`] or [`Banded`] matrices, with dual
+/// numbers or [`Differences`].
 ///
-/// The unknowns are the increments `h velocity_j` and `h force_j`, not the stages: in a stiff system the evaluation at a
-/// rounded stage is off by the rounding error times the stiffness, and a solution of the linear system is not. With the
+/// The unknowns are the increments `h velocity_j` and `h force_j`, not the stages. In a stiff system, the evaluation at a
+/// rounded stage has the rounding error times the stiffness; the solution of the linear system does not. With the
 /// derivatives at one point in the middle of the stages, and the residuals `ρ`, the correction of a separable system is
 ///
 /// ```text
 /// (1 − h² ÃA ⊗ ∂v/∂p ∂f/∂q) x = ρ_v + h Ã ⊗ ∂v/∂p ρ_f      y = ρ_f + h A ⊗ ∂f/∂q x
 /// ```
 ///
-/// and that of a general one `(1 − h A ⊗ J) (x, y) = (ρ_v, ρ_f)`, where the columns of `y` have `Ã`. The stages are
-/// decoupled by the [`Decoupling`](crate::solver::Decoupling) of the method, so that in place of one matrix with sn rows there are
-/// s/2 complex ones with n, as in Hairer & Wanner, *Solving ODEs II*, IV.8.
+/// and that of a general system is `(1 − h A ⊗ J) (x, y) = (ρ_v, ρ_f)`, where the columns of `y` have `Ã`. The
+/// [`Decoupling`](crate::solver::Decoupling) of the method decouples the stages: s/2 complex matrices with n rows replace
+/// one matrix with sn rows (Hairer & Wanner, *Solving ODEs II*, IV.8).
 ///
 /// # Derivatives
 ///
-/// The factors are kept from step to step. They are computed anew if the step size changes, if nothing is [kept](WarmStart::stages) of the
-/// step before, after a step in which the change shrank by less than a factor of 32 a sweep, and at once if the contraction forecasts more
-/// than 16 sweeps. Derivatives at one point cannot do for all stages where a stiff direction turns within the step, as on a pendulum with a
-/// spring of frequency ω if `h²ω` is above 1. If renewed ones still contract too slowly, the step starts again by full Newton, with the
-/// derivatives of every stage in every sweep ([`LinearSolver::correct`]), and so do the next 16 steps.
+/// The factors are kept from step to step. They are recomputed if the step size changes, or if nothing is [kept](WarmStart::stages) of
+/// the previous step. They are also recomputed after a step in which the change shrank by less than a factor of 32 per sweep. They are
+/// recomputed within the step if the contraction rate predicts more than 16 sweeps.
+///
+/// Derivatives at one point do not suffice for all stages if a stiff direction turns within the step. An example is a pendulum with a
+/// spring of frequency ω if `h²ω` is above 1. If recomputed derivatives still contract
+/// too slowly, the step starts again with full Newton, with the derivatives of every stage in every sweep
+/// ([`LinearSolver::correct`]). The next 16 steps also use full Newton.
 ///
 /// # Convergence
 ///
-/// The iteration stops if the change of the stages no longer shrinks and is at the level of rounding, so that the energy does not drift
-/// by what is left:
+/// The iteration stops if the change of the stages no longer shrinks and is at the level of rounding. The remaining error then
+/// causes no energy drift.
 ///
-/// * The change stagnates if it has not become smaller for one sweep and a sixteenth of all, or has not halved in three.
-/// * It is at the level of rounding at 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) of the largest position or momentum: of
-///   either for a separable system. Otherwise the noise is measured: the arguments of
+/// * The change stagnates if it has not halved in three sweeps. It also stagnates if it has not become smaller for at least one
+///   sweep and more than a sixteenth of all sweeps.
+/// * The level of rounding is 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) of the largest position or
+///   momentum; one half suffices for a separable system. Otherwise the noise is measured: the arguments of
 ///   all evaluations move by one unit, and a change up to 16 times the response is noise. A stiff spring `k (r − 1)` is evaluated with an
-///   error of `k` units; momenta then are uncertain by `1/h` units of the positions.
+///   error of `k` units; momenta are then uncertain by `1/h` units of the positions.
 ///
-/// With [`Plain`](crate::Plain) sums it stops earlier, as [`FixedPoint`](crate::solver::FixedPoint) does. The change that was left is
+/// With [`Plain`](crate::Plain) sums it stops earlier, as [`FixedPoint`](crate::solver::FixedPoint) does. The remaining change is
 /// [`Statistics::largest_residual`](crate::Statistics::largest_residual).
 ///
-/// A step fails with [`Error::NoConvergence`](crate::Error::NoConvergence) if full Newton does not converge either, and with
-/// [`Error::Stagnation`](crate::Error::Stagnation) if it comes down but stands still far above rounding: the evaluations are noisier.
+/// A step fails with [`Error::NoConvergence`](crate::Error::NoConvergence) if full Newton does not converge either. It fails with
+/// [`Error::Stagnation`](crate::Error::Stagnation) if the change shrinks but stagnates far above rounding: the evaluations are noisier.
 ///
 /// ```
 /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }

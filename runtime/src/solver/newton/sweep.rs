@@ -17,34 +17,34 @@ use crate::number::summation::add;
 use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, System};
 
-/// A change that goes on by more than this factor makes the derivatives stale for the next step.
+/// A contraction rate above this makes the derivatives stale for the next step.
 const GOOD: f64 = 1.0 / 32.0;
 
-/// Changes of so many units of EPSILON are rounding errors, in the forecast of how many sweeps an iteration takes.
+/// Changes of this many units of EPSILON count as rounding errors in the prediction of the number of sweeps.
 const ROUNDING: f64 = 16.0;
 
-/// Changes below this many units of EPSILON may be noise, and say nothing about the contraction.
+/// Changes below this many units of EPSILON may be noise; their ratio says nothing about the contraction rate.
 const NOISE: f64 = 16384.0;
 
-/// Steps without extrapolated starting values after one in which they were worse than the start of the step.
+/// Steps without extrapolated starting values after a step in which they were worse than the start of the step.
 const PATIENCE: u32 = 16;
 
-/// The increments of a plan, all corrected at once in a sweep.
+/// The increments of a method; each sweep corrects all of them simultaneously.
 pub(super) struct ByIncrements<'a, P, R, V: Vector, S: System<V>, L: LinearSolver<V, S>> {
     step: &'a Step<'a, V>,
     system: &'a S,
     memory: &'a mut NewtonMemory<V, P, S, L>,
-    /// The change in the sweep before.
+    /// The change in the previous sweep.
     last: f64,
     /// Sweeps made.
     sweeps: u32,
-    /// Sweeps since the matrices were factored, or since the beginning.
+    /// Sweeps since the matrices were factored, or since the start of the step.
     since: u32,
-    /// Whether the derivatives are taken at every stage, anew in every sweep.
+    /// Whether the derivatives are evaluated at every stage, anew in every sweep.
     in_full: bool,
-    /// Whether the derivatives were taken anew within the step.
+    /// Whether the derivatives were recomputed within the step.
     renewed: bool,
-    /// Whether it contracts too slowly with derivatives that were taken anew.
+    /// Whether the iteration contracts too slowly even with recomputed derivatives.
     slow: bool,
     sums: PhantomData<R>,
 }
@@ -82,22 +82,22 @@ where
         (P::POSITIONS.count + P::MOMENTA.count) as u32
     }
 
-    /// When the step starts.
+    /// Time at the start of the step.
     pub(super) const fn time(&self) -> f64 {
         self.step.time
     }
 
-    /// How many steps are left to the derivatives at every stage.
+    /// Number of further steps that use the derivatives at every stage.
     pub(super) const fn steps_in_full(&mut self) -> &mut u32 {
         &mut self.memory.steps_in_full
     }
 
-    /// Whether it contracts too slowly with derivatives at one point that were taken anew.
+    /// Whether the iteration contracts too slowly even with recomputed derivatives at one point.
     pub(super) const fn is_slow(&self) -> bool {
         self.slow
     }
 
-    /// Starting values, and derivatives there if there are none.
+    /// Computes the starting values, and the derivatives there if they are missing, stale or factored for another step size.
     pub(super) fn begin(&mut self, attempt: Attempt) -> Result<(), Failure> {
         let memory = &mut *self.memory;
         (self.last, self.sweeps, self.since) = (f64::NAN, 0, 0);
@@ -121,7 +121,7 @@ where
         }
         self.values();
         if self.in_full {
-            // Those at one point have nothing to do with the steps after this one.
+            // The derivatives at one point are out of date for the following steps.
             self.memory.stale = true;
             self.scale();
             Ok(())
@@ -132,17 +132,17 @@ where
         }
     }
 
-    /// The first evaluation that is not finite although its argument is.
+    /// The first evaluation that is NaN or infinite although its argument is finite.
     pub(super) fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.memory.non_finite()
     }
 
-    /// The first stage, from 1, whose force is not finite.
+    /// The first stage, from 1, whose force is NaN or infinite.
     pub(super) fn non_finite_force(&self) -> Option<usize> {
         first_non_finite_of(&self.memory.force)
     }
 
-    /// Corrects all increments; returns how much that moved the stages.
+    /// Corrects all increments; returns the change of the stages.
     pub(super) fn sweep(&mut self) -> Result<StageChange, Failure> {
         self.evaluate();
         self.residuals();
@@ -153,8 +153,8 @@ where
         Ok(change)
     }
 
-    /// By how much rounding alone moves the positions and the momenta of the stages in a sweep: what comes out of it where their
-    /// components are off by a unit of EPSILON, up or down.
+    /// How far rounding alone moves the positions and the momenta of the stages in a sweep. It is the response of the sweep to
+    /// components that are off by one unit of EPSILON, up or down.
     pub(super) fn noise(&mut self) -> Result<[f64; 2], Failure> {
         self.evaluate();
         self.residuals();
@@ -184,8 +184,8 @@ where
         Ok(noise)
     }
 
-    /// Writes the result of the step, and decides what is kept for the next one; returns how often the linear systems were
-    /// factored.
+    /// Writes the result of the step, and decides what is kept for the next one; returns the number of factorisations of the linear
+    /// systems.
     pub(super) fn finish(self, outcome: Outcome<'_, V>) -> u32 {
         let Self { step, memory, .. } = self;
         let Outcome { q, q_low, p, p_low } = outcome;
@@ -218,7 +218,7 @@ where
             force,
             ..
         } = &mut *self.memory;
-        // Of a separable system there may be more of one half than of the other, and what it does not read is at hand.
+        // In a separable system the numbers of positions and momenta may differ. The argument that is not read is the start of the step.
         for (i, (q, force)) in q.iter().zip(force).enumerate() {
             let p = if P::Class::SEPARABLE {
                 self.step.p
@@ -240,7 +240,7 @@ where
         }
     }
 
-    /// How much `h velocity` and `h force` are off the increments.
+    /// Computes the residuals: `h velocity` and `h force` minus the current increments.
     fn residuals(&mut self) {
         let (h, n) = (self.step.size, self.step.q.dimension());
         let NewtonMemory {
@@ -275,7 +275,7 @@ where
         }
     }
 
-    /// Residuals become corrections.
+    /// Turns the residuals into corrections.
     fn correct(&mut self) -> Result<(), Failure> {
         if self.in_full {
             let corrected = self.correct_in_full();
@@ -289,7 +289,7 @@ where
         Ok(())
     }
 
-    /// That with the derivatives at every stage.
+    /// Corrects with the derivatives at every stage.
     fn correct_in_full(&mut self) -> Result<(), Failure> {
         let NewtonMemory {
             q,
@@ -314,7 +314,7 @@ where
         Ok(())
     }
 
-    /// The coefficients for that.
+    /// Computes the coefficients for [`correct_in_full`](Self::correct_in_full).
     fn scale(&mut self) {
         let Step { time, size: h, .. } = *self.step;
         let NewtonMemory {
@@ -324,7 +324,7 @@ where
         } = &mut *self.memory;
         let (of_q, of_p) = (P::POSITIONS.count, P::MOMENTA.count);
         for (i, stage) in times.iter_mut().enumerate() {
-            // Of a system that depends on time a force and a velocity may have times of their own: derivatives are taken between.
+            // In a system that depends on time, force and velocity of a stage may have different times: derivatives are evaluated halfway.
             let forces = P::POSITIONS.times.get(i.min(of_q.saturating_sub(1)));
             let velocities = P::MOMENTA.times.get(i.min(of_p.saturating_sub(1)));
             let sum = forces.unwrap_or(&0.5) + velocities.unwrap_or(&0.5);
@@ -338,7 +338,7 @@ where
         }
     }
 
-    /// How far the corrections reach in the positions and in the momenta of the stages.
+    /// The largest changes that the corrections cause in the positions and in the momenta of the stages.
     fn extent(&self) -> [f64; 2] {
         let n = self.step.q.dimension();
         let rows = rows::<P>(n);
@@ -355,7 +355,7 @@ where
         [q, p]
     }
 
-    /// Residuals become corrections, for a separable system.
+    /// Turns the residuals into corrections, for a separable system.
     fn correct_separable(&mut self) {
         let (h, n) = (self.step.size, self.step.q.dimension());
         for j in 0..P::MOMENTA.count {
@@ -455,7 +455,7 @@ where
         }
     }
 
-    /// Stage values from the increments; returns how much they changed.
+    /// Computes stage values from the increments; returns their change.
     fn values(&mut self) -> StageChange {
         let step = self.step;
         let NewtonMemory { q, p, u, w, .. } = &mut *self.memory;
@@ -466,7 +466,7 @@ where
         }
     }
 
-    /// Decides from a change whether the derivatives at one point are still good enough.
+    /// Decides from a change whether the derivatives at one point are still accurate enough.
     fn judge(&mut self, change: &StageChange) -> Result<(), Failure> {
         if self.sweeps == 0 && self.memory.first_change.is_some() {
             self.memory.first_change = Some(size::<P::Class>(change));
@@ -497,7 +497,7 @@ where
         Ok(())
     }
 
-    /// What ends the iteration. Once it has begun the stages may be anywhere, and it is the iteration that has failed.
+    /// The error that ends the iteration. After the first sweep the stages may have diverged, so the error is a lack of convergence.
     const fn failure(&self, failure: Failure) -> Failure {
         if self.sweeps == 0 {
             failure
@@ -509,7 +509,7 @@ where
         }
     }
 
-    /// Takes the derivatives anew, if they are stale, and factors the linear systems.
+    /// Recomputes the derivatives, if they are stale, and factors the linear systems.
     fn factor(&mut self) -> Result<(), Failure> {
         let (step, system) = (self.step, self.system);
         let h = step.size;
@@ -573,7 +573,7 @@ where
     }
 }
 
-/// What a velocity or a force is multiplied by to be an increment, and what an increment is multiplied by to be
+/// The factor that scales a velocity or a force to an increment, and the factor that scales an increment to
 /// `h velocity` or `h force`.
 fn factors<P: StageTableau, V: Vector>(
     half: &HalfTableau,
@@ -588,7 +588,7 @@ fn factors<P: StageTableau, V: Vector>(
     (V::Scalar::from_f64(factor), V::Scalar::from_f64(unit))
 }
 
-/// What `h velocity` or `h force` is multiplied by to be an increment.
+/// The factor that scales `h velocity` or `h force` to an increment.
 fn increment<P: StageTableau>(half: &HalfTableau, stage: usize, h: f64) -> f64 {
     if P::INCREMENTS {
         half.weights[stage]
@@ -617,7 +617,7 @@ fn momentum<P: StageTableau>(i: usize, j: usize) -> f64 {
     P::MOMENTA.columns[j][i] * weight
 }
 
-/// Moves every component by a unit of EPSILON, up or down as good as at random.
+/// Moves every component by one unit of EPSILON, up or down in a pseudo-random pattern.
 fn jog<V: Vector>(values: &mut V, stage: usize) {
     for (k, value) in values.as_mut_slice().iter_mut().enumerate() {
         let up = ((stage * 7 + k * 5 + stage * k) % 3).is_multiple_of(2);
@@ -630,7 +630,7 @@ fn jog<V: Vector>(values: &mut V, stage: usize) {
     }
 }
 
-/// The largest component of `Σ_j factor(i, j) value(j)` over all `i`, of sums of as many terms as the second count says.
+/// The largest component of `Σ_j factor(i, j) value(j)` over all `i`; `sums` counts the `i`, `terms` the `j`.
 fn largest_sum<T: Scalar>(
     dimension: usize,
     (sums, terms): (usize, usize),
@@ -650,7 +650,7 @@ fn largest_sum<T: Scalar>(
     largest
 }
 
-/// One component of a sum over the stages.
+/// One component of a linear combination of the stages.
 #[inline(always)]
 fn dot<T: Scalar>(row: &[f64], stages: &[T], rows: usize, component: usize) -> T {
     let mut sum = T::zero();
@@ -660,10 +660,10 @@ fn dot<T: Scalar>(row: &[f64], stages: &[T], rows: usize, component: usize) -> T
     sum
 }
 
-/// `sum = Σ_j factor(j) vectors_j`, of vectors one after another.
+/// `sum = Σ_j factor(j) vectors_j`, for vectors stored one after another.
 fn combine<V: Vector>(sum: &mut [V::Scalar], vectors: &[V::Scalar], factor: impl Fn(usize) -> f64) {
     sum.fill(V::Scalar::zero());
-    // No chunks of no components.
+    // `chunks_exact` does not allow chunks of length zero.
     for (j, vector) in vectors.chunks_exact(sum.len().max(1)).enumerate() {
         let factor = V::Scalar::from_f64(factor(j));
         let components = sum.iter_mut().zip(vector);
@@ -671,7 +671,7 @@ fn combine<V: Vector>(sum: &mut [V::Scalar], vectors: &[V::Scalar], factor: impl
     }
 }
 
-/// Stage values `base + low + factor Σ_j columns_j increments_j`; returns how much they changed.
+/// Computes the stage values `base + low + factor Σ_j columns_j increments_j`; returns their change.
 fn values<R: Summation, V: Vector>(
     half: &HalfTableau,
     factor: f64,
@@ -699,7 +699,7 @@ fn values<R: Summation, V: Vector>(
     change
 }
 
-/// How far the stages are from the start of the step.
+/// Distance of the stages from the start of the step.
 fn moved<V: Vector>(values: &[V], base: &V) -> HalfChange {
     let mut change = HalfChange::default();
     for value in values {
@@ -709,7 +709,7 @@ fn moved<V: Vector>(values: &[V], base: &V) -> HalfChange {
     change
 }
 
-/// The mean of some vectors.
+/// The mean of these vectors.
 fn mean<V: Vector>(out: &mut V, vectors: &[V]) {
     clear(out);
     let factor = V::Scalar::from_f64((vectors.len() as f64).recip());
@@ -723,7 +723,7 @@ fn clear<V: Vector>(vector: &mut V) {
     vector.as_mut_slice().fill(V::Scalar::zero());
 }
 
-/// Increments from those of the step before; `scratch` has a place for each stage at least.
+/// Extrapolates the increments from those of the previous step; `scratch` has at least one entry for each stage.
 fn extrapolate<V: Vector>(half: &HalfTableau, increments: &mut [V], scratch: &mut [V::Scalar]) {
     let n = increments.first().map_or(0, V::dimension);
     for k in 0..n {
@@ -739,7 +739,7 @@ fn extrapolate<V: Vector>(half: &HalfTableau, increments: &mut [V], scratch: &mu
     }
 }
 
-/// The result of a step from the increments of one half.
+/// Computes one half of the result of a step from its increments.
 fn total<R: Summation, P: StageTableau, V: Vector>(
     h: f64,
     half: &HalfTableau,

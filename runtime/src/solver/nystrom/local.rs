@@ -1,4 +1,4 @@
-//! Second-order systems whose force is local: positions of stages that need not go to memory.
+//! Second-order systems whose force is local: positions of stages that need not be stored in memory.
 
 use core::marker::PhantomData;
 use core::mem;
@@ -22,7 +22,7 @@ use crate::system::SystemInLanes;
 use crate::system::SystemLanes;
 use crate::system::{Class, Components, StageRows, System};
 
-/// Whether stages are iterated along the components: for vectors on the heap, where all stages of a component are in one group.
+/// Whether stages are iterated along the components: for vectors on the heap, with all stages of a component in one group.
 #[inline(always)]
 pub(super) fn is_local<P: StageTableau, V: Vector, S: SystemInLanes<V>>() -> bool {
     <S as System<V>>::LOCAL_FORCE
@@ -35,16 +35,16 @@ pub(super) fn is_local<P: StageTableau, V: Vector, S: SystemInLanes<V>>() -> boo
         && P::POSITIONS.count <= P::Lanes::WIDTH
 }
 
-/// The forces at the positions of the stages, which are made from those of the sweep before where they are needed. What a sweep
-/// has moved is by how much the next positions can differ from those that it was made at.
+/// The forces at the positions of the stages. Positions are computed from the forces of the previous sweep where they are needed.
+/// The movement of a sweep bounds how far the next positions can differ from the positions of that sweep.
 ///
-/// Where an iteration does not settle in its first sweeps it goes on by [`Positions`], with positions in memory.
+/// An iteration that does not settle in its early sweeps continues with [`Positions`], whose positions are in memory.
 pub(super) struct Locally<'p, 'a, P: StageTableau, R, V: Vector, S> {
     positions: &'p mut Positions<'a, P, R, V, S>,
-    /// The largest component of the positions at the start of the step, and of those that the stages start from: sweeps make positions,
-    /// and no more of them.
+    /// The largest component of the positions at the start of the step and of the starting values of the stages. Sweeps do not
+    /// update it.
     largest: P::Lanes,
-    /// How many sweeps the step before took, but for one where that came from a coin.
+    /// Number of sweeps of the previous step, without the sweep that `dither_last_sweep` may have added.
     sweeps_before: u32,
 }
 
@@ -55,8 +55,8 @@ where
     V: Vector<Scalar = f64>,
     S: SystemInLanes<V>,
 {
-    /// How many sweeps are looked at where a step takes as many as that before: those in which changes come down to rounding, go on
-    /// shrinking, and stop. With plain sums the last one is foreseen from the two before it. Where fewer sweeps would do, one or two less
+    /// Number of sweeps that are examined if a step takes as many as the previous one. In them the changes come down to rounding, shrink
+    /// further, and stop. With plain sums the last one is predicted from the two before it. If fewer sweeps suffice, one or two fewer
     /// are made.
     const SEEN: u32 = 3;
 
@@ -74,7 +74,7 @@ where
         are_in_rows::<P, V, S>(self.positions.lanes.step.q.dimension())
     }
 
-    /// The forces at the positions with these terms; returns how much they changed.
+    /// Computes the forces at the positions with these terms; returns the change of the forces.
     #[inline(always)]
     fn walk<const MEASURED: bool>(&mut self, terms: &Terms<impl AsRef<[f64]>>) -> P::Lanes {
         let in_rows = self.are_in_rows();
@@ -83,7 +83,7 @@ where
         if in_rows {
             let mut along = AlongRows::<P, R, _, MEASURED>::new(terms, step, stages);
             if along.count() == 0 {
-                // Of another dimension, which is seen when the step is looked at.
+                // A wrong dimension, which the validation of the step finds.
                 return P::Lanes::zero();
             }
             System::<V>::row_forces(lanes.system, &mut along);
@@ -119,7 +119,7 @@ where
         along.changes.unwrap_or_else(P::Lanes::zero)
     }
 
-    /// [`walk`](Self::walk), but by how much the next positions can differ from those that the forces are at, but for rounding.
+    /// Like [`walk`](Self::walk), but returns how far the next positions can differ from those of the forces, up to rounding.
     #[inline(always)]
     fn moves(&mut self, terms: &Terms<impl AsRef<[f64]>>) -> P::Lanes {
         let changes = self.walk::<false>(terms);
@@ -134,14 +134,14 @@ where
     }
 }
 
-/// The stages of a step along its components, the largest of which is wanted or not.
+/// The stages of a step along its components. `MEASURED`: whether the largest position is recorded.
 struct Along<'a, P: StageTableau, R, C: 'static, const MEASURED: bool> {
     terms: &'a Terms<C>,
     size: f64,
     q: &'a [f64],
     q_low: &'a [f64],
     p: &'a [f64],
-    /// Those of the sweep before, and the new ones where they have been set; or the increments made of them.
+    /// The forces of the previous sweep, replaced one by one by the new ones; or the increments computed from them.
     force: &'a mut [P::Lanes],
     largest: P::Lanes,
     /// The largest change of a force.
@@ -197,7 +197,8 @@ where
     }
 }
 
-/// Nobody looks at how these change, or for what is not finite: what does not settle at once [goes on](Sweeps::go_on) elsewhere.
+/// Neither the size of the stages nor NaN or infinite values are tested here. An iteration that does not settle in its early sweeps
+/// [continues](Sweeps::go_on) with [`Positions`].
 impl<P, R, V, S> Sweeps for Locally<'_, '_, P, R, V, S>
 where
     P: StageTableau,
@@ -214,7 +215,7 @@ where
     #[inline(always)]
     fn evaluations(&self) -> EvaluationCounts {
         let counts = self.positions.evaluations();
-        // Those at the starting values come before the first sweep.
+        // The evaluations at the starting values come before the first sweep.
         EvaluationCounts {
             begin: counts.begin + counts.sweep,
             ..counts
@@ -228,7 +229,7 @@ where
 
     #[inline(always)]
     fn begin(&mut self, _kept: WarmStart) {
-        // Sweeps follow, each with what it has moved.
+        // The sweeps that follow measure their own changes.
         apart(|| {
             let h = self.positions.lanes.step.size;
             self.walk::<true>(&Start::<P>::terms(R::COMPENSATED, h));
@@ -245,7 +246,7 @@ where
         self.positions.non_finite_force()
     }
 
-    /// With positions in memory, where errors look for them.
+    /// Continues with positions in memory, where the error diagnosis reads them.
     #[inline(always)]
     fn go_on<C: Class, T: Scalar>(
         &mut self,
@@ -275,7 +276,7 @@ where
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         let h = self.positions.lanes.step.size;
         let q = apart(|| self.moves(&Terms::new::<P>(R::COMPENSATED, h)));
-        // Both halves are this one.
+        // Positions stand for both halves.
         LaneMovement { q, p: q }
     }
 

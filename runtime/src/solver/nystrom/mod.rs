@@ -1,4 +1,4 @@
-//! Second-order systems: coupled stages without the momenta.
+//! Second-order systems (Nyström form): coupled stages with the momenta eliminated.
 
 mod local;
 mod rows;
@@ -30,17 +30,18 @@ use crate::solver::simd::gauss_seidel::{
 use crate::solver::simd::stages::SimdStages;
 use crate::system::{Class, System, SystemInLanes, SystemLanes};
 
-/// Takes a step of a second-order system `q'' = M⁻¹ f(t, q)`, whose velocity `M⁻¹ p` is linear in the momentum: only the positions are
-/// iterated, with the coefficients of a [`SecondOrderTableau`]. Methods that have no such coefficients, and systems that are not
-/// separable, are taken as by [`SimdFixedPoint`].
+/// Takes a step of a second-order system `q'' = M⁻¹ f(t, q)`, whose velocity `M⁻¹ p` is linear in the momentum. Only the positions are
+/// iterated, with the coefficients of a [`SecondOrderTableau`]. Methods without such coefficients, and systems that are not
+/// separable, are solved as by [`SimdFixedPoint`].
 ///
-/// A [`Chain`](crate::emitted::Chain) on the heap, with up to eight stages at different times, is gone through once in a sweep, as long
-/// as a step goes on from the one before and settles in its first sweeps: the positions of the stages are made, and used, component by
-/// component. A tolerance is then compared with a bound on how far the next positions can be from those of the sweep, up to rounding.
-/// The first sweeps of a step are not measured: all but three of as many as the step before took. So a step takes at most two sweeps
-/// less than the one before.
-/// With fewer than eight stages, and a number of components that is a multiple of eight, the lanes run along the components. Both have
-/// the same bits.
+/// For a [`Chain`](crate::emitted::Chain) on the heap, with up to eight stages at different times, a sweep is a single pass over the
+/// memory. The positions of the stages are computed, and used, component by component. This holds for a step with a warm start that
+/// settles in its early sweeps.
+/// A tolerance is then compared with a bound on the next change of the positions, up to rounding.
+/// The first sweeps of a step are not measured: three fewer than the previous step took. So a step takes at most two sweeps
+/// less than the previous step.
+/// With fewer than eight stages, and a number of components that is a multiple of eight, the lanes run along the components. Both
+/// layouts give the same bits.
 #[inline(always)]
 pub(crate) fn nystrom<P, R, V, S>(
     step: &Step<'_, V>,
@@ -69,7 +70,7 @@ where
     }
     *eliminated = true;
     *of_increments = R::COMPENSATED;
-    // Where an iteration fails they are not.
+    // If the iteration fails, the forces are not in rows.
     *in_rows = false;
     if !<S as System<V>>::UNIT_MASSES {
         velocity::<P, V, S>(system, step, step.p, start, lanes);
@@ -94,7 +95,7 @@ where
         }
         false => settle::<P::Class, f64>(&mut sweeps, kept, stopping)?,
     };
-    // Where masses are one, the velocity of what the momentum leaves out is counted, as all are, but not made.
+    // With unit masses, the velocity of the low part of the momentum is counted, like all velocities, but not computed.
     work.evaluations += sweeps.evaluations().finish;
     *in_rows = are_in_rows::<P, V, S>(step.q.dimension());
     if *in_rows {
@@ -109,7 +110,7 @@ where
     Ok(work)
 }
 
-/// [`Solver::extend`] for what [`nystrom`], or another solver in its place, has left.
+/// [`Solver::extend`] for the stages that [`nystrom`], or another solver in its place, has left.
 pub(crate) fn extend<P, V, S>(memory: &NystromStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V)
 where
     P: StageTableau,
@@ -120,7 +121,7 @@ where
     if !memory.eliminated {
         return <SimdFixedPoint as Solver<V, S>>::extend::<P>(stages, at, q, p);
     }
-    // What makes an increment of what is stored.
+    // The factor that scales a stored force or slope to an increment.
     let factor = |stage: usize| match memory.of_increments {
         true => 1.0,
         false => P::POSITIONS.weights[stage] * at.size,
@@ -149,7 +150,7 @@ where
     }
 }
 
-/// The velocity of a momentum. One of another dimension goes to a place where it is seen when the step is looked at.
+/// The velocity of a momentum. If its dimension is wrong, it is stored where the validation of the step finds it.
 #[inline(always)]
 fn velocity<P, V, S>(
     system: &S,
@@ -169,49 +170,49 @@ fn velocity<P, V, S>(
     }
 }
 
-/// The positions of the stages alone. In the place of the velocities are those of the increments of the momentum.
+/// The stages, reduced to their positions. The places of the velocities hold `M⁻¹` times the increments of the momentum.
 ///
-/// With plain sums the forces are no increments while the stages are iterated, and the matrix has the weights that would make them
-/// such: a sweep is a product shorter.
+/// With plain sums, forces are not scaled to increments during the iteration; the matrix contains the weights
+/// instead. This saves one product per sweep.
 struct Positions<'a, P: StageTableau, R, V: Vector, S> {
     lanes: ByLanes<'a, P, R, V, S>,
-    /// The velocity at the start.
+    /// The velocity at the start of the step.
     start: &'a V,
 }
 
-/// The velocities of the increments of the momentum, which are these themselves where masses are one.
+/// `M⁻¹` times the increments of the momentum; with unit masses, the increments themselves.
 #[inline(always)]
 const fn slopes<'a, V: Vector, S: System<V>, G>(velocity: &'a G, force: &'a G) -> &'a G {
     if S::UNIT_MASSES { force } else { velocity }
 }
 
-/// The velocity at the start, which is the momentum where masses are one.
+/// The velocity at the start of the step; with unit masses, the momentum.
 #[inline(always)]
 const fn start_of<'a, V: Vector, S: System<V>>(momentum: &'a V, velocity: &'a V) -> &'a V {
     if S::UNIT_MASSES { momentum } else { velocity }
 }
 
-/// What is added to positions: the sum of velocities by the columns of a matrix, and what is before it.
+/// The terms that are added to positions: `factor Σ_j columns_j slope_j`.
 struct Terms<C: 'static> {
     columns: &'static [C],
     factor: f64,
 }
 
 impl<C: AsRef<[f64]>> Terms<C> {
-    /// Of the velocities of increments, in steps of this size.
+    /// For slopes computed from increments, with step size `h`.
     #[inline(always)]
     const fn of_increments(columns: &'static [C], h: f64) -> Self {
         Self { columns, factor: h }
     }
 
-    /// Of those of forces, whose weights are in the columns.
+    /// For slopes computed from forces, whose weights are in the columns.
     #[inline(always)]
     const fn of_forces(columns: &'static [C], h: f64) -> Self {
         let factor = h * h;
         Self { columns, factor }
     }
 
-    /// The sums, perhaps with a factor in the columns.
+    /// The sums, with an optional factor multiplied into the columns.
     #[inline(always)]
     fn sums(
         &self,
@@ -229,7 +230,7 @@ impl<C: AsRef<[f64]>> Terms<C> {
 }
 
 impl Terms<&'static [f64]> {
-    /// Of the velocities of increments, or of forces.
+    /// For slopes computed from increments or from forces.
     #[inline(always)]
     const fn new<P: StageTableau>(of_increments: bool, h: f64) -> Self {
         match of_increments {
@@ -239,8 +240,8 @@ impl Terms<&'static [f64]> {
     }
 }
 
-/// The position of stages with this base, and what the base leaves out, and velocity at the start, for steps of such a size and the
-/// part of it that is before each, with this factor before the sum.
+/// The position of stages: `base + low + size node velocity + factor sum`. `low` is the low part of the base, `velocity` that at the
+/// start of the step, and `node` the stage's fraction of the step.
 #[inline(always)]
 fn position<R: Summation, L: Lanes>(
     (base, low): (L, L),
@@ -249,27 +250,27 @@ fn position<R: Summation, L: Lanes>(
     (factor, sum): (f64, L),
 ) -> L {
     let (h, factor) = (L::from_f64(size), L::from_f64(factor));
-    // All but the sum is the same in every sweep.
+    // Everything except the sum is the same in every sweep.
     if R::COMPENSATED {
-        // A product of step size and node would be off by the same part in every step, and the energy would drift.
+        // Rounding `h * node` would cause the same relative error in every step, and the energy would drift.
         return base + factor.fused(sum, h.fused(node * velocity, low));
     }
     factor.fused(sum, (h * node).fused(velocity, base))
 }
 
-/// Does `work` in a function of its own.
+/// Does `work` in a separate function.
 #[inline(never)]
 fn apart<T>(work: impl FnOnce() -> T) -> T {
     work()
 }
 
-/// Whether the momenta of the stages of a plan are eliminated.
+/// Whether the momenta of the stages of this method are eliminated.
 #[inline(always)]
 const fn eliminates<P: StageTableau>() -> bool {
     P::SECOND_ORDER.is_some() && P::Class::SEPARABLE
 }
 
-/// The coefficients of a plan that [`eliminates`] them: constants, so that sums over stages are written out.
+/// The coefficients of a method that [`eliminates`] the momenta. They are constants, so that the compiler unrolls sums over stages.
 #[inline(always)]
 const fn tableau<P: StageTableau>() -> SecondOrderTableau {
     match P::SECOND_ORDER {
@@ -283,7 +284,7 @@ const fn tableau<P: StageTableau>() -> SecondOrderTableau {
     }
 }
 
-/// `ν E`, for starting values from the step before.
+/// The matrix `ν E`, which gives starting values from the previous step.
 struct Start<P>(PhantomData<P>);
 
 impl<P: StageTableau> Start<P> {
@@ -292,7 +293,7 @@ impl<P: StageTableau> Start<P> {
     const OF_FORCES: &'static StartingColumns =
         &weighted(Self::OF_INCREMENTS, P::POSITIONS.weights);
 
-    /// Of what the step before has left, in steps of this size.
+    /// The terms from the evaluations of the previous step, with step size `h`.
     #[inline(always)]
     fn terms(of_increments: bool, h: f64) -> Terms<[f64; MOST]> {
         let count = P::POSITIONS.extrapolation.len();
@@ -310,15 +311,15 @@ where
     V: Vector<Scalar = f64>,
     S: SystemInLanes<V>,
 {
-    /// New positions; returns how much they changed.
+    /// Computes new positions; returns their change.
     #[inline(always)]
     fn positions(&mut self) -> P::Lanes {
         let terms = Terms::new::<P>(R::COMPENSATED, self.lanes.step.size);
-        // In columns the factor is the same in every sweep.
+        // Multiplied into the columns, the factor is computed once for all sweeps.
         self.with(&terms, (!R::COMPENSATED).then_some(terms.factor))
     }
 
-    /// The positions with these terms, whose factor may be in the columns; returns how much they changed.
+    /// Computes the positions with these terms, whose factor may be multiplied into the columns; returns their change.
     #[inline(always)]
     fn with(&mut self, terms: &Terms<impl AsRef<[f64]>>, in_columns: Option<f64>) -> P::Lanes {
         let before = if in_columns.is_some() {
@@ -344,7 +345,7 @@ where
         )
     }
 
-    /// The velocities of the increments of the momentum, unless they are these.
+    /// Computes `M⁻¹` times the increments of the momentum, except with unit masses.
     #[inline(always)]
     fn velocities(&mut self) {
         if <S as System<V>>::UNIT_MASSES {
@@ -357,7 +358,7 @@ where
         for (group, velocity) in velocity.as_mut().iter_mut().enumerate() {
             let time = P::Lanes::from_f64(self.lanes.step.time);
             let (q, force) = (&q[group], &force[group]);
-            // A force of another dimension, which is seen when the step is looked at, is not shown to the system.
+            // A force of a wrong dimension is not passed to the system; the validation of the step finds it.
             if force.dimension() == velocity.dimension() {
                 P::Lanes::velocity::<V, S>(self.lanes.system, time, q, force, velocity);
             }
@@ -379,7 +380,7 @@ where
     #[inline(always)]
     fn evaluations(&self) -> EvaluationCounts {
         let stages = P::POSITIONS.count as u32;
-        // The velocities of the increments that the iteration starts from, unless it starts from positions at once.
+        // The velocities of the predicted increments, unless the predictor gives positions directly.
         let (begin, start) = if starts_at_once(&P::POSITIONS) {
             (0, stages)
         } else {
@@ -444,7 +445,7 @@ where
             let patiently = |start| {
                 patiently::<C, T, _>(&mut Positions { lanes, start }, kept, stopping, begun)
             };
-            // Nothing points to what is in registers from step to step.
+            // A copy, so that no pointer prevents the start from staying in registers from step to step.
             match is_in_place(start) {
                 true => patiently(&start.clone()),
                 false => patiently(start),
@@ -460,11 +461,11 @@ where
         }
         self.velocities();
         let q = match mem::needs_drop::<V>() {
-            // Long vectors, whose loops are better off with all registers.
+            // The loops of long vectors run faster with all registers.
             true => apart(|| self.positions()),
             false => self.positions(),
         };
-        // Both halves are this one.
+        // Positions stand for both halves.
         LaneMovement { q, p: q }
     }
 

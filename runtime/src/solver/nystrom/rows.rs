@@ -1,8 +1,8 @@
-//! Second-order systems whose force is made in rows: eight neighbouring components side by side, of all stages at once.
+//! Second-order systems whose force is computed in rows: eight neighbouring components side by side, for all stages at once.
 //!
-//! The forces are in the place of the velocities, which unit masses leave free, row by row and in a row stage by stage, from step to
-//! step. In their own place, component by component with the stages in lanes, they are while a step is iterated that does not go on
-//! from one before, or does not settle in its first sweeps.
+//! From step to step the forces are stored in the place of the velocities, which unit masses leave unused. They are stored row by
+//! row, and within a row stage by stage. During a step without a warm start they are in their own place, component by component with
+//! the stages in lanes. The same holds for a step that does not settle in its early sweeps.
 
 use core::marker::PhantomData;
 
@@ -22,7 +22,7 @@ use crate::system::{MOST_ROW_STAGES, StageRows, System};
 /// Components in a row.
 pub(super) const WIDTH: usize = F64x8::WIDTH;
 
-/// Whether the forces of stages are in rows.
+/// Whether the forces of stages are stored in rows.
 #[inline(always)]
 pub(super) fn are_in_rows<P, V, S>(dimension: usize) -> bool
 where
@@ -37,31 +37,31 @@ where
         && dimension.is_multiple_of(WIDTH)
 }
 
-/// The forces in rows.
+/// The forces stored in rows.
 #[inline(always)]
 pub(super) fn forces<P: StageTableau, V: Vector>(stages: &SimdStages<V, P>) -> &[P::Lanes] {
     (stages.velocity.as_ref().first()).map_or(&[], Vector::as_slice)
 }
 
-/// [`forces`], to be written.
+/// [`forces`], mutable.
 #[inline(always)]
 fn forces_mut<P: StageTableau, V: Vector>(stages: &mut SimdStages<V, P>) -> &mut [P::Lanes] {
     (stages.velocity.as_mut().first_mut()).map_or(&mut [], Vector::as_mut_slice)
 }
 
-/// How many elements in memory a row of one stage is.
+/// Number of lane vectors that hold a row of one stage.
 const fn parts<L: Lanes>() -> usize {
     WIDTH / L::WIDTH
 }
 
-/// The forces of one stage in a row, from those of the row.
+/// Loads the forces of one stage from a row.
 #[inline(always)]
 pub(super) fn load<L: Lanes>(row: &[L], stage: usize) -> F64x8 {
     let parts = &row[stage * parts::<L>()..(stage + 1) * parts::<L>()];
     F64x8::from_fn(|lane| lane_of(parts[lane / L::WIDTH], lane))
 }
 
-/// Writes the forces of one stage in a row.
+/// Stores the forces of one stage in a row.
 #[inline(always)]
 fn store<L: Lanes>(row: &mut [L], stage: usize, numbers: F64x8) {
     let numbers = numbers.to_array();
@@ -71,12 +71,12 @@ fn store<L: Lanes>(row: &mut [L], stage: usize, numbers: F64x8) {
     }
 }
 
-/// How many elements in memory a row of all stages is.
+/// Number of lane vectors that hold a row of all stages.
 pub(super) const fn row_length<P: StageTableau>() -> usize {
     P::POSITIONS.count * parts::<P::Lanes>()
 }
 
-/// The first stage, from 1, whose force is not finite.
+/// The first stage, from 1, whose force is NaN or infinite.
 pub(super) fn non_finite_force<P: StageTableau, V: Vector>(
     stages: &SimdStages<V, P>,
 ) -> Option<usize> {
@@ -98,7 +98,8 @@ pub(super) fn force<P: StageTableau, V: Vector>(
     lane_of(forces(stages)[part], lane)
 }
 
-/// From the rows to their own place. The rows are zero then: where an iteration fails, they are not taken for velocities.
+/// Moves the forces from the rows to their own place. The rows become zero, so that after a failed iteration they are not read as
+/// velocities.
 pub(super) fn leave<P: StageTableau, V: Vector>(stages: &mut SimdStages<V, P>) {
     let n = shortest(stages.force.as_ref()).min(shortest(stages.velocity.as_ref()));
     for k in 0..n / WIDTH * WIDTH {
@@ -110,7 +111,7 @@ pub(super) fn leave<P: StageTableau, V: Vector>(stages: &mut SimdStages<V, P>) {
     forces_mut(stages).fill(P::Lanes::from_f64(0.0));
 }
 
-/// Back to the rows.
+/// Copies the forces back to the rows.
 pub(super) fn enter<P: StageTableau, V: Vector>(stages: &mut SimdStages<V, P>) {
     let SimdStages {
         velocity, force, ..
@@ -127,7 +128,7 @@ pub(super) fn enter<P: StageTableau, V: Vector>(stages: &mut SimdStages<V, P>) {
     }
 }
 
-/// The stages of a step along its rows, whose largest position is wanted or not.
+/// The stages of a step along its rows. `MEASURED`: whether the largest position is recorded.
 pub(super) struct AlongRows<'a, P: StageTableau, R, C: 'static, const MEASURED: bool> {
     terms: &'a Terms<C>,
     times: P::Lanes,
@@ -136,7 +137,7 @@ pub(super) struct AlongRows<'a, P: StageTableau, R, C: 'static, const MEASURED: 
     q_low: &'a [[f64; WIDTH]],
     p: &'a [[f64; WIDTH]],
     forces: &'a mut [P::Lanes],
-    /// The largest position, at the start of the step too, or zero.
+    /// The largest position, including the start of the step; zero if not `MEASURED`.
     largest: F64x8,
     /// The largest change of a force at each stage.
     changes: [F64x8; MOST_ROW_STAGES],
@@ -149,7 +150,7 @@ pub(super) fn rows<V: Vector<Scalar = f64>>(vector: &V) -> &[[f64; WIDTH]] {
     vector.as_slice().as_chunks().0
 }
 
-/// [`rows`], to be written.
+/// [`rows`], mutable.
 #[inline(always)]
 pub(super) fn rows_mut<V: Vector<Scalar = f64>>(vector: &mut V) -> &mut [[f64; WIDTH]] {
     vector.as_mut_slice().as_chunks_mut().0
@@ -185,7 +186,7 @@ where
         }
     }
 
-    /// The largest position, at the start of the step too, and how much the forces of each stage have changed.
+    /// The largest position, including the start of the step, and the changes of the forces of each stage.
     #[inline(always)]
     pub(super) fn changes(self) -> (P::Lanes, P::Lanes) {
         let changes = P::Lanes::from_fn(|lane| match self.changes.get(lane) {
@@ -219,8 +220,8 @@ where
         F64x8::from_f64(lane_of(self.times, stage))
     }
 
-    // Loops over indices, and nothing that leaves before its end: else all of it is in memory, and takes four times as long. Another row
-    // in place of one that there is not would take a fifth longer.
+    // Loops over indices without an early exit: otherwise all arrays are in memory, which takes four times as long. Substituting a row
+    // for a missing one would take a fifth longer.
     #[allow(clippy::needless_range_loop, reason = "all in registers")]
     #[inline(always)]
     fn positions(&mut self, row: usize) -> [F64x8; MOST_ROW_STAGES] {

@@ -1,4 +1,4 @@
-//! The memory of second-order systems.
+//! Memory of the Nyström form.
 
 use super::rows;
 use crate::error::Quantity;
@@ -7,17 +7,17 @@ use crate::number::words::words;
 use crate::number::{Vector, Visit, vector_words};
 use crate::solver::simd::stages::SimdStages;
 
-/// Stages in lanes, and the velocity that they start from.
+/// Stages in lanes, and the velocity at the start of the step.
 #[derive(Debug)]
 pub struct NystromStages<V: Vector, P: StageTableau> {
     pub(crate) lanes: SimdStages<V, P>,
-    /// The velocity at the start of the step, of a plan whose momenta are eliminated; not where it is the momentum itself.
+    /// The velocity at the start of the step if the momenta are eliminated; unused with unit masses, where the momentum serves.
     pub(crate) start: V,
-    /// Whether the forces, and their velocities, are increments between steps: of compensated sums.
+    /// Whether the forces, and `M⁻¹` times them, are stored as increments between steps: with compensated sums.
     pub(crate) of_increments: bool,
-    /// Whether the forces are in rows, in the place of the velocities.
+    /// Whether the forces are stored in rows, in the place of the velocities.
     pub(crate) in_rows: bool,
-    /// How many sweeps the step before took, but for one where that came from a coin: of chains, and other systems of local forces.
+    /// Number of sweeps of the previous step, without a sweep that the dither of the last sweep added. For local forces only.
     pub(crate) sweeps: u32,
     /// Whether the momenta of the stages are eliminated.
     pub(crate) eliminated: bool,

@@ -14,7 +14,7 @@ use crate::solver::simd::gauss_seidel::{shortest, total};
 use crate::solver::simd::stages::{Laned, SimdStages};
 use crate::system::SystemInLanes;
 
-/// With unit masses, of forces in rows.
+/// With unit masses, from forces stored in rows.
 #[inline(always)]
 pub(super) fn in_rows<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     step: &Step<'_, V>,
@@ -33,7 +33,7 @@ pub(super) fn in_rows<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     of_rows::<P, R, V>(step, forces.len() / length, stages, outcome);
 }
 
-/// With unit masses, of the forces of all stages in one group of lanes: eight components at a time, and the rest one by one.
+/// With unit masses, from the forces of all stages in one group of lanes: eight components at a time, and the rest one by one.
 #[inline(always)]
 pub(super) fn by_eights<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     step: &Step<'_, V>,
@@ -50,7 +50,7 @@ pub(super) fn by_eights<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
             true => F64x8::from_fn(|lane| lane_of(components[lane], stage)),
             false => F64x8::zero(),
         };
-        // Written out, so that the compiler knows which lane is meant: else it looks for each in memory.
+        // Unrolled, so that the compiler knows each lane; otherwise it reads each lane from memory.
         [
             stage(0),
             stage(1),
@@ -79,7 +79,7 @@ pub(super) fn by_eights<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     }
 }
 
-/// That of the first rows, from the forces at the stages of each, as many as there can be in lanes.
+/// The result of the first rows; `stages` returns the forces at all stages of a row, zero for missing stages.
 #[inline(always)]
 fn of_rows<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     step: &Step<'_, V>,
@@ -106,7 +106,7 @@ fn of_rows<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     }
 }
 
-/// Positions and momenta and what these leave out, from those before: of increments where sums are compensated, else of forces.
+/// New positions and momenta with their low parts: from increments if sums are compensated, otherwise from forces.
 #[allow(
     clippy::redundant_closure,
     reason = "a reference to one would be called"
@@ -149,7 +149,7 @@ fn plus_forces<P: StageTableau, T: Scalar>(
     add::<Plain, T>(base, T::zero(), P::POSITIONS.count, term).0
 }
 
-/// With compensated sums, of increments.
+/// With compensated sums, from increments.
 #[inline(always)]
 pub(super) fn compensated<P, R, V, S>(
     step: &Step<'_, V>,
@@ -171,7 +171,7 @@ pub(super) fn compensated<P, R, V, S>(
         &P::POSITIONS,
         h,
     );
-    // The velocity of what the momentum leaves out, in the place of the result.
+    // The velocity of the low part of the momentum, stored in the place of the result.
     velocity::<P, V, S>(system, step, step.p_low, q, stages);
     let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force).as_ref();
     let n = shortest(slopes)
@@ -182,7 +182,7 @@ pub(super) fn compensated<P, R, V, S>(
     let (base, low) = (&step.q.as_slice()[..n], &step.q_low.as_slice()[..n]);
     let (q, q_low) = (&mut q.as_mut_slice()[..n], &mut q_low.as_mut_slice()[..n]);
     for k in 0..n {
-        // As a rule small beside the velocity, by the step size: its rounding errors are like those that the increments have.
+        // Usually smaller than the velocity by a factor of the step size, so its rounding errors are like those of the increments.
         let sum = sum_of_products(None, P::POSITIONS.count, |stage| {
             let slope = slopes.as_ref()[stage / P::Lanes::WIDTH][k];
             (tableau::<P>().rest[stage], lane_of(slope, stage))
@@ -192,8 +192,8 @@ pub(super) fn compensated<P, R, V, S>(
     }
 }
 
-/// With plain sums: of forces, which are no increments yet, and not looked at one by one before they have met
-/// their weights, all at once.
+/// With plain sums, from forces that are not yet scaled to increments. All forces of a component are multiplied by their weights
+/// before any single one is used.
 #[inline(always)]
 pub(super) fn plain<P, V, S>(
     step: &Step<'_, V>,

@@ -1,24 +1,24 @@
-//! How sweeps move stages in lanes.
+//! Changes of stages in lanes by a sweep.
 
 use crate::method::HalfChange;
 use crate::number::Lanes;
 use crate::solver::convergence::{Movement, is_next_within};
 
-/// How a sweep moved the positions and the momenta of the stages: the largest change of a component, lane by lane. NaN where one is: a
-/// stage that is a number again after it was none has changed by NaN too.
+/// Change of the positions and the momenta of the stages in a sweep: the largest change of a component, lane by lane. NaN if any change
+/// is NaN. A stage that recovers from NaN has also changed by NaN.
 #[derive(Clone, Copy)]
 pub(crate) struct LaneMovement<L> {
     pub(crate) q: L,
     pub(crate) p: L,
 }
 
-/// The largest change, with one more: not from zero, with which the compiler would compare it.
+/// The largest change so far and one more. `None` instead of zero at the start: otherwise the compiler would compare with zero.
 #[inline(always)]
 pub(crate) fn noted<L: Lanes>(largest: Option<L>, change: L) -> L {
     largest.map_or(change, |largest| largest.larger_or_nan(change))
 }
 
-/// The largest change, and the largest component, lane by lane, as those of all lanes together.
+/// Reduces the largest change and the largest component of each lane to those of all lanes.
 #[inline(always)]
 pub(crate) fn part_change<L: Lanes>(change: L, scale: L) -> HalfChange {
     match change.any_nan() {
@@ -47,7 +47,7 @@ impl<L: Lanes> Movement for LaneMovement<L> {
     #[inline(always)]
     fn is_next_within(&self, before: &Self, [q, p]: [f64; 2], both: bool) -> bool {
         let of = |before: L, this: L, bound: f64| {
-            // What holds in every lane holds for the largest of all, for which the processor would have to wait.
+            // A bound that holds in every lane holds for the maximum over the lanes, for which the processor would have to wait.
             let in_lanes = !(this * this - before * L::from_f64(bound)).any_above(0.0);
             (in_lanes || is_next_within(before.largest(), this.largest(), bound))
                 && !before.any_nan()
@@ -62,7 +62,7 @@ impl<L: Lanes> Movement for LaneMovement<L> {
 
     #[inline(always)]
     fn shrinks(&self, below: f64, weights: [f64; 2], both: bool) -> bool {
-        // The processor need not wait for the largest of all lanes.
+        // The processor need not wait for the maximum over all lanes.
         let sizes = self.sizes(weights, both);
         sizes.all_below(below) & sizes.any_above(0.0)
     }
@@ -92,7 +92,7 @@ mod tests {
     use crate::method::StageChange;
     use crate::number::{F64x2, Scalar};
 
-    /// How lanes moved, and the same as one number for each half.
+    /// A change lane by lane, and the same change as one number for each half.
     fn moved(lanes: [[f64; 2]; 2]) -> (LaneMovement<F64x2>, StageChange) {
         let [q, p] = lanes.map(F64x2::from_array);
         let one = F64x2::from_f64(1.0);

@@ -1,4 +1,4 @@
-//! Coupled stages side by side in lanes.
+//! Coupled stages side by side in SIMD lanes, with Gauss–Seidel sweeps.
 
 use core::marker::PhantomData;
 use core::mem;
@@ -24,11 +24,11 @@ use crate::system::SystemLanes;
 use crate::system::{Class, System};
 
 /// The iteration of [`FixedPoint`](crate::solver::FixedPoint) with the stages side by side in [`Lanes`]: one evaluation of the
-/// system is that of two, four or eight stages.
+/// system computes two, four or eight stages.
 ///
-/// It needs a system that is written for every scalar. Vectors may be long: without it the lanes run along their components,
-/// but sums over the stages are slower than with all stages of a component at hand (`--example ratios` of the contest has
-/// both for a chain of 1024 particles).
+/// The system must be generic over the scalar. Long vectors are allowed. [`FixedPoint`](crate::solver::FixedPoint) vectorises along
+/// the components instead. Its sums over the stages are slower than sums with all stages of a component at hand
+/// (`--example ratios` of the contest times both for a chain of 1024 particles).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SimdFixedPoint;
 
@@ -94,7 +94,7 @@ where
     Ok(work)
 }
 
-/// The results of both halves.
+/// Computes the new positions and momenta of the step.
 #[inline(always)]
 pub(crate) fn totals<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
     step: &Step<'_, V>,
@@ -118,7 +118,8 @@ pub(crate) fn totals<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
     );
 }
 
-/// Adds to `out` the part that vanishes at both ends of the step, of the evaluations of one half, by stage and component.
+/// Adds to `out` the part of the interpolation that vanishes at both ends of the step. `evaluation` gives those of one half by stage
+/// and component.
 pub(crate) fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
     half: &HalfTableau,
     at: Inside<'_, V>,
@@ -141,10 +142,10 @@ pub(crate) fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
     }
 }
 
-/// The stages of a plan in lanes.
+/// The stages of a method in lanes.
 ///
-/// With plain sums evaluations are no increments while the stages are iterated, and the matrices have the factors that would make
-/// them such.
+/// With plain sums, velocities and forces are not scaled to increments during the iteration; the matrices contain the scale
+/// factors instead.
 pub(crate) struct ByLanes<'a, P: StageTableau, R, V: Vector, S> {
     pub(crate) step: &'a Step<'a, V>,
     pub(crate) system: &'a S,
@@ -261,20 +262,20 @@ where
     }
 }
 
-/// Whether there are starting values from the step before: of the velocities, and of the forces where they need them too.
+/// Whether there are predictor coefficients: for the velocities, and for the forces if the system is not separable.
 pub(crate) const fn extrapolates<P: StageTableau>() -> bool {
     !P::MOMENTA.extrapolation.is_empty()
         && (P::Class::SEPARABLE || !P::POSITIONS.extrapolation.is_empty())
 }
 
-/// The largest component of stages and of what they start from, that of some in each lane.
+/// The largest component of the stages and of the base, distributed over the lanes.
 #[inline(always)]
 pub(crate) fn scale_of<P: StageTableau, V: Vector<Scalar = f64>>(
     base: &V,
     groups: &[Laned<V, P>],
 ) -> P::Lanes {
     let components = base.as_slice();
-    // Where they are many, they have all lanes.
+    // Vectors on the heap may be long, so all lanes are used.
     let rows = match mem::needs_drop::<V>() {
         true => components.len() / P::Lanes::WIDTH,
         false => 0,
@@ -295,7 +296,7 @@ pub(crate) fn scale_of<P: StageTableau, V: Vector<Scalar = f64>>(
     scale
 }
 
-/// Whether the largest lane is another size but for a factor of two.
+/// Returns whether the largest lane equals `other` up to a factor of two.
 #[inline(always)]
 pub(crate) fn is_about<L: Lanes>(scale: L, other: f64) -> bool {
     scale.any_above(0.5 * other) && !scale.any_above(2.0 * other)
@@ -308,7 +309,7 @@ where
     V: Vector<Scalar = f64>,
     S: SystemInLanes<V>,
 {
-    /// The same with sweeps that move the stages twice as far.
+    /// The same stages with over-relaxed sweeps, which move them twice as far.
     #[inline(always)]
     pub(crate) fn beyond(&mut self) -> ByLanes<'_, P, Overrelaxed<R>, V, S> {
         ByLanes {
@@ -319,8 +320,8 @@ where
         }
     }
 
-    /// What `go_on` makes of these stages. It is given them in another place, unless they are many or on the heap: stages that nothing
-    /// points to can be in registers from step to step. Those of the step before, where it begins `anew`, need not be in any.
+    /// Applies `go_on` to a copy of these stages, unless they are large or on the heap. Stages to which no pointer exists can stay in
+    /// registers from step to step. If the iteration begins `anew`, the old positions and momenta are not copied.
     #[inline(always)]
     pub(crate) fn elsewhere<T>(
         &mut self,
@@ -350,7 +351,7 @@ where
         made
     }
 
-    /// New positions, of velocities that are increments or not yet; returns how much they changed.
+    /// Computes new positions from velocities, which may be `of_increments`; returns their change.
     #[inline(always)]
     pub(crate) fn positions(&mut self, of_increments: bool) -> P::Lanes {
         let (step, stages) = (self.step, &mut *self.stages);
@@ -361,7 +362,7 @@ where
         values::<P, V>(&sums, stages.q.as_mut(), base, terms, sum::<P>)
     }
 
-    /// New momenta, of forces that are increments or not yet; returns how much they changed.
+    /// Computes new momenta from forces, which may be `of_increments`; returns their change.
     #[inline(always)]
     pub(crate) fn momenta(&mut self, of_increments: bool) -> P::Lanes {
         let (step, stages) = (self.step, &mut *self.stages);
@@ -372,7 +373,7 @@ where
         values::<P, V>(&sums, stages.p.as_mut(), base, terms, sum::<P>)
     }
 
-    /// Evaluates all forces, which are no increments yet.
+    /// Evaluates all forces, not yet scaled to increments.
     #[inline(always)]
     pub(crate) fn forces(&mut self) {
         let SimdStages { q, p, force, .. } = &mut *self.stages;
@@ -383,7 +384,7 @@ where
         }
     }
 
-    /// Evaluates all velocities, which are no increments yet.
+    /// Evaluates all velocities, not yet scaled to increments.
     #[inline(always)]
     pub(crate) fn velocities(&mut self) {
         let SimdStages { q, p, velocity, .. } = &mut *self.stages;
@@ -394,7 +395,7 @@ where
         }
     }
 
-    /// Evaluates all velocities and forces, which are no increments yet; they have one time.
+    /// Evaluates all velocities and forces, not yet scaled to increments; both are evaluated at the same times.
     #[inline(always)]
     pub(crate) fn slopes(&mut self) {
         let SimdStages {
@@ -413,19 +414,19 @@ where
         }
     }
 
-    /// The forces become increments.
+    /// Scales the forces to increments.
     #[inline(always)]
     pub(crate) fn scale_forces(&mut self) {
         scale::<P, V>(&P::POSITIONS, self.step.size, self.stages.force.as_mut());
     }
 
-    /// The velocities become increments.
+    /// Scales the velocities to increments.
     #[inline(always)]
     pub(crate) fn scale_velocities(&mut self) {
         scale::<P, V>(&P::MOMENTA, self.step.size, self.stages.velocity.as_mut());
     }
 
-    /// Both evaluations become increments.
+    /// Scales velocities and forces to increments.
     #[inline(always)]
     pub(crate) fn increments(&mut self) {
         self.scale_forces();
@@ -433,7 +434,7 @@ where
     }
 }
 
-/// The times of the evaluations of a group.
+/// The times of the evaluations of a group of lanes.
 #[inline(always)]
 pub(crate) fn times<P: StageTableau, V>(
     half: &HalfTableau,
@@ -444,7 +445,7 @@ pub(crate) fn times<P: StageTableau, V>(
     P::Lanes::from_f64(step.time) + fractions * P::Lanes::from_f64(step.size)
 }
 
-/// What evaluations of a group are multiplied by to become increments.
+/// The factors that scale the evaluations of a group to increments.
 #[inline(always)]
 pub(crate) fn increment_factor<P: StageTableau>(
     half: &HalfTableau,
@@ -454,7 +455,7 @@ pub(crate) fn increment_factor<P: StageTableau>(
     lanes::<P::Lanes>(half.weights, group) * P::Lanes::from_f64(h)
 }
 
-/// Evaluations become increments.
+/// Scales evaluations to increments.
 #[inline(always)]
 pub(crate) fn scale<P: StageTableau, V: Vector>(
     half: &HalfTableau,
@@ -485,10 +486,10 @@ pub(crate) fn fill<P: StageTableau, V: Vector<Scalar = f64>>(groups: &mut [Laned
     }
 }
 
-// Functions that look into groups are given slices, not arrays of them: where LLVM knows the length of what a reference points
-// to, it widens loads of single lanes beyond the group, and the processor has to wait until both groups are in memory.
+// Functions that read from groups take slices instead of references to arrays. If LLVM knows the length of the referenced array, it
+// widens loads of single lanes beyond the group. The processor then has to wait until both groups are in memory.
 
-/// The double of one stage in one component.
+/// The entry of one stage in one component.
 #[inline(always)]
 pub(crate) fn entry<P: StageTableau, V: Vector>(
     groups: &[Laned<V, P>],
@@ -498,19 +499,19 @@ pub(crate) fn entry<P: StageTableau, V: Vector>(
     lane_of(groups[stage / P::Lanes::WIDTH].as_slice()[component], stage)
 }
 
-/// What the stages are sums of: a matrix by its columns, which have an entry for each lane, and the factor of each, if any.
+/// The linear combinations that give the stages: the columns of a matrix, with an entry for each lane, and an optional factor of each.
 pub(crate) struct Sums<C, F> {
     pub(crate) count: usize,
     pub(crate) column: C,
     pub(crate) factor: F,
-    /// Whether they start with what the base leaves out.
+    /// Whether each sum starts with the low part of the base.
     pub(crate) with_low: bool,
-    /// Whether stages are moved twice as far.
+    /// Whether the stages are over-relaxed, that is, moved twice as far.
     pub(crate) beyond: bool,
 }
 
-/// The sums that one half of the stages is, by the columns of its matrix, of evaluations of the other half with these weights, that are
-/// increments or not yet.
+/// The sums that give one half of the stages from the evaluations of the other half, which may be increments. `columns` are those of
+/// the matrix of this half, `weights` those of the other half.
 #[inline(always)]
 pub(crate) fn sums<R: Summation, P: StageTableau>(
     columns: &'static [&'static [f64]],
@@ -531,8 +532,8 @@ pub(crate) fn sums<R: Summation, P: StageTableau>(
     }
 }
 
-/// New stage values from evaluations; returns how much they changed. Each is made of the number of the group and of the
-/// component, of the base with what it leaves out, and of the sum.
+/// Computes new stage values from evaluations; returns their change. `value` gets the indices of group and component, the base with
+/// its low part, and the sum.
 #[inline(always)]
 pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
@@ -567,8 +568,8 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     largest.unwrap_or_else(P::Lanes::zero)
 }
 
-/// [`values`] of vectors on the heap, which has looked where their components are: else it would be done again after every one that is
-/// written.
+/// [`values`] for vectors on the heap. It looks up the location of their components once; otherwise the compiler would repeat that
+/// after every write.
 #[inline(always)]
 fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
     sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
@@ -602,7 +603,7 @@ fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
     largest.unwrap_or_else(P::Lanes::zero)
 }
 
-/// `base + sum`, for a sum with what the base leaves out.
+/// `base + sum`, for a sum that includes the low part of the base.
 #[inline(always)]
 pub(crate) fn sum<P: StageTableau>(
     _place: (usize, usize),
@@ -612,7 +613,7 @@ pub(crate) fn sum<P: StageTableau>(
     base + sum
 }
 
-/// `start + factor Σ_j columns_j terms_j` in one component, for the stages of one group; the factor, if any, is in the products.
+/// `start + Σ_j factor_j columns_j terms_j` in one component, for the stages of one group; a factor is multiplied into the column.
 #[inline(always)]
 pub(crate) fn combination<L: Lanes>(
     sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
@@ -630,7 +631,7 @@ pub(crate) fn combination<L: Lanes>(
     })
 }
 
-/// Increments from those of the step before.
+/// Extrapolates the increments from those of the previous step.
 #[inline(always)]
 pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
     half: &HalfTableau,
@@ -656,7 +657,7 @@ pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
     }
 }
 
-/// The result of a step, of the evaluations of one half.
+/// Computes one half of the result of a step from the evaluations `terms`.
 #[inline(always)]
 pub(crate) fn total<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
     (out, out_low): (&mut V, &mut V),
@@ -684,7 +685,7 @@ pub(crate) fn total<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
     }
 }
 
-/// The smallest dimension of some vectors.
+/// The smallest dimension of these vectors.
 #[inline(always)]
 pub(crate) fn shortest<V: Vector>(groups: &[V]) -> usize {
     let mut shortest = usize::MAX;

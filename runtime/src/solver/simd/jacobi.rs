@@ -1,4 +1,4 @@
-//! Both halves of a system that is not separable, at once.
+//! Jacobi sweeps for systems that are not separable: positions and momenta are iterated simultaneously.
 
 use core::marker::PhantomData;
 
@@ -20,15 +20,15 @@ use crate::solver::simd::stages::{Laned, SimdStages};
 use crate::system::SystemInLanes;
 use crate::system::{Class, System};
 
-/// [`SimdFixedPoint`] for Hamiltonians that are not separable, with positions and momenta iterated at once.
+/// [`SimdFixedPoint`] for Hamiltonians that are not separable, with positions and momenta iterated simultaneously.
 ///
-/// A sweep of [`SimdFixedPoint`] takes the velocities where its forces have moved the momenta to (Gauss–Seidel); here both halves are
-/// taken where the sweep before has left the stages (Jacobi). Neither half waits for the other, and there may be more sweeps:
-/// it pays where `∂²H/∂q∂p` is as large as the other second derivatives and evaluations cost little. Where velocity and force have
-/// costly parts in common they are evaluated together, by [`Hamiltonian::slopes`](crate::Hamiltonian::slopes).
+/// A sweep of [`SimdFixedPoint`] evaluates the velocities at the new momenta, after its forces (Gauss–Seidel). Here both are evaluated
+/// at the stages of the previous sweep (Jacobi). Neither half waits for the other, but more sweeps may be needed.
+/// It pays if `∂²H/∂q∂p` is as large as the other second derivatives and evaluations are cheap. If velocity and force have
+/// costly parts in common, [`Hamiltonian::slopes`](crate::Hamiltonian::slopes) evaluates them together.
 /// The stages are those of [`SimdFixedPoint`] up to rounding.
 ///
-/// Separable systems are taken as by [`SimdFixedPoint`]: for these there would be twice as many sweeps.
+/// Separable systems are solved as by [`SimdFixedPoint`]: for them, Jacobi sweeps would double the number of sweeps.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SimdJacobi;
 
@@ -94,7 +94,7 @@ where
     Ok(work)
 }
 
-/// Positions and momenta of the stages.
+/// Stages whose positions and momenta are iterated simultaneously.
 struct Halves<'a, P: StageTableau, R, V: Vector, S>(ByLanes<'a, P, R, V, S>);
 
 impl<P, R, V, S> Halves<'_, P, R, V, S>
@@ -104,10 +104,10 @@ where
     V: Vector<Scalar = f64>,
     S: SystemInLanes<V>,
 {
-    /// Whether force and velocity of a stage have one time.
+    /// Whether force and velocity of each stage are evaluated at the same time.
     const AT_ONE_TIME: bool = same(P::POSITIONS.times, P::MOMENTA.times);
 
-    /// New stages from the evaluations, by how much they moved.
+    /// Computes new stages from the evaluations; returns their change.
     #[inline(always)]
     fn stages(&mut self) -> LaneMovement<P::Lanes> {
         if R::COMPENSATED {
@@ -138,7 +138,7 @@ where
         }
     }
 
-    /// New values of one half, by the columns of its matrix, from the evaluations of the other, which have these weights.
+    /// Computes new values of one half. `columns` are those of its matrix; `weights` belong to the evaluations of the other half.
     #[inline(always)]
     fn half(
         (columns, weights): (&'static [&'static [f64]], &'static [f64]),
@@ -151,7 +151,7 @@ where
         values::<P, V>(&sums, out, base, terms, sum::<P>)
     }
 
-    /// Stages from the increments of the step before.
+    /// Predicts the stages from the increments of the previous step.
     #[inline(always)]
     fn start(&mut self) {
         let step = self.0.step;
@@ -183,7 +183,7 @@ where
     }
 }
 
-/// Whether two lists are the same.
+/// Whether two lists are equal.
 const fn same(left: &[f64], right: &[f64]) -> bool {
     let mut i = 0;
     while i < left.len() && i < right.len() && left[i] == right[i] {

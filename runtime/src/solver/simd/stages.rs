@@ -1,4 +1,4 @@
-//! The memory of coupled stages that are side by side in lanes.
+//! Memory of coupled stages in SIMD lanes.
 
 use core::mem;
 
@@ -14,7 +14,7 @@ pub(crate) type Laned<V, P> = <V as Vector>::With<<P as StageTableau>::Lanes>;
 pub struct SimdStages<V: Vector, P: StageTableau> {
     pub(crate) q: P::Groups<Laned<V, P>>,
     pub(crate) p: P::Groups<Laned<V, P>>,
-    /// Evaluations, or the increments made of them.
+    /// Velocities, or the increments computed from them; likewise for the forces.
     pub(crate) velocity: P::Groups<Laned<V, P>>,
     pub(crate) force: P::Groups<Laned<V, P>>,
 }
@@ -32,7 +32,7 @@ impl<V: Vector, P: StageTableau> Clone for SimdStages<V, P> {
 }
 
 impl<V: Vector, P: StageTableau> SimdStages<V, P> {
-    /// The stages, moved out: nothing points to where they were. Positions and momenta are blank where they are not wanted.
+    /// Moves the stages out, so that no pointer to them exists. Without `with_values`, positions and momenta are left blank.
     #[inline(always)]
     pub(crate) fn take(&mut self, with_values: bool) -> Self {
         let blank = || P::groups(|_| Laned::<V, P>::blank());
@@ -42,7 +42,7 @@ impl<V: Vector, P: StageTableau> SimdStages<V, P> {
             velocity: mem::replace(&mut self.velocity, blank()),
             force: mem::replace(&mut self.force, blank()),
         };
-        // Not one of two values that are moved to one place: the compiler would move from one of two places, and keep both in memory.
+        // Not a choice between two values for one place: the compiler would keep both in memory and select the address.
         if with_values {
             taken.q = mem::replace(&mut self.q, blank());
             taken.p = mem::replace(&mut self.p, blank());
@@ -102,7 +102,7 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SimdStages<V,
             let mut groups = groups.as_ref().iter().map(Vector::dimension).enumerate();
             groups.find(|&(_, found)| found != dimension)
         };
-        // A system that gives a wrong dimension gives it in all lanes: the first stage of the group stands for them.
+        // A system that returns a wrong dimension returns it in all lanes: the first stage of the group stands for all.
         let stage = |group: usize| group * P::Lanes::WIDTH + 1;
         if let Some((group, found)) = first(&self.force) {
             return Some((Quantity::Force, stage(group), found));
@@ -111,7 +111,7 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SimdStages<V,
     }
 }
 
-/// Whether a vector is finite in the lane of a stage.
+/// Whether a vector is finite in the lane of this stage.
 fn is_lane_finite<V: Vector, P: StageTableau>(groups: &[Laned<V, P>], stage: usize) -> bool {
     let group = &groups[stage / P::Lanes::WIDTH];
     let lane = stage % P::Lanes::WIDTH;
