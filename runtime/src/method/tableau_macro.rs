@@ -56,6 +56,6 @@
 ///
 /// # Cost
 ///
-/// The derivation runs while the crate compiles. Where it takes noticeable time in a debug build, optimise
-/// its arithmetic in the crate's `Cargo.toml`: `[profile.dev.build-override] opt-level = 3`.
+/// The derivation runs while the crate compiles. If it takes noticeable time in a debug build, optimise its arithmetic in the crate's
+/// `Cargo.toml`: `[profile.dev.build-override] opt-level = 3`.
 pub use symplectic_macros::tableau;

@@ -57,19 +57,19 @@ pub enum Failure {
     NoConvergence {
         /// Relative change in the last sweep in which it was finite; infinite if it was not measured.
         residual: f64,
-        /// Sweeps made.
+        /// Number of sweeps.
         iterations: u32,
     },
     /// The iteration stagnates far above round-off: [`Error::Stagnation`](crate::Error::Stagnation).
     Stagnation {
         /// Relative change in the last sweep.
         residual: f64,
-        /// Sweeps made.
+        /// Number of sweeps.
         iterations: u32,
     },
     /// An evaluation at the start of the iteration is not finite: [`Error::NonFinite`](crate::Error::NonFinite).
     NonFinite {
-        /// What is not finite.
+        /// The quantity that is not finite.
         what: Quantity,
         /// The stage of the evaluation, from 1.
         stage: Option<usize>,

@@ -366,7 +366,7 @@ impl<V: Vector> Workspace<V> {
         Ok(())
     }
 
-    /// What is not finite in the stages.
+    /// The failure for stages that are not finite.
     fn not_finite(&self) -> Failure {
         let finite = |gradients: &Gradients<V::Scalar>| {
             let mut values = gradients.values().iter();

@@ -316,7 +316,7 @@ impl<V: Vector> Workspace<V> {
         }
     }
 
-    /// What is not finite in the stages.
+    /// The failure for stages that are not finite.
     fn not_finite(&self) -> Failure {
         let stages = self.q.len();
         let kicks = self.kick[..stages].iter().position(|kick| !is_finite(kick));
@@ -334,7 +334,7 @@ impl<V: Vector> Workspace<V> {
 struct Residual {
     /// Relative to the size of each component.
     own: f64,
-    /// Relative to the size of all components: what rounding errors of large components leave of small ones.
+    /// Relative to the size of all components, because rounding errors of large components perturb the small ones.
     largest: f64,
 }
 
