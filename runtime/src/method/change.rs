@@ -2,8 +2,7 @@
 
 use crate::number::Scalar;
 
-/// How much one fixed-point sweep changed the stage values, positions and momenta apart, for they have different
-/// units.
+/// How much one fixed-point sweep changed the stage values. Positions and momenta are separate because their units differ.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StageChange {
     /// Change of the positions.
@@ -79,16 +78,16 @@ impl HalfChange {
         self.scale
     }
 
-    /// Notes that a component of a stage value, `base` plus an increment, went from `old` to `new`.
+    /// Records that a component of a stage value, `base` plus an increment, changed from `old` to `new`.
     #[inline(always)]
     pub fn record<T: Scalar>(&mut self, base: T, old: T, new: T) {
         self.difference = larger(self.difference, (new - old).magnitude());
-        // The rounding error of `base + increment` goes with the larger of the base and the result: where the
-        // two nearly cancel, the result alone would ask for digits that the sum does not have.
+        // The rounding error of `base + increment` scales with the larger of the base and the result. Where base and increment nearly
+        // cancel, the result alone would demand digits that the sum does not have.
         self.scale = larger(self.scale, larger(base.magnitude(), new.magnitude()));
     }
 
-    /// Notes a change of this size among values of this size.
+    /// Records a change of size `difference` among values of size `scale`.
     #[inline(always)]
     pub(crate) fn join(&mut self, difference: f64, scale: f64) {
         self.difference = larger(self.difference, difference);
@@ -97,10 +96,10 @@ impl HalfChange {
 
     /// The largest |new − old| divided by the largest of all |base| and |new|.
     ///
-    /// Nothing recorded, or everything zero: 0. Changed to zero everywhere: 1. Something not finite: NaN.
+    /// Returns 0 if nothing was recorded or everything is zero, 1 if everything changed to zero, and NaN if a new value is NaN or infinite.
     #[inline(always)]
     pub fn relative(&self) -> f64 {
-        // Without a branch: both are zero, or one of them, or neither.
+        // Without a branch, whether both, one or neither of the two are zero.
         let alone = if self.difference == 0.0 {
             1.0
         } else {

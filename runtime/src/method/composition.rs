@@ -1,4 +1,4 @@
-//! Steps of other methods one after another.
+//! Steps of several methods, one after another.
 
 use core::marker::PhantomData;
 
@@ -12,16 +12,16 @@ use crate::method::{
 use crate::number::{Coefficient, Summation, Vector, Visit, vector_words};
 use crate::system::{Class, System};
 
-/// A step `Φ_{γh}` of a composition.
+/// A substep `Φ_{γh}` of a composition.
 #[derive(Clone, Copy, Debug)]
 pub struct Substep {
-    /// The sum of the fractions before it: where it starts, as a fraction of the whole step.
+    /// Where it starts, as a fraction of the whole step: the sum of the fractions before it.
     pub start: Coefficient,
     /// The fraction γ of the whole step.
     pub fraction: Coefficient,
-    /// What the memory of its plan holds from the step before it, or from the last one of the whole step before.
+    /// What the memory of its plan still holds from the previous substep, or from the last substep of the previous step.
     pub kept: WarmStart,
-    /// The stages of the substeps before it, for error messages.
+    /// The number of stages of the substeps before it, for error messages.
     pub stages: usize,
 }
 
@@ -29,7 +29,7 @@ pub struct Substep {
 pub trait Substeps {
     /// The class of systems that they step.
     type Class: Class;
-    /// The memory of the plans that they are taken by.
+    /// The memory of the plans of the substeps.
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>>: StageStorage<V>;
 
     /// The steps in their order.
@@ -71,20 +71,20 @@ pub trait Substeps {
         W: EvaluationObserver;
 }
 
-/// A composition at the level of steps: each finds its own stages, from the result of the one before.
+/// A composition at the level of steps: each substep finds its own stages, from the result of the previous one.
 ///
-/// So the work of an iteration is that of one substep, and it converges as that of the base method does with `γh`. The
-/// sums between the substeps are those of a step: compensated ones lose nothing there either. Compositions of explicit
-/// splittings are no `Composition` but one splitting, in which neighbouring drifts and kicks are merged.
+/// So an iteration costs as much as one substep, and it converges like that of the base method with step size `γh`. The sums between
+/// substeps are like those between steps: compensated sums lose nothing there either. A composition of explicit splittings is not a
+/// `Composition` but one splitting, in which neighbouring drifts and kicks are merged.
 #[derive(Clone, Copy, Debug)]
 pub struct Composition<L>(PhantomData<L>);
 
 /// The memory of a [`Composition`].
 #[derive(Clone, Debug)]
 pub struct CompositionMemory<V, T> {
-    /// That of the plans of the substeps.
+    /// The memory of the plans of the substeps.
     plans: T,
-    /// A state between two substeps: position, what it leaves out, momentum, what it leaves out.
+    /// A state between two substeps: position, its compensation, momentum, its compensation.
     between: [V; 4],
 }
 
@@ -140,7 +140,7 @@ impl<L: Substeps> Plan for Composition<L> {
         let mut work = StepStatistics::default();
         let count = L::SUBSTEPS.len();
         for (number, substep) in L::SUBSTEPS.iter().enumerate() {
-            // Results go to one of two places in turn, the last one to where it belongs.
+            // Results alternate between two places, so that the last one is written to `outcome`.
             let (here, there) = if (count - number) % 2 == 1 {
                 (&mut outcome, &between)
             } else {
@@ -196,7 +196,7 @@ impl<L: Substeps> Plan for Composition<L> {
         Ok(work)
     }
 
-    /// A substep that fails has been observed already.
+    /// Does nothing: a substep that fails has already been observed.
     fn observe<R, V, S, N, W>(
         _step: &Step<'_, V>,
         _system: &S,
@@ -214,7 +214,7 @@ impl<L: Substeps> Plan for Composition<L> {
 
     const INTERPOLATION: Interpolation = Interpolation::Hermite;
 
-    /// Only the stages of the last substep are left.
+    /// Does nothing: only the stages of the last substep are left.
     fn extend<V, S, N>(_memory: &Self::Memory<V, S, N>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
     where
         V: Vector,

@@ -2,7 +2,8 @@
 
 use crate::number::Coefficient;
 
-/// A step `Φ_{γh}` of a method on a system with constraints, holonomic ones or not; a method that is no composition is one of them.
+/// A step `Φ_{γh}` of a method on a system with constraints, holonomic or not. A method that is not a composition consists of one such
+/// step.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstrainedStep {
     /// Where it starts, as a fraction of the whole step.
@@ -28,13 +29,13 @@ impl ConstrainedStep {
     }
 }
 
-/// A symplectic tableau without zero weights; for holonomic constraints with `a_1j = 0`, `a_sj = b_j` and a regular matrix
-/// `X = (A Ã)_ik`, `i = 2..s`, `k = 1..s−1`. The end of symplectic Euler is a last stage of weight zero.
+/// A symplectic tableau without zero weights, except that symplectic Euler has a last stage of weight zero for the end of the step. For
+/// holonomic constraints `a_1j = 0`, `a_sj = b_j`, and the matrix `X = (A Ã)_ik`, `i = 2..s`, `k = 1..s−1`, is regular.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstrainedTableau {
     /// `μ_ij = a_ij/b_j` by rows.
     pub positions: &'static [&'static [Coefficient]],
-    /// `μ̃_ij = ã_ij/b_j` by rows; as rounded, `μ̃_ij + μ_ji = 1` exactly.
+    /// `μ̃_ij = ã_ij/b_j` by rows, rounded so that `μ̃_ij + μ_ji = 1` exactly.
     pub momenta: &'static [&'static [Coefficient]],
     /// `b_i`
     pub weights: &'static [Coefficient],
@@ -42,6 +43,6 @@ pub struct ConstrainedTableau {
     pub nodes: &'static [Coefficient],
     /// `c̃_i`
     pub momentum_nodes: &'static [Coefficient],
-    /// `X⁻¹` by rows; for non-holonomic constraints none.
+    /// `X⁻¹` by rows; empty for non-holonomic constraints.
     pub multipliers: &'static [&'static [f64]],
 }

@@ -1,4 +1,4 @@
-//! Steps some stages of which depend on each other.
+//! Steps with stages that depend on each other.
 
 use core::marker::PhantomData;
 
@@ -9,7 +9,7 @@ use crate::method::{
 use crate::number::{Summation, Vector};
 use crate::system::System;
 
-/// The plan of a step some stages of which depend on each other: a [`Solver`] finds them.
+/// The plan of a step with stages that depend on each other: a [`Solver`] finds them.
 #[derive(Clone, Copy, Debug)]
 pub struct Coupled<P>(PhantomData<P>);
 
@@ -35,7 +35,7 @@ impl<P: StageTableau> Plan for Coupled<P> {
         N::take::<P, R>(step, system, memory, kept, stopping, outcome)
     }
 
-    /// The evaluations are in the memory.
+    /// Does nothing: the evaluations are in the memory.
     fn observe<R, V, S, N, W>(
         _step: &Step<'_, V>,
         _system: &S,

@@ -14,7 +14,7 @@ use crate::number::{Coefficient, Scalar, Summation, Vector, Visit};
 use crate::solver::FixedPoint;
 use crate::system::{Damped, Separable, System};
 
-/// How the splitting `M` steps systems with linear friction `−γp`: kicks are made by the exact flow at a fixed position,
+/// The plan of the splitting `M` for systems with linear friction `−γp`. A kick is the exact flow at a fixed position,
 ///
 /// ```text
 /// p ← e^{−γτ} p + (1 − e^{−γτ})/γ · force      τ = h b̃_i
@@ -24,7 +24,7 @@ use crate::system::{Damped, Separable, System};
 #[derive(Debug)]
 pub struct DampedPlan<M>(PhantomData<M>);
 
-/// The system as a separable one: its friction is for kicks only.
+/// The system as a separable one; only kicks use its friction.
 struct AsSeparable<'a, S>(&'a S);
 
 impl<V: Vector, S: System<V, Class = Damped>> System<V> for AsSeparable<'_, S> {
@@ -54,7 +54,7 @@ impl<V: Vector, S: System<V, Class = Damped>> System<V> for AsSeparable<'_, S> {
     }
 }
 
-/// Kicks by the exact flow with the friction of a system, or by that which the system knows.
+/// Kicks by the exact flow with the friction of a system, or by the system's own kick.
 struct DampedKicks<'a, C> {
     /// The change of the momentum by a kick of the system.
     change: &'a mut C,
@@ -85,7 +85,7 @@ impl<C: Vector> KickDrift for DampedKicks<'_, C> {
         (p, p_low): (&mut V, &mut V),
     ) {
         let time = h * weight.double();
-        // The vectors are of one type.
+        // `C` and `V` are the same type.
         if let Some(change) = same_mut::<C, V>(self.change)
             && system.kick(V::Scalar::from_f64(time), position, force, p, change)
         {

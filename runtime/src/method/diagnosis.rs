@@ -1,4 +1,4 @@
-//! Why a step failed, with what a person needs to know about it.
+//! Why a step failed, with the details for the user.
 
 use crate::error::{Error, Quantity};
 use crate::method::storage::is_finite;
@@ -9,7 +9,7 @@ use crate::number::Vector;
 #[derive(Clone, Copy)]
 enum Fault {
     NonFinite,
-    /// It has another dimension, this one.
+    /// Its dimension is wrong; the number is the dimension found.
     Dimension(usize),
 }
 
@@ -28,7 +28,7 @@ impl FirstFault {
         }
     }
 
-    /// The first that is not finite: what, and the number of its stage.
+    /// The first evaluation that is not finite: its quantity and the number of its stage.
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         match self.found {
             Some((what, stage, Fault::NonFinite)) => Some((what, stage)),
@@ -36,7 +36,7 @@ impl FirstFault {
         }
     }
 
-    /// The first that has another dimension: what, the number of its stage, and its dimension.
+    /// The first evaluation of a wrong dimension: its quantity, the number of its stage, and its dimension.
     fn mismatch(&self) -> Option<(Quantity, usize, usize)> {
         match self.found {
             Some((what, stage, Fault::Dimension(found))) => Some((what, stage, found)),
@@ -59,8 +59,8 @@ impl EvaluationObserver for FirstFault {
     }
 }
 
-/// What is to blame for a result that is not finite, of which `q1` is the position: an evaluation with its stage, in
-/// the stages or `observed`, or else the part of the result.
+/// The cause of a result that is not finite and whose position is `q1`: an evaluation with its stage, in `stages` or `observed`, otherwise
+/// the position or momentum of the result.
 pub(crate) fn culprit<V: Vector, T: StageStorage<V>>(
     observed: &FirstFault,
     stages: &T,
@@ -86,8 +86,8 @@ pub(crate) struct Attempt {
 }
 
 impl Attempt {
-    /// The error for a failure to find the stages or, without one, for a result that is not sound, of which `q1` is
-    /// the position. What is wrong is in the stages, or it was `observed`.
+    /// The error for a `failure` to find the stages. Without a failure, the error for an invalid result whose position is `q1`. The invalid
+    /// evaluation is in `stages`, or it was `observed`.
     pub(crate) fn error<V: Vector, T: StageStorage<V>>(
         self,
         failure: Option<Failure>,
@@ -103,7 +103,7 @@ impl Attempt {
         } = self;
         let mismatch = observed.mismatch().or_else(|| stages.mismatch(dimension));
         if let Some((what, stage, found)) = mismatch {
-            // First of all: whatever else went wrong may be a consequence.
+            // Checked first: any other fault may be a consequence.
             return Error::EvaluationDimension {
                 time,
                 step_size,

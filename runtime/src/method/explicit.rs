@@ -1,4 +1,4 @@
-//! Steps whose stages come one after another.
+//! Steps with explicit stages, computed one after another.
 
 use core::marker::PhantomData;
 
@@ -9,7 +9,7 @@ use crate::method::{
 use crate::number::{Summation, Vector};
 use crate::system::System;
 
-/// The plan of a step in which every stage is computed from the ones before it. There is no solver in its code.
+/// The plan of a step in which every stage is computed from the previous ones. Its code contains no solver.
 #[derive(Clone, Copy, Debug)]
 pub struct Explicit<P>(PhantomData<P>);
 
@@ -62,7 +62,7 @@ impl<P: StagePlan> Plan for Explicit<P> {
 
     const INTERPOLATION: Interpolation = Interpolation::Hermite;
 
-    /// Stages of an explicit method make no polynomial.
+    /// The stages of an explicit method define no polynomial.
     fn extend<V, S, N>(_memory: &P::Stages<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
     where
         V: Vector,

@@ -1,7 +1,7 @@
 //! Values inside a step.
 //!
-//! Every polynomial here is a straight line between the ends of the step and a part that vanishes at both, so that it
-//! has the results of the steps at its ends, to the last bit:
+//! Every polynomial here is a straight line between the ends of the step plus a part that vanishes at both ends. So it has the results of
+//! the steps at its ends, to the last bit:
 //!
 //! ```text
 //! q(t0 + θh) = (1 − θ) q0 + θ q1 + θ (1 − θ) (…)
@@ -11,27 +11,26 @@ use crate::method::{StagePolynomial, StoredEvaluations};
 use crate::number::vector::same;
 use crate::number::{Scalar, Vector};
 
-/// What values inside a step are computed from.
+/// How values inside a step are computed.
 ///
-/// An order m says that values inside the steps of size h have errors of `O(hᵐ)`, apart from the errors that the states
-/// between the steps have already.
+/// An order m means that values inside steps of size h have errors of `O(hᵐ)`, apart from the errors that the states between the steps
+/// already have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
     /// The polynomials through the velocities and the forces of the stages, integrated.
     ///
-    /// With as many polynomials in the basis as nodes this is the Galerkin polynomial itself, which for `a` has the
-    /// stages as its values at the nodes (collocation; Hairer, Nørsett & Wanner, *Solving ODEs I*, Theorem II.7.10). Its
-    /// orders follow from the order of interpolation and that of the stages, `C(η)` and `Ĉ(η̂)`: `min(s, η̂ + 1) + 1`
-    /// for positions of a separable system, `min(s, η + 1) + 1` for momenta, the smaller one for both of a general one.
-    /// So Gauss and Radau with s > 1 stages have the order s + 1.
+    /// If the basis has as many polynomials as there are nodes, this is the Galerkin polynomial itself. For `a` it has the stages as its
+    /// values at the nodes (collocation; Hairer, Nørsett & Wanner, *Solving ODEs I*, Theorem II.7.10). Its orders follow from the order of
+    /// interpolation and from the stage orders, `C(η)` and `Ĉ(η̂)`: `min(s, η̂ + 1) + 1` for positions of a separable system,
+    /// `min(s, η + 1) + 1` for momenta, and the smaller one for both of a general system. So Gauss and Radau with s > 1 stages have the
+    /// order `s + 1`.
     Stages {
         /// The order of positions.
         positions: u32,
         /// The order of momenta.
         momenta: u32,
     },
-    /// The cubic polynomials with the values and the derivatives of both ends, for which the system is evaluated there:
-    /// order 4.
+    /// The cubic polynomials with the values and the derivatives at both ends, where the system is evaluated: order 4.
     Hermite,
 }
 
@@ -57,7 +56,7 @@ impl Interpolation {
         }
     }
 
-    /// That of stages with polynomials of positions and of momenta, where they have them.
+    /// [`Stages`](Self::Stages) if both positions and momenta have a polynomial, otherwise [`Hermite`](Self::Hermite).
     pub(crate) const fn of_stages(
         positions: Option<StagePolynomial>,
         momenta: Option<StagePolynomial>,
@@ -92,7 +91,7 @@ impl<V> Clone for Inside<'_, V> {
 impl<V> Copy for Inside<'_, V> {}
 
 impl<'a, V: Vector> Inside<'a, V> {
-    /// The same of vectors of another type, if that is the same type.
+    /// The same place for vectors of another type, if that is the same type.
     pub(crate) fn same<W: Vector>(self) -> Option<Inside<'a, W>> {
         Some(Inside {
             fraction: self.fraction,
@@ -103,7 +102,7 @@ impl<'a, V: Vector> Inside<'a, V> {
 }
 
 impl<V: Vector> Inside<'_, V> {
-    /// By what the evaluation of a stage, from 0, is multiplied in the part that vanishes at both ends
+    /// The factor of the evaluation of a stage, from 0, in the part that vanishes at both ends
     ///
     /// ```text
     /// −θ(1 − θ) Σ_k γ_k G_k(θ)      G_k = L_k'/(k(k + 1)),   ∫_0^θ L_k = −θ(1 − θ) G_k(θ)
@@ -126,7 +125,7 @@ impl<V: Vector> Inside<'_, V> {
         -theta * (1.0 - theta) * sum
     }
 
-    /// Adds to `out` the part that vanishes at both ends, of evaluations that are stored one by one.
+    /// Adds to `out` the part that vanishes at both ends, from evaluations that are stored one by one.
     pub(crate) fn add(
         self,
         half: &crate::method::HalfTableau,
@@ -150,8 +149,8 @@ impl<V: Vector> Inside<'_, V> {
         }
     }
 
-    /// Adds to `out` the part that vanishes at both ends, `θ(1 − θ)((1 − θ)(h f0 − Δ) − θ(h f1 − Δ))` with the derivatives
-    /// `f0` and `f1` there and the difference Δ of the ends.
+    /// Adds to `out` the part that vanishes at both ends, `θ(1 − θ)((1 − θ)(h f0 − Δ) − θ(h f1 − Δ))`, with the derivatives `f0` and `f1`
+    /// at the ends and the difference Δ of the ends.
     pub(crate) fn add_cubic(self, [start, end]: [&V; 2], line: &Line<'_, V>, out: &mut V) {
         let Self { fraction, size, .. } = self;
         let bubble = fraction * (1.0 - fraction);
@@ -166,7 +165,7 @@ impl<V: Vector> Inside<'_, V> {
     }
 }
 
-/// The ends of a step in positions or momenta, each with what it leaves out.
+/// The ends of a step in positions or momenta, each with its compensation.
 pub(crate) struct Line<'a, V> {
     pub(crate) start: (&'a V, &'a V),
     pub(crate) end: (&'a V, &'a V),
@@ -180,7 +179,7 @@ impl<V: Vector> Line<'_, V> {
             + (end_low.as_slice()[k] - start_low.as_slice()[k])
     }
 
-    /// Adds the straight line to `out`, from the end that is nearer.
+    /// Adds the straight line to `out`, computed from the nearer end.
     pub(crate) fn add(&self, fraction: f64, out: &mut V) {
         let ((near, low), way) = if fraction <= 0.5 {
             (self.start, fraction)

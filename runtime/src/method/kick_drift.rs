@@ -1,4 +1,4 @@
-//! Kicks and drifts: what a splitting is made of.
+//! Kicks and drifts, the parts of a splitting.
 
 use core::mem;
 
@@ -8,7 +8,7 @@ use crate::number::linear_combination::{advance, kick_and_drift};
 use crate::number::{Coefficient, Scalar, Summation, Vector};
 use crate::system::{Layout, System};
 
-/// The velocity of a splitting that makes a drift.
+/// A velocity of a splitting and its drift.
 #[derive(Clone, Copy, Debug)]
 pub struct Drift {
     /// The step.
@@ -19,11 +19,11 @@ pub struct Drift {
     pub time: Coefficient,
     /// Its weight in the result of the step.
     pub weight: Coefficient,
-    /// Whether it has been evaluated before.
+    /// Whether the velocity has already been evaluated.
     pub known: bool,
 }
 
-/// The force of a splitting that makes kicks.
+/// A force of a splitting, for its kicks.
 #[derive(Clone, Copy, Debug)]
 pub struct Force {
     /// The step.
@@ -34,9 +34,9 @@ pub struct Force {
     pub time: Coefficient,
 }
 
-/// How the kicks and drifts of a splitting are made: one by one, `()`, or so that they wait for the drift after them.
+/// How the kicks and drifts of a splitting are applied: one by one, `()`, or deferred to the next drift.
 pub trait KickDrift {
-    /// Evaluates the force, for the kicks that come next.
+    /// Evaluates the force for the next kicks.
     fn force<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
         force: Force,
@@ -69,7 +69,7 @@ pub trait KickDrift {
         witness: &mut W,
     );
 
-    /// Makes what waits: before there is another force, and in the end.
+    /// Applies what is deferred. Called before another force, and at the end.
     fn settle<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         system: &S,
@@ -139,30 +139,29 @@ impl KickDrift for () {
     }
 }
 
-/// A force that has not been evaluated yet, and kicks by one force that the momentum has not been given yet: they wait for the drift
-/// that comes next, which makes them on its own way through the momentum. With long vectors every way through memory counts. The
-/// force too is made on this way if the system [can](System::kick_and_drift), and many ways are made in the
-/// [layout](System::layout) that it likes best.
+/// A deferred force and deferred kicks: the force is not yet evaluated, and the kicks by one force are not yet added to the momentum. The
+/// next drift applies them in its own pass through the momentum, because with long vectors every pass through memory counts. The same pass
+/// evaluates the force if the system [can](System::kick_and_drift). Many passes use the preferred [layout](System::layout) of the system.
 ///
-/// The sums are plain, and every component has the same bits as where nothing waits.
+/// The sums are plain, and every component has the same bits as without deferral.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FusedKicks {
     force: Option<Force>,
-    /// The step size and the weight of each kick: where two steps meet, there are two.
+    /// The step size and the weight of each kick. Where two steps meet, there are two kicks.
     kicks: [(f64, Coefficient); 2],
-    /// How many kicks wait.
+    /// Number of deferred kicks.
     count: usize,
-    /// How many passes are to come, at least, while the layout has not been chosen.
+    /// Lower bound on the number of passes to come, while the layout has not been chosen.
     passes: u64,
     /// How positions and momenta lie in memory.
     layout: Layout,
 }
 
-/// Passes that are worth two changes of the layout.
+/// Number of passes that is worth two changes of the layout.
 const MANY: u64 = 1 << 6;
 
 impl FusedKicks {
-    /// Nothing waits, and there will be so many passes, or more.
+    /// Nothing is deferred, and at least `passes` passes will come.
     pub(crate) const fn new(passes: u64) -> Self {
         Self {
             force: None,
@@ -173,14 +172,14 @@ impl FusedKicks {
         }
     }
 
-    /// The factors of the kicks that wait.
+    /// The factors of the deferred kicks.
     #[inline(always)]
     fn factors<T: Scalar>(&self) -> ([T; 2], usize) {
         let factors = self.kicks.map(|(h, weight)| T::weight(h, weight));
         (factors, self.count.min(factors.len()))
     }
 
-    /// Kicks and a drift in one pass; `false`, and positions and momenta in their order, where the system cannot.
+    /// Kicks and a drift in one pass. Returns `false`, with positions and momenta in their natural order, if the system cannot do this.
     #[inline(always)]
     fn pass<V: Vector, S: System<V>>(
         &mut self,
@@ -205,7 +204,7 @@ impl FusedKicks {
         made
     }
 
-    /// A drift before which there is no kick, in whatever layout there is.
+    /// A drift without a kick before it, in the present layout.
     #[inline(always)]
     fn drift_alone<V: Vector>(&self, q: &mut V, p: &V, drift: V::Scalar) {
         let (q, p) = (q.as_mut_slice(), p.as_slice());
@@ -218,14 +217,14 @@ impl FusedKicks {
         }
     }
 
-    /// Puts positions and momenta back into their order.
+    /// Puts positions and momenta back into their natural order.
     #[inline(always)]
     fn put_back<V: Vector>(&mut self, (q, p): (&mut V, &mut V), place: &mut V) {
         let are_back = mem::take(&mut self.layout).put_vectors_back((q, p), place);
         debug_assert!(are_back, "a place as long as the one before");
     }
 
-    /// Evaluates the force that waits.
+    /// Evaluates the deferred force.
     #[inline(always)]
     fn evaluate<V: Vector, S: System<V>>(&mut self, system: &S, place: &mut V, q: &V, p: &V) {
         if let Some(Force { span, time, .. }) = self.force.take() {
@@ -265,7 +264,7 @@ impl KickDrift for FusedKicks {
         if self.count == self.kicks.len() {
             self.settle::<R, V, S>(system, force, position, momentum);
         }
-        // Places known while compiling can be registers.
+        // Constant indices allow the compiler to use registers.
         match self.count {
             0 => self.kicks[0] = (h, weight),
             _ => self.kicks[1] = (h, weight),
@@ -299,7 +298,7 @@ impl KickDrift for FusedKicks {
         let kicks = &factors[..count];
         let step = V::Scalar::weight(drift.span.size, drift.weight);
         if let (Some(Force { span, time, .. }), true) = (self.force, count > 0) {
-            // Velocities are momenta: there is none in its place.
+            // Velocities are momenta, so the vector `velocity` is free.
             if self.pass(system, span.at(time), (q, p), velocity, kicks, step) {
                 (self.force, self.count) = (None, 0);
                 return;
@@ -333,8 +332,8 @@ impl KickDrift for FusedKicks {
     }
 }
 
-/// The velocity of a drift: the momentum itself where [masses are one](System::UNIT_MASSES), else what is in `place`,
-/// which is evaluated unless it is `known`.
+/// The velocity of a drift. With [unit masses](System::UNIT_MASSES) this is the momentum itself; otherwise it is `place`, which is
+/// evaluated unless it is `known`.
 #[inline(always)]
 fn velocity<'a, V: Vector, S: System<V>>(
     system: &S,
@@ -361,7 +360,7 @@ mod tests {
     use crate::system::{acceleration, separable};
     use nalgebra::SVector;
 
-    /// Long enough for rows.
+    /// Long enough for SIMD rows.
     type Long = SVector<f64, 40>;
 
     /// Bonds that pull harder with time.
@@ -378,7 +377,7 @@ mod tests {
         size: 0.3,
     };
 
-    /// What moves are made on.
+    /// The vectors that the moves act on.
     #[derive(Clone, Debug, PartialEq)]
     struct Places {
         q: (Long, Long),

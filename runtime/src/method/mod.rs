@@ -1,4 +1,4 @@
-//! What the macro emits: a method, and how it goes through one step.
+//! Methods as the macros emit them, and their plans for one step.
 
 pub(crate) mod change;
 pub(crate) mod composition;
@@ -66,37 +66,36 @@ use crate::error::Error;
 use crate::number::{Coefficients, Scalar, Summation, Vector};
 use crate::system::{Class, General, Separable, System};
 
-/// A symplectic partitioned Runge–Kutta method: a type without a value, emitted from a proved tableau.
+/// A symplectic partitioned Runge–Kutta method: a type without fields, emitted from a proved tableau.
 ///
-/// It can be run on separable systems. On general ones it can where it is [`ProvedFor`] them.
+/// It can be run on separable systems, and on general systems if it is [`ProvedFor`] them.
 pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static {
     /// Name of the method.
     const NAME: &'static str;
     /// Number of stages s of the tableau; a plan may store fewer.
     const STAGES: usize;
-    /// What it was derived from: `basis: polynomial(3), nodes: lobatto(3)`. The compiler derives the exact
-    /// tableau from it again.
+    /// Its definition: `basis: polynomial(3), nodes: lobatto(3)`. The compiler derives the exact tableau from it again.
     const DEFINITION: &'static str;
-    /// The coefficients, for what is computed beside the step; the plans have theirs in their code.
+    /// The coefficients, for computations outside the step; the plans have theirs in their code.
     const COEFFICIENTS: Coefficients;
     /// Its order for each class of Hamiltonians.
     const ORDERS: Orders;
     /// The Hamiltonians for which it is symmetric.
     const SYMMETRY: Symmetry = Symmetry::NONE;
-    /// Whether it is refused for separable systems whose kinetic energy is not quadratic: where its order is lower there.
+    /// Whether it is refused for separable systems whose kinetic energy is not quadratic, because its order is lower there.
     const NEEDS_QUADRATIC_KINETIC: bool = Self::ORDERS.nystrom > Self::ORDERS.separable;
 
     /// Number of basis functions of the velocity inside a step. It is the number of stages, or less if the quadrature formula has more nodes
     /// than the basis has functions.
     const FUNCTIONS: usize = Self::STAGES;
 
-    /// How it steps systems with holonomic constraints, where it can: by one step, or those of a composition.
+    /// Its steps for systems with holonomic constraints: one step, or those of a composition. Empty if it has none.
     const CONSTRAINED: &'static [ConstrainedStep] = &[];
 
-    /// How it steps systems with non-holonomic constraints, where it can: by one step, or those of a composition.
+    /// Its steps for systems with non-holonomic constraints: one step, or those of a composition. Empty if it has none.
     const NONHOLONOMIC: &'static [ConstrainedStep] = &[];
 
-    /// The same method, for every system: also where its order is lower or it is not symplectic.
+    /// The same method for every system, even if its order is lower or it is not symplectic.
     ///
     /// ```
     /// symplectic::tableau! { ForestRuth { base: forest-ruth-1990 } }
@@ -119,15 +118,14 @@ pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static 
         LowerOrder(self)
     }
 
-    /// How it steps a system with any Hamiltonian.
+    /// Its plan for systems with a general Hamiltonian.
     type General: Plan<Class = General>;
-    /// How it steps a system with a separable Hamiltonian.
+    /// Its plan for systems with a separable Hamiltonian.
     type Separable: Plan<Class = Separable>;
 }
 
-/// How a [`Method`] goes through one step of a system of one [`Class`]: by drifts and kicks, [`Splitting`], by other stages
-/// in their order, [`Explicit`], by stages that a [`Solver`] finds, [`Coupled`], or by steps of other methods,
-/// [`Composition`].
+/// How a [`Method`] takes one step of a system of one [`Class`]: by drifts and kicks ([`Splitting`]), by other explicit stages
+/// ([`Explicit`]), by stages that a [`Solver`] finds ([`Coupled`]), or by steps of other methods ([`Composition`]).
 ///
 /// [`Splitting`]: crate::emitted::Splitting
 /// [`Explicit`]: crate::emitted::Explicit
@@ -136,16 +134,16 @@ pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static 
 pub trait Plan {
     /// The class of systems that it steps.
     type Class: Class;
-    /// What it needs beside the state, made once and used for every step.
+    /// Its memory besides the state, allocated once and used for every step.
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>>: StageStorage<V>;
 
-    /// The evaluations of a step that is [taken in place](Self::take_in_place); `None` where steps cannot be.
+    /// The number of evaluations of a step that is [taken in place](Self::take_in_place); `None` if steps cannot be taken in place.
     const EVALUATIONS_IN_PLACE: Option<u32> = None;
 
-    /// Whether no value decides which way a step goes: in every lane of a vector of lanes it then has the bits of a step of doubles.
+    /// Whether a step has no branch on a value. Then a step of a vector of lanes has in every lane the bits of a step of doubles.
     const LANEWISE: bool = false;
 
-    /// Makes room in `memory` for what depends on the system.
+    /// Allocates in `memory` what depends on the system.
     #[inline(always)]
     fn prepare<V, S, N>(
         _memory: &mut Self::Memory<V, S, N>,
@@ -164,8 +162,8 @@ pub trait Plan {
     ///
     /// # Errors
     ///
-    /// [`Error::OtherClass`], where the system has constraints or friction that steps of this class leave out;
-    /// [`Error::InconsistentStart`] and others, where there are constraints.
+    /// [`Error::OtherClass`] if the system has constraints or friction that steps of this class ignore; [`Error::InconsistentStart`] and
+    /// others if there are constraints.
     #[inline(always)]
     fn check<V, S>(system: &S, _time: f64, q: &V, _p: &V) -> Result<(), Error>
     where
@@ -176,11 +174,11 @@ pub trait Plan {
         check_no_friction(system, q)
     }
 
-    /// Takes `step` and writes its result into `outcome`; returns what that took.
+    /// Takes `step` and writes its result into `outcome`; returns the statistics of the step.
     ///
     /// # Errors
     ///
-    /// [`Failure`], where the stages cannot be found. That the result is finite is left to the caller to check.
+    /// [`Failure`] if the stages cannot be found. The caller checks that the result is finite.
     fn take<R, V, S, N>(
         step: &Step<'_, V>,
         system: &S,
@@ -195,8 +193,8 @@ pub trait Plan {
         S: System<V, Class = Self::Class>,
         N: Solver<V, S>;
 
-    /// Takes a step from `state`, in place, with the evaluations [kept](WarmStart::evaluation) by the step before; nothing where
-    /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`. `moves` may leave a force and kicks waiting.
+    /// Takes a step from `state`, in place, with the evaluations [kept](WarmStart::evaluation) by the previous step. Does nothing if
+    /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`. `moves` may defer a force and kicks.
     #[inline(always)]
     fn take_in_place<R, V, S, N, K>(
         _span: Span,
@@ -213,7 +211,7 @@ pub trait Plan {
     {
     }
 
-    /// Gives the state what steps [taken in place](Self::take_in_place) have left waiting.
+    /// Applies to the state what steps [taken in place](Self::take_in_place) have deferred.
     #[inline(always)]
     fn settle_in_place<R, V, S, N, K>(
         _system: &S,
@@ -229,8 +227,8 @@ pub trait Plan {
     {
     }
 
-    /// Takes `step` of a splitting by other `moves` than kicks and drifts as they are, and shows its evaluations to `witness`. Code that
-    /// asks another plan for it does not compile.
+    /// Takes `step` of a splitting by `moves` other than plain kicks and drifts, and shows its evaluations to `witness`. Does not compile
+    /// for any other plan.
     #[inline(always)]
     fn take_by<R, V, S, K, W>(
         _step: &Step<'_, V>,
@@ -257,7 +255,7 @@ pub trait Plan {
         StepStatistics::default()
     }
 
-    /// Takes a step that failed once more and shows its evaluations to `witness`, if they are not in `memory`.
+    /// Repeats a step that failed, and shows its evaluations to `witness` unless they are in `memory`.
     fn observe<R, V, S, N, W>(
         step: &Step<'_, V>,
         system: &S,
@@ -271,8 +269,8 @@ pub trait Plan {
         N: Solver<V, S>,
         W: EvaluationObserver;
 
-    /// Takes a step once more, with new memory, and shows its stages; `None` where these follow from the position at its start and the
-    /// momentum at its end.
+    /// Repeats a step with new memory, and shows its stages. `None` if the stages follow from the position at its start and the momentum at
+    /// its end.
     #[inline]
     fn show_stages<R, V, S>(
         _step: &Step<'_, V>,
@@ -288,7 +286,7 @@ pub trait Plan {
         None
     }
 
-    /// Writes p' at a state into `rate`: the force, and that of constraints.
+    /// Writes p' at a state into `rate`: the force, including that of constraints.
     #[inline]
     fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
     where
@@ -298,11 +296,11 @@ pub trait Plan {
         system.force(V::Scalar::from_f64(time), q, p, rate);
     }
 
-    /// What values inside a step are computed from.
+    /// How values inside a step are computed.
     const INTERPOLATION: Interpolation;
 
-    /// Adds to `q` and `p` how far they are inside the last step from the straight line between its ends, where that
-    /// follows from the [stages](Interpolation::Stages) in `memory`.
+    /// Adds to `q` and `p` their deviations from the straight line between the ends of the last step, if these follow from the
+    /// [stages](Interpolation::Stages) in `memory`.
     fn extend<V, S, N>(memory: &Self::Memory<V, S, N>, at: Inside<'_, V>, q: &mut V, p: &mut V)
     where
         V: Vector,
@@ -357,28 +355,27 @@ pub(crate) fn check_no_friction<V: Vector, S: System<V>>(system: &S, q: &V) -> R
 
 /// How the stages of a [`Method`] are found for systems of one [`Class`].
 ///
-/// A step is `begin`, then `sweep` until the stages no longer change (never in an [`Explicit`](crate::emitted::Explicit) plan), with plain sums
-/// `increments`, then `finish`.
+/// A step is `begin`, then `sweep` until the stages have converged (never in an [`Explicit`](crate::emitted::Explicit) plan), then
+/// `increments` with plain sums, then `finish`.
 ///
-/// Stage `i` evaluates the force at `t0 + c_i h` and the velocity at `t0 + c̃_i h`: see
-/// [`Hamiltonian`](crate::Hamiltonian#time). Plans of the class [`Separable`] pass for the argument that the system does not
-/// read whatever vector is at hand.
+/// Stage `i` evaluates the force at `t0 + c_i h` and the velocity at `t0 + c̃_i h`: see [`Hamiltonian`](crate::Hamiltonian#time). Plans of
+/// the class [`Separable`] pass an arbitrary vector for the argument that the system does not read.
 ///
-/// Where the method is symplectic and no weight is zero, coupled stages are sums of increments `h b_j velocity_j` and
-/// `h b̃_j force_j` with the coefficients `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, rounded so that `μ̃_ij + μ_ji = 1`
-/// exactly: the rounded method is symplectic too. A splitting, where every evaluation is in the later stages in full,
-/// applies it to the state at once and stores no stages.
+/// If the method is symplectic and no weight is zero, coupled stages are sums of increments `h b_j velocity_j` and `h b̃_j force_j` with
+/// the coefficients `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, rounded so that `μ̃_ij + μ_ji = 1` exactly: the rounded method is symplectic
+/// too. A splitting, in which every evaluation enters the later stages with its full weight, applies it to the state at once and stores no
+/// stages.
 pub trait StagePlan {
     /// The class of systems that it steps.
     type Class: Class;
-    /// Where the stage values and evaluations are.
+    /// The stage values and the evaluations.
     type Stages<V: Vector>: StageStorage<V>;
 
     /// How many evaluations it makes.
     const EVALUATIONS: EvaluationCounts;
 
-    /// Evaluates what is explicit before the coupled stages, and gives these their starting values: extrapolated from
-    /// the stages of the step before where they are [kept](WarmStart::stages), the start of the step elsewhere.
+    /// Evaluates the explicit stages before the coupled ones, and sets the starting values of the coupled stages. These are extrapolated
+    /// from the stages of the previous step if they are [kept](WarmStart::stages); otherwise they are the start of the step.
     fn begin<R: Summation, V: Vector, S: System<V, Class = Self::Class>>(
         step: &Step<'_, V>,
         system: &S,
@@ -389,7 +386,7 @@ pub trait StagePlan {
     /// One fixed-point sweep over the coupled stages: new forces, the momenta that follow from them, new velocities, and the
     /// positions that follow from those. Returns how much the stage values changed.
     ///
-    /// For a separable system one half comes after the other and uses its new evaluations: the stopping rule of
+    /// For a separable system the second half uses the new evaluations of the first: the stopping criterion of
     /// [`FixedPoint`](crate::solver::FixedPoint) relies on it.
     fn sweep<R: Summation, V: Vector, S: System<V, Class = Self::Class>>(
         step: &Step<'_, V>,
@@ -397,9 +394,8 @@ pub trait StagePlan {
         stages: &mut Self::Stages<V>,
     ) -> StageChange;
 
-    /// Makes increments of the evaluations of the coupled stages, where they are to be such. With
-    /// [compensated](Summation::COMPENSATED) sums every sweep does; with plain ones they stay as they are meanwhile, and the factors of
-    /// the sums make up for it.
+    /// Turns the evaluations of the coupled stages into increments, if the plan uses increments. With [compensated](Summation::COMPENSATED)
+    /// sums every sweep does this. With plain sums the evaluations stay unscaled until then, and the factors of the sums make up for it.
     #[inline(always)]
     fn increments<V: Vector>(_step: &Step<'_, V>, _stages: &mut Self::Stages<V>) {}
 

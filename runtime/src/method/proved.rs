@@ -1,4 +1,4 @@
-//! For which systems a method is what its name promises.
+//! The classes of systems for which a method is proved to keep its order and symplecticity.
 
 use crate::method::Method;
 use crate::number::Coefficients;
@@ -10,8 +10,8 @@ use crate::system::{Class, Unconstrained};
 /// symplectic for separable Hamiltonians only and lacks it for [`General`](crate::General):
 /// [`Integrator::new`](crate::Integrator::new) does not compile there. [`Method::accept_lower_order`] lifts that.
 ///
-/// Every method has it for `()` too, which is no class: where there were one class only, the compiler would conclude it from the
-/// method, and complain about the system.
+/// Every method has it for `()` too, which is no class. If a method had it for one class only, the compiler would infer that class from the
+/// method and report an error in the system.
 ///
 /// Code that is generic over the method and the system asks for `M: Method + ProvedFor<S::Class>`.
 ///
@@ -55,8 +55,8 @@ pub struct Orders {
     pub nystrom: u32,
 }
 
-/// For which Hamiltonians a method is symmetric, its own adjoint: a step of size `−h` undoes one of size `h`. As the compiler proved
-/// it.
+/// The Hamiltonians for which a method is symmetric, as the compiler proved it. A symmetric method is its own adjoint: a step of size `−h`
+/// undoes a step of size `h`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Symmetry {
     /// For every `H(q, p)`.
@@ -66,13 +66,13 @@ pub struct Symmetry {
 }
 
 impl Symmetry {
-    /// For none.
+    /// For no Hamiltonian.
     pub const NONE: Self = Self {
         general: false,
         separable: false,
     };
 
-    /// Whether it is for systems of class `C`.
+    /// Whether the method is symmetric for systems of class `C`.
     pub(crate) const fn of<C: Class>(self) -> bool {
         self.general || C::SEPARABLE && self.separable
     }
@@ -95,5 +95,5 @@ impl<M: Method> Method for LowerOrder<M> {
     type Separable = M::Separable;
 }
 
-// With constraints no method has a lower order that could be accepted: it has steps for them or not.
+// With constraints there is no lower order to accept: a method either has constrained steps or it has none.
 impl<M: Method, C: Unconstrained> ProvedFor<C> for LowerOrder<M> {}

@@ -1,4 +1,4 @@
-//! What the macros emit of a splitting that is too long for its matrices to be written out.
+//! What the macros emit for a splitting whose matrices are too large to write out.
 
 use crate::method::{
     EvaluationObserver, Failure, Inside, Interpolation, Outcome, Plan, Solver, Step,
@@ -7,8 +7,8 @@ use crate::method::{
 use crate::number::{Summation, Vector};
 use crate::system::{General, System};
 
-/// The matrix with the entries `weights[j]` in the row `i` for `j < i`, and for `j = i` where they are its `own`, and `zero`
-/// elsewhere: `a` and `ã` of a splitting.
+/// The lower triangular matrix with the entry `weights[j]` in row `i` for `j < i`, and for `j = i` if `own`; the other entries are `zero`.
+/// These are `a` and `ã` of a splitting.
 ///
 /// ```
 /// const A: [[f64; 3]; 3] = symplectic::emitted::staircase([0.25, 0.5, 0.25], 0.0, false);
@@ -33,7 +33,7 @@ pub const fn staircase<T: Copy, const N: usize>(
     matrix
 }
 
-/// The rows of a matrix, as [`Coefficients`](crate::solver::Coefficients) have them.
+/// The rows of a matrix, in the form of [`Coefficients`](crate::solver::Coefficients).
 pub const fn rows<T, const N: usize>(matrix: &[[T; N]; N]) -> [&[T]; N] {
     let mut rows: [&[T]; N] = [&[]; N];
     let mut i = 0;
@@ -44,15 +44,15 @@ pub const fn rows<T, const N: usize>(matrix: &[[T; N]; N]) -> [&[T]; N] {
     rows
 }
 
-/// The plan for general Hamiltonians of a splitting of more than 36 stages: there is none, and code that steps a system with
-/// such a Hamiltonian by the method does not compile.
+/// The plan for general Hamiltonians of a splitting with more than 36 stages: it does not exist. Code that steps a system with such a
+/// Hamiltonian by the method does not compile.
 ///
-/// For these every stage had to be solved for, and the method were of order 1 or 2 all the same.
+/// Such a step would have to solve for every stage, and the method would still have order 1 or 2.
 #[derive(Clone, Copy, Debug)]
 pub struct SeparableOnly;
 
 impl SeparableOnly {
-    /// Stops the compiler where a step is instantiated, which the vector has to be known for.
+    /// Fails to compile once a step is instantiated, because only then is the type of the vectors known.
     const fn refuse<V>() {
         assert!(
             size_of::<V>() == usize::MAX,

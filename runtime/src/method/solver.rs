@@ -14,9 +14,9 @@ use crate::system::System;
 
 /// Finds the stages of a [`Coupled`](crate::emitted::Coupled) plan, for a system `S` over the vectors `V`.
 ///
-/// [`FixedPoint`](crate::solver::FixedPoint) is the one that every system has.
+/// [`FixedPoint`](crate::solver::FixedPoint) is available for every system.
 pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
-    /// Whether it is tried, when an integrator is made, if the velocity is [linear](Step::linear_velocity) in the momentum.
+    /// Whether a new integrator tests if the velocity is [linear](Step::linear_velocity) in the momentum.
     const TRIES_LINEARITY: bool = false;
 
     /// Its name in [checkpoints](crate::Checkpoint).
@@ -24,14 +24,14 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
         core::any::type_name::<Self>()
     }
 
-    /// What it needs for one plan, made once and used for every step.
+    /// Its memory for one plan, allocated once and used for every step.
     type Memory<P: StageTableau>: StageStorage<V>;
 
-    /// Takes `step` and writes its result into `outcome`; returns what that took.
+    /// Takes `step` and writes its result into `outcome`; returns the statistics of the step.
     ///
     /// # Errors
     ///
-    /// [`Failure`], where the stages cannot be found. That the result is finite is left to the caller to check.
+    /// [`Failure`] if the stages cannot be found. The caller checks that the result is finite.
     fn take<P, R>(
         step: &Step<'_, V>,
         system: &S,
@@ -45,8 +45,8 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
         R: Summation,
         S: System<V, Class = P::Class>;
 
-    /// Takes a step of a tableau that is known only when the program runs, and whose stages depend on each other. Code that asks a
-    /// solver for it that cannot do it does not compile.
+    /// Takes a step of a tableau that is known only at run time and whose stages depend on each other. Does not compile for a solver that
+    /// does not support it.
     ///
     /// # Errors
     ///
@@ -74,7 +74,7 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
         Ok(StepStatistics::default())
     }
 
-    /// Adds to `q` and `p` how far they are inside the last step from the straight line between its ends, by the
+    /// Adds to `q` and `p` their deviations from the straight line between the ends of the last step. These come from the
     /// [polynomials](crate::solver::HalfTableau::polynomial) through the evaluations in `memory`.
     fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V);
 }

@@ -9,15 +9,15 @@ use crate::method::{
 use crate::number::{Summation, Vector, copy};
 use crate::system::{Class, System};
 
-/// How a splitting goes through one step of a system of one [`Class`]: each evaluation is in the later stages in full, so
-/// it is applied to the state at once, and no stage is stored.
+/// How a splitting takes one step of a system of one [`Class`]. Every evaluation enters the later stages with its full weight, so it is
+/// applied to the state at once, and no stage is stored.
 pub trait SplittingPlan {
     /// The class of systems that it steps.
     type Class: Class;
 
     /// The number of evaluations of a step.
     const EVALUATIONS: u32;
-    /// How many of the first ones are not made where the step before has [kept](WarmStart::evaluation) them.
+    /// Number of first evaluations that are skipped if the previous step has [kept](WarmStart::evaluation) them.
     const CARRIED: u32;
 
     /// Takes the step `span` from `state`, in place, by these `moves`, and shows its evaluations to `witness`.
@@ -38,12 +38,12 @@ pub trait SplittingPlan {
     );
 }
 
-/// The plan of a splitting. There is no solver in its code.
+/// The plan of a splitting. Its code contains no solver.
 #[derive(Clone, Copy, Debug)]
 pub struct Splitting<P>(PhantomData<P>);
 
 impl<P: SplittingPlan> Splitting<P> {
-    /// Puts the state before `step` where the one after it is to be.
+    /// Copies the state before `step` to `state`, where the step is applied.
     #[inline(always)]
     fn start<R: Summation, V: Vector>(step: &Step<'_, V>, state: &mut Outcome<'_, V>) {
         copy(state.q, step.q);
@@ -138,7 +138,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
 
     const INTERPOLATION: Interpolation = Interpolation::Hermite;
 
-    /// There are no stages to make a polynomial of.
+    /// Does nothing: a splitting has no stages for a polynomial.
     fn extend<V, S, N>(_memory: &Evaluations<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
     where
         V: Vector,

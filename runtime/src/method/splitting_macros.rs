@@ -30,29 +30,29 @@
 ///
 /// | key | value |
 /// |---|---|
-/// | `kick`, `drift` | two lists of the same length, each of sum 1; 0 where there is none |
-/// | `first` | `drift` where each drift comes before the kick of the same number; `kick` if left out |
-/// | `claim` | `separable(6)`, `nystrom(6)` or `perturbed(8, 6, 4)`: the lists are digits as printed, and the method is the exact one of that order that is proved to be near them |
-/// | `symmetric` | `true` where the lists are the first half of a sequence that reads the same from both ends: what is written last stands in the middle, once. The flow that comes first may have one more than the other, and is in the middle then |
+/// | `kick`, `drift` | two lists of the same length, each with sum 1; 0 for no kick or no drift |
+/// | `first` | `drift` if each drift comes before the kick of the same number; default `kick` |
+/// | `claim` | `separable(6)`, `nystrom(6)` or `perturbed(8, 6, 4)`: the lists are printed digits, and the method is the exact one of that order, proved to lie near them |
+/// | `symmetric` | `true` if the lists are the first half of a palindrome: the last entry is the middle and occurs once. The flow that comes first may have one entry more than the other; its last entry is then the middle |
 /// | `exchange`, `adjoint`, `require`, `accept`, `max_stages` | as in [`tableau!`](crate::tableau) |
 ///
-/// Drifts with no kick between them are one drift, and the other way round; what is 0 at an end is no step. The method is
-/// the partitioned Runge–Kutta method
+/// Drifts with no kick between them are merged into one, and likewise kicks. A 0 at either end is dropped. The method is the partitioned
+/// Runge–Kutta method
 ///
 /// ```text
 /// a_ij = drift_j for j < i     ã_ij = kick_j for j ≤ i     b = drift     b̃ = kick
 /// ```
 ///
-/// (Marsden & West 2001, §2.6.4), so that everything is proved of it that is proved of a tableau. It is symplectic for
-/// separable Hamiltonians, `require: [symplectic(separable)]`. On a [`General`](crate::General) system it is not symplectic and has
-/// a lower order: there it compiles with [`accept_lower_order`](crate::Method::accept_lower_order) only.
+/// (Marsden & West 2001, §2.6.4), so everything that is proved of a tableau is proved of it. It is symplectic for separable Hamiltonians,
+/// `require: [symplectic(separable)]`. On a [`General`](crate::General) system it is not symplectic and has a lower order: it compiles
+/// there only with [`accept_lower_order`](crate::Method::accept_lower_order).
 ///
-/// A step of a [`Separable`](crate::Separable) system is straight-line code. Where it begins and ends with a kick, the force
-/// at its end is the one at the start of the next step, and is evaluated once.
+/// A step of a [`Separable`](crate::Separable) system is straight-line code. If the step begins and ends with a kick, the force at its end
+/// is that at the start of the next step and is evaluated once.
 ///
 /// # Errors
 ///
-/// As with [`tableau!`](crate::tableau); lists that are not of the same length, or whose sum is not 1.
+/// As with [`tableau!`](crate::tableau); also if the lists differ in length or do not sum to 1.
 ///
 /// ```compile_fail
 /// symplectic::splitting! {
@@ -106,26 +106,26 @@ pub use symplectic_macros::splitting;
 ///
 /// | key | value |
 /// |---|---|
-/// | `base` | a method of the catalogue (`symplectic list`; `StoermerVerlet` and `stormer-verlet` are one name), or a definition in brackets: `[kick: [1/2, 1/2], drift: [1, 0]]` |
-/// | `weights` | the fractions `γ_i` of the step, of sum 1; `adjoint(1/2)` for a step of the adjoint. Or `triple_jump(p)`, `suzuki(p)` for an even order `p` up to 10 from a symmetric base |
-/// | `symmetric` | `true` where the weights are the first half: what is written last stands in the middle, once. The base has to be symmetric |
-/// | `claim` | `separable(8)`: the weights are digits as printed, and the method has the exact ones near them that are proved to exist, with which every symmetric base of order 2 gives that order. The base is one of kicks and drifts |
+/// | `base` | a method of the catalogue (`symplectic list`; `StoermerVerlet` and `stormer-verlet` are the same name), or a definition in brackets: `[kick: [1/2, 1/2], drift: [1, 0]]` |
+/// | `weights` | the fractions `γ_i` of the step, with sum 1; `adjoint(1/2)` for a step of the adjoint. Or `triple_jump(p)`, `suzuki(p)` for an even order `p` up to 10 from a symmetric base |
+/// | `symmetric` | `true` if the weights are the first half of a palindrome: the last one is the middle and occurs once. The base has to be symmetric |
+/// | `claim` | `separable(8)`: the weights are printed digits, and the method has the exact weights near them, which are proved to exist. With these every symmetric base of order 2 gives that order. The base is a splitting |
 /// | `compose` | instead of these: steps of several methods, `[[γ_1, definition], …]` |
 /// | `exchange`, `adjoint`, `require`, `accept`, `max_stages` | as in [`tableau!`](crate::tableau) |
 ///
-/// The triple jump raises the order of a symmetric method from `p` to `p + 2` by `γ_1 = γ_3 = 1/(2 − 2^{1/(p+1)})`,
-/// `γ_2 = 1 − 2γ_1`, Suzuki's fractal by `γ_1 = γ_2 = γ_4 = γ_5 = 1/(4 − 4^{1/(p+1)})`, `γ_3 = 1 − 4γ_1`, again and again up
-/// to the order that is asked for (Hairer, Lubich & Wanner, *Geometric numerical integration*, §II.4). The weights are
-/// exact; to order 6 they lie in a number field, in which everything is proved, and from order 8 on what holds is verified.
+/// The triple jump raises the order of a symmetric method from `p` to `p + 2` by `γ_1 = γ_3 = 1/(2 − 2^{1/(p+1)})`, `γ_2 = 1 − 2γ_1`,
+/// Suzuki's fractal by `γ_1 = γ_2 = γ_4 = γ_5 = 1/(4 − 4^{1/(p+1)})`, `γ_3 = 1 − 4γ_1`. This is repeated up to the required order (Hairer,
+/// Lubich & Wanner, *Geometric numerical integration*, §II.4). The weights are exact. Up to order 6 they lie in a number field, in which
+/// everything is proved; from order 8 on the properties are verified.
 ///
-/// A composition of splittings is a splitting, with neighbouring drifts and kicks made one. Any other composition has the
-/// stages of all its steps; one of methods that are symplectic for all Hamiltonians is so too. Where stages are solved
-/// for, it is taken step by step, each from the result of the one before: see [`Composition`](crate::emitted::Composition).
+/// A composition of splittings is a splitting, in which neighbouring drifts and kicks are merged. Any other composition has the stages of
+/// all its steps; it is symplectic for all Hamiltonians if its methods are. If it has implicit stages, its steps are taken one by one, each
+/// from the result of the previous one: see [`Composition`](crate::emitted::Composition).
 ///
 /// # Errors
 ///
-/// As with [`tableau!`](crate::tableau); an unknown base, with the names that are near; weights whose sum is not 1; a base
-/// that is not symmetric where the composition needs it.
+/// As with [`tableau!`](crate::tableau); also for an unknown base (the error lists similar names), for weights whose sum is not 1, and for
+/// a base that is not symmetric where the composition needs it.
 ///
 /// ```compile_fail
 /// symplectic::composition! {

@@ -13,19 +13,19 @@ pub struct Step<'a, V> {
     pub size: f64,
     /// Position at the start, q0, rounded.
     pub q: &'a V,
-    /// What `q` leaves out: with [`Compensated`](crate::Compensated) sums the position is `q + q_low`.
+    /// Compensation of `q`: with [`Compensated`](crate::Compensated) sums the position is `q + q_low`.
     pub q_low: &'a V,
     /// Momentum at the start, p0, rounded.
     pub p: &'a V,
-    /// What `p` leaves out.
+    /// Compensation of `p`.
     pub p_low: &'a V,
-    /// Whether the velocity is linear in the momentum, and does not depend on time: the kinetic energy is quadratic. `false` also
-    /// where the [solver](crate::solver::Solver::TRIES_LINEARITY) does not ask.
+    /// Whether the velocity is linear in the momentum and does not depend on time: the kinetic energy is quadratic. Also `false` if the
+    /// [solver](crate::solver::Solver::TRIES_LINEARITY) does not test it.
     pub linear_velocity: bool,
 }
 
 impl<V: Vector> Step<'_, V> {
-    /// What `take` makes of a copy: nothing points to the vectors themselves.
+    /// Calls `take` with a copy of the step, so that nothing points to the original vectors.
     #[inline(always)]
     pub(crate) fn copied<T>(&self, take: impl FnOnce(&Step<'_, V>) -> T) -> T {
         let (q, q_low) = (self.q.clone(), self.q_low.clone());
@@ -41,7 +41,7 @@ impl<V: Vector> Step<'_, V> {
         })
     }
 
-    /// The same step of vectors of another type, if that is the same type.
+    /// The same step for vectors of another type, if that is the same type.
     #[inline(always)]
     pub(crate) fn same<W: Vector>(&self) -> Option<Step<'_, W>> {
         Some(Step {
@@ -63,7 +63,7 @@ impl<V> Step<'_, V> {
         self.span().at(c)
     }
 
-    /// From when to when it goes.
+    /// The time span of the step.
     #[inline(always)]
     pub const fn span(&self) -> Span {
         Span {
@@ -73,7 +73,7 @@ impl<V> Step<'_, V> {
     }
 }
 
-/// From when to when a step goes: from `time` to `time + size`.
+/// The time span of a step: from `time` to `time + size`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// Time at the start, t0.
@@ -83,7 +83,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// The time `t0 + c h` of the node `c`; in double precision, as times are, whatever the scalar.
+    /// The time `t0 + c h` of the node `c`, computed in double precision like all times, whatever the scalar.
     #[inline(always)]
     pub fn at<T: Scalar>(&self, c: Coefficient) -> T {
         T::from_f64(self.time + c.double() * self.size)
@@ -95,7 +95,7 @@ impl Span {
         self.time + self.size / 2.0
     }
 
-    /// The span of this size about a time in its middle.
+    /// The span of size `size` about the time `middle`.
     #[inline(always)]
     pub(crate) const fn about(middle: f64, size: f64) -> Self {
         Self {
@@ -105,7 +105,7 @@ impl Span {
     }
 }
 
-/// A stage of a step that was taken.
+/// A stage of a completed step.
 #[derive(Clone, Copy, Debug)]
 pub struct StageView<'a, V> {
     /// `h b_i`
@@ -120,16 +120,16 @@ pub struct StageView<'a, V> {
     pub p: &'a V,
 }
 
-/// Where the result of a step is written; the old values mean nothing.
+/// Where the result of a step is written; the old values are ignored.
 #[derive(Debug)]
 pub struct Outcome<'a, V> {
     /// Position q1, rounded.
     pub q: &'a mut V,
-    /// What `q` leaves out; untouched by [`Plain`](crate::Plain) sums.
+    /// Compensation of `q`; untouched by [`Plain`](crate::Plain) sums.
     pub q_low: &'a mut V,
     /// Momentum p1, rounded.
     pub p: &'a mut V,
-    /// What `p` leaves out; untouched by [`Plain`](crate::Plain) sums.
+    /// Compensation of `p`; untouched by [`Plain`](crate::Plain) sums.
     pub p_low: &'a mut V,
 }
 
@@ -147,7 +147,7 @@ impl<'a, V: Vector> Outcome<'a, V> {
 }
 
 impl<V> Outcome<'_, V> {
-    /// The same places, lent out.
+    /// Borrows the same places again.
     pub const fn reborrow(&mut self) -> Outcome<'_, V> {
         Outcome {
             q: self.q,
@@ -158,20 +158,20 @@ impl<V> Outcome<'_, V> {
     }
 }
 
-/// What the memory of the stages still holds from the step before.
+/// What the memory of the stages still holds from the previous step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WarmStart {
-    /// The evaluations at its end that are those at the start of this step, if there are any.
+    /// Whether its evaluations at the end are kept as those at the start of this step, if there are any.
     pub evaluation: bool,
-    /// The increments of its stages, from which those of this step can be extrapolated: the step before was taken by
-    /// the same method, from a step size equal to this one.
+    /// Whether the increments of its stages are kept, from which those of this step can be extrapolated. The previous step was then taken
+    /// by the same method with the same step size.
     pub stages: bool,
-    /// How large [those stages](crate::solver::StepStatistics::scales) were, as the step before has returned it: zero where that is not known.
+    /// Size of [those stages](crate::solver::StepStatistics::scales), as returned by the previous step: zero if unknown.
     pub scales: [f64; 2],
 }
 
 impl WarmStart {
-    /// Evaluations, stages, or both.
+    /// Keeps evaluations, stages, or both.
     pub const fn new(evaluation: bool, stages: bool) -> Self {
         Self {
             evaluation,
@@ -182,7 +182,7 @@ impl WarmStart {
 }
 
 impl Default for WarmStart {
-    /// Nothing. Written out, for that of an array would be a call: see `array.rs`.
+    /// Keeps nothing. Written out because the default of an array would be a function call: see `array.rs`.
     #[inline(always)]
     fn default() -> Self {
         Self::new(false, false)
@@ -194,19 +194,19 @@ impl Default for WarmStart {
 pub struct EvaluationCounts {
     /// Before the coupled stages; all of a splitting.
     pub begin: u32,
-    /// Where the coupled stages start from, if no stages are [kept](WarmStart::stages).
+    /// For the starting values of the coupled stages, if no stages are [kept](WarmStart::stages).
     pub start: u32,
     /// In one sweep.
     pub sweep: u32,
     /// After the coupled stages.
     pub finish: u32,
-    /// How many of the first ones are not made where the step before has [kept](WarmStart::evaluation) them; every accepted
-    /// step keeps them.
+    /// Number of first evaluations that are skipped if the previous step has [kept](WarmStart::evaluation) them; every accepted step keeps
+    /// them.
     pub carried: u32,
 }
 
 impl EvaluationCounts {
-    /// Those before the coupled stages, with what is kept from the step before.
+    /// Number of evaluations before the coupled stages, given what is kept from the previous step.
     #[inline(always)]
     pub(crate) const fn at_begin(&self, kept: WarmStart) -> u32 {
         let carried = if kept.evaluation { self.carried } else { 0 };
@@ -215,9 +215,9 @@ impl EvaluationCounts {
     }
 }
 
-/// Who is shown every evaluation of a step that stores no stages; nobody, `()`, in a step that goes well.
+/// Observer of every evaluation of a step that stores no stages. Normal steps use `()`, which ignores them.
 pub trait EvaluationObserver {
-    /// Shows the evaluation `value` of a stage, from 1, at `argument`.
+    /// Receives the evaluation `value` of a stage, from 1, at `argument`.
     fn evaluation<V: Vector>(&mut self, what: Quantity, stage: usize, argument: &V, value: &V);
 }
 

@@ -1,20 +1,22 @@
-//! When the iteration for coupled stages stops.
+//! Stopping criterion of the stage iteration.
 
 /// Stopping criterion of the iteration for the coupled stages of a step.
 ///
-/// The iteration stops earlier if the stages have settled: see [`FixedPoint`](crate::solver::FixedPoint) and [`Newton`](crate::solver::Newton).
+/// The iteration stops earlier once the stages have converged: see [`FixedPoint`](crate::solver::FixedPoint) and
+/// [`Newton`](crate::solver::Newton).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stopping {
-    /// Most sweeps of one attempt at the stages, at least one; after these it has failed. [`Newton`](crate::solver::Newton) makes up to three
-    /// attempts: from the stages of the step before, from the start of the step, and with the derivatives of every stage.
+    /// Maximum number of sweeps in one attempt to find the stages, at least one; after these the attempt has failed.
+    /// [`Newton`](crate::solver::Newton) makes up to three attempts: from the stages of the previous step, from the start of the step, and
+    /// with the derivatives of every stage.
     pub max_iterations: u32,
-    /// With [`Plain`](crate::Plain) sums: how far the last sweep may move the positions of the stages, and the momenta where they
-    /// count, in their units. Zero: as far as rounding does. See [`Integrator::set_tolerance`](crate::Integrator::set_tolerance).
+    /// With [`Plain`](crate::Plain) sums: how far the last sweep may move the positions of the stages, and the momenta if they matter, in
+    /// their units. Zero: iterates down to round-off. See [`Integrator::set_tolerance`](crate::Integrator::set_tolerance).
     pub tolerance: f64,
 }
 
 impl Stopping {
-    /// 200 sweeps, down to rounding. A fixed-point iteration that needs more gains less than a factor of 1.2 a sweep.
+    /// 200 sweeps, down to round-off. A fixed-point iteration that needs more gains less than a factor of 1.2 per sweep.
     pub const DEFAULT: Self = Self {
         max_iterations: 200,
         tolerance: 0.0,

@@ -9,26 +9,26 @@ use crate::number::{Scalar, Vector, Visit, vector_words};
 
 /// Memory of one [`Plan`](crate::emitted::Plan), made once and used for every step.
 pub trait StageStorage<V: Vector>: Sized + Clone {
-    /// Whether single doubles are read from groups of lanes that processors read faster from memory than from a register.
+    /// Whether single doubles are read from groups of lanes so wide that processors read them faster from memory than from a register.
     const BROADCASTS: bool = false;
 
-    /// Whether it holds a [tableau](Self::tableau) that is known only when the program runs.
+    /// Whether it holds a [tableau](Self::tableau) that is known only at run time.
     const AT_RUN_TIME: bool = false;
 
     /// Storage for vectors of the dimension of `prototype`; every component is zero.
     fn like(prototype: &V) -> Self;
 
-    /// The tableau, where it is known only when the program runs.
+    /// The tableau, if it is known only at run time.
     #[cfg(feature = "alloc")]
     fn tableau(&self) -> Option<&RunTimeTableau> {
         None
     }
 
-    /// Takes a tableau that is known only when the program runs, and makes room for its stages.
+    /// Stores a tableau that is known only at run time, and allocates its stages.
     #[cfg(feature = "alloc")]
     fn set_tableau(&mut self, _tableau: &RunTimeTableau, _prototype: &V) {}
 
-    /// Storage [like](Self::like) this for the method of another one.
+    /// Storage [like](Self::like) `prototype` for the same method as `_other`.
     fn of_method<T: StageStorage<V>>(_other: &T, prototype: &V) -> Self {
         #[cfg_attr(not(feature = "alloc"), allow(unused_mut))]
         let mut storage = Self::like(prototype);
@@ -39,19 +39,19 @@ pub trait StageStorage<V: Vector>: Sized + Clone {
         storage
     }
 
-    /// Forgets what steps have left behind.
+    /// Discards everything that earlier steps left.
     fn forget(&mut self, prototype: &V) {
         *self = Self::of_method(self, prototype);
     }
 
-    /// Shows `visit` all numbers that a step leaves for the next one: a checkpoint holds them.
+    /// Passes all numbers that a step leaves for the next one to `visit`: a checkpoint holds them.
     fn words(&mut self, visit: &mut Visit<'_>);
 
-    /// The first evaluation that is not finite although the stage value that it was made from is: the quantity
-    /// and the number of the stage, from 1; of two with the same number, the force. `None` where stages are not stored.
+    /// The first evaluation that is not finite although its stage value is: the quantity and the number of the stage, from 1. If a force
+    /// and a velocity have the same number, the force. `None` if stages are not stored.
     fn non_finite(&self) -> Option<(Quantity, usize)>;
 
-    /// The number of the first stage, from 1, whose force is not finite; a sweep has moved the positions since.
+    /// The number of the first stage, from 1, whose force is not finite. The positions are not checked: a sweep has moved them since.
     fn non_finite_force(&self) -> Option<usize> {
         None
     }
@@ -118,18 +118,17 @@ impl<V: Vector> StageStorage<V> for Evaluations<V> {
 
 /// `Q` positions with a force each, and `P` momenta with a velocity each.
 ///
-/// For a separable system equal stages are stored once, so `Q` and `P` may differ and be smaller than the number
-/// of stages; a stage that equals the start or the result of the step is not stored at all, and its place stays
-/// unused.
+/// For a separable system equal stages are stored once, so `Q` and `P` may differ and may be smaller than the number of stages. A stage
+/// that equals the start or the result of the step is not stored, and its place stays unused.
 #[derive(Clone, Debug)]
 pub struct Stages<V, const Q: usize, const P: usize> {
     /// Stage positions Q_i.
     pub q: [V; Q],
     /// Stage momenta P_i.
     pub p: [V; P],
-    /// ∂H/∂p at the stage momenta, or the increments made of it.
+    /// ∂H/∂p at the stage momenta, or the increments computed from it.
     pub velocity: [V; P],
-    /// −∂H/∂q at the stage positions, or the increments made of it.
+    /// −∂H/∂q at the stage positions, or the increments computed from it.
     pub force: [V; Q],
 }
 
@@ -179,7 +178,7 @@ pub(crate) fn first_non_finite<V: Vector>(
         let mut pairs = values.iter().zip(evaluations);
         pairs.position(|(value, evaluation)| is_finite(value) && !is_finite(evaluation))
     };
-    // A stage that is not stored passes for finite: what was computed from it comes later in the order.
+    // A stage that is not stored counts as finite: everything computed from it comes later in the order.
     match (first(q, force), first(p, velocity)) {
         (Some(i), Some(j)) if j < i => Some((Quantity::Velocity, j + 1)),
         (Some(i), _) => Some((Quantity::Force, i + 1)),
@@ -207,8 +206,8 @@ pub(crate) fn first_mismatch<V: Vector>(
 /// Whether every component is finite.
 #[inline]
 pub(crate) fn is_finite<V: Vector>(vector: &V) -> bool {
-    // Every step checks its result with it, so it goes without a branch and vectorises: what is one above the largest exponent
-    // has a carry.
+    // Every step checks its result with this function, so it is branch-free and vectorises: adding 1 to the exponent carries into the sign
+    // bit only if the number is NaN or infinite.
     const SIGN: u64 = 1 << 63;
     const LEAST_EXPONENT: u64 = 1 << 52;
     let mut carries = 0;
@@ -243,7 +242,7 @@ mod tests {
                 vector[place] = number;
                 assert_eq!(is_finite(&vector), finite, "{vector}");
             }
-            // f32: the largest double is infinite in it.
+            // The largest double is infinite as an f32.
             let single = Vector3::new(1.0, number as f32, 2.0);
             let finite = finite && number.abs() <= f64::from(f32::MAX);
             assert_eq!(is_finite(&single), finite, "{single}");

@@ -1,28 +1,28 @@
-//! The steps of a composition, for another symmetric method of order 2 in place of Störmer–Verlet.
+//! The steps of a composition of Störmer–Verlet, taken with another symmetric method of order 2.
 
 use crate::method::{ConstrainedStep, Method};
 
 /// The fractions `γ_1, …, γ_m` of a composition of Störmer–Verlet steps.
 ///
-/// The order conditions of a composition are the same for every symmetric method of order 2 (Hairer, Lubich & Wanner, *Geometric
-/// numerical integration*, V.3), so the fractions can be taken for any of them.
+/// The order conditions of a composition are the same for every symmetric method of order 2 (Hairer, Lubich & Wanner, *Geometric numerical
+/// integration*, V.3), so the same fractions serve for all of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SymmetricSteps(&'static [ConstrainedStep]);
 
-/// A part of a step.
+/// A substep.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Part {
     pub(crate) time: f64,
     pub(crate) size: f64,
-    /// The time at its end.
+    /// Time at the end of the substep.
     pub(crate) end: f64,
 }
 
 impl SymmetricSteps {
-    /// The step itself.
+    /// A single step, not a composition.
     pub(crate) const ONE: Self = Self(&[]);
 
-    /// The steps of `M`; for another method than a composition of Störmer–Verlet steps the call does not compile.
+    /// The steps of `M`. Does not compile unless `M` is a composition of Störmer–Verlet steps.
     pub(crate) fn of<M: Method>() -> Self {
         const {
             assert!(
@@ -34,7 +34,7 @@ impl SymmetricSteps {
         Self(M::CONSTRAINED)
     }
 
-    /// The parts of the step of size `size` from `time` to `end`.
+    /// The substeps of the step of size `size` from `time` to `end`.
     pub(crate) fn parts(self, time: f64, size: f64, end: f64) -> impl Iterator<Item = Part> {
         let count = self.0.len().max(1);
         let at = move |number: usize, start: f64| match number {
@@ -55,7 +55,7 @@ impl SymmetricSteps {
     }
 }
 
-/// Whether there are steps, and each is one of Lobatto IIIA–IIIB with two stages: nodes 0 and 1 and weights 1/2, which say the rest.
+/// Whether there are steps and each is Lobatto IIIA–IIIB with two stages: nodes 0 and 1 and weights 1/2 determine the rest.
 const fn is_stoermer_verlet(mut steps: &[ConstrainedStep]) -> bool {
     if steps.is_empty() {
         return false;

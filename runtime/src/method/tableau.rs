@@ -1,4 +1,4 @@
-//! The coefficients of coupled stages all together.
+//! The coefficients of coupled stages as matrices.
 
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -7,9 +7,9 @@ use crate::method::StagePlan;
 use crate::number::Vector;
 use crate::system::SystemLanes;
 
-/// The coupled stages of a plan as matrices, for solvers that treat them all at once.
+/// The coupled stages of a plan as matrices, for solvers that treat all stages at once.
 ///
-/// There may be fewer than the tableau has, for equal ones are one. With `Q_i` the position of the force `i` and `P_i` the
+/// There may be fewer stages than in the tableau, because equal ones are merged. With `Q_i` the position of the force `i` and `P_i` the
 /// momentum of the velocity `i`,
 ///
 /// ```text
@@ -17,25 +17,25 @@ use crate::system::SystemLanes;
 /// P_i = p0 + Σ_j momenta_ij w_j      w_j = h b̃_j force_j
 /// ```
 ///
-/// where the sums are of [`INCREMENTS`](Self::INCREMENTS), and `u_j = velocity_j`, `w_j = force_j` with factors of `h` in
-/// front of the sums elsewhere.
+/// if the sums are of [`INCREMENTS`](Self::INCREMENTS); otherwise `u_j = velocity_j` and `w_j = force_j`, with factors of `h` in front of
+/// the sums.
 pub trait StageTableau: StagePlan {
-    /// The lanes that the stages are put into.
+    /// The lanes that hold the stages.
     type Lanes: SystemLanes;
-    /// As many lanes as there are stages.
+    /// An array with an entry for each group of lanes; together the groups hold all stages.
     type Groups<T: Debug>: Debug + AsRef<[T]> + AsMut<[T]>;
 
-    /// Whether stages are sums of increments, with `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, rounded so that they are
-    /// symplectic; else of evaluations, with `a_ij` and `ã_ij`.
+    /// Whether stages are sums of increments, with `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, rounded so that the method is symplectic.
+    /// Otherwise they are sums of evaluations, with `a_ij` and `ã_ij`.
     const INCREMENTS: bool;
     /// Positions, and the forces there.
     const POSITIONS: HalfTableau;
     /// Momenta, and the velocities there.
     const MOMENTA: HalfTableau;
-    /// For systems whose velocity is the momentum, where the method is separably symplectic.
+    /// For systems whose velocity is the momentum, if the method is symplectic for separable systems.
     const SECOND_ORDER: Option<SecondOrderTableau>;
 
-    /// How the linear systems of a Newton iteration fall apart; `None` where they do not, or where it is not known.
+    /// How the linear systems of a Newton iteration decouple; `None` if they do not, or if this is not known.
     const DECOUPLING: Option<Decoupling> = None;
 
     /// A value for each group of lanes, by its number from 0.
@@ -48,17 +48,17 @@ pub trait StageTableau: StagePlan {
 /// Velocities or forces as a step leaves them, stage by stage.
 #[derive(Clone, Copy, Debug)]
 pub struct StoredEvaluations<'a, V> {
-    /// One for each stage: the evaluation, or the increment made of it.
+    /// One for each stage: the evaluation, or the increment computed from it.
     pub values: &'a [V],
-    /// The stages whose evaluations are as they are although others are increments: the next step begins with them.
+    /// The stages whose evaluations are stored unscaled although others are increments, because the next step begins with them.
     pub carried: &'static [usize],
 }
 
 /// The polynomial through the evaluations of a step at its nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StagePolynomial {
-    /// For k = 1, …, s − 1 an entry for each stage: `γ_jk` of its Lagrange polynomial `ℓ_j = Σ_k γ_jk L_k` in Legendre
-    /// polynomials on [0, 1], divided by the weight `b_j` where evaluations are increments. Correctly rounded.
+    /// For k = 1, …, s − 1 an entry for each stage: `γ_jk` of its Lagrange polynomial `ℓ_j = Σ_k γ_jk L_k` in Legendre polynomials
+    /// on [0, 1], divided by the weight `b_j` if evaluations are stored as increments. Correctly rounded.
     pub legendre: &'static [&'static [f64]],
     /// The order of its integral: see [`Interpolation`](crate::output::Interpolation).
     pub order: u32,
@@ -66,22 +66,21 @@ pub struct StagePolynomial {
 
 /// One half of a [`StageTableau`]: stage values, and the evaluations at them.
 ///
-/// Every list over the stages is as long as the lanes are together: the last stage is repeated to fill them.
+/// Every list over the stages has an entry for each lane: the last stage is repeated to fill the lanes.
 #[derive(Clone, Copy, Debug)]
 pub struct HalfTableau {
     /// The number of stages.
     pub count: usize,
-    /// The matrix by its columns: one for each evaluation of the other half, in it an entry for each stage.
+    /// The matrix by its columns: one column for each evaluation of the other half, with an entry for each stage.
     pub columns: &'static [&'static [f64]],
     /// The times of the evaluations, as fractions of the step.
     pub times: &'static [f64],
     /// The weights of the evaluations in the result of the step.
     pub weights: &'static [f64],
-    /// The matrix that takes the increments of the evaluations to those of the next step of the same size, by its columns;
-    /// empty where there is none.
+    /// The matrix, by its columns, that extrapolates the increments to the next step of the same size; empty if there is none.
     pub extrapolation: &'static [&'static [f64]],
-    /// What the evaluations are inside the step; none where times coincide or where the weights are not those of a
-    /// polynomial. It has as many entries as there are stages.
+    /// The polynomial through the evaluations of a step, with as many entries as there are stages. `None` if times coincide or if the
+    /// weights are not those of a polynomial.
     pub polynomial: Option<StagePolynomial>,
 }
 
@@ -91,22 +90,22 @@ pub struct HalfTableau {
 /// Q_i = q0 + h c_i v(p0) + h Σ_k ν_ik v(w_k)      q1 = q0 + h v(p0) + h Σ_k (1 − c_k) v(w_k)
 /// ```
 ///
-/// with the velocity `v(p) = M⁻¹ p` and the increments `w_k = h b̃_k force_k` of the momentum. They are rounded so that `ν_ik − ν_ki = c_i − c_k` exactly: the rounded
-/// method is symplectic too (Suris, 1989).
+/// with the velocity `v(p) = M⁻¹ p` and the increments `w_k = h b̃_k force_k` of the momentum. The coefficients are rounded so that
+/// `ν_ik − ν_ki = c_i − c_k` exactly: the rounded method is symplectic too (Suris, 1989).
 #[derive(Clone, Copy, Debug)]
 pub struct SecondOrderTableau {
     /// `c_i`
     pub nodes: &'static [f64],
     /// `ν` by its columns.
     pub columns: &'static [&'static [f64]],
-    /// `ν_ik b̃_k` by its columns: what the forces themselves are multiplied by, with `h²` before the sum.
+    /// `ν_ik b̃_k` by its columns: the factors of the forces themselves, with `h²` in front of the sum.
     pub of_forces: &'static [&'static [f64]],
     /// `1 − c_k`
     pub rest: &'static [f64],
 }
 
-/// The columns up to the last that is not zero: those after it add nothing. That the evaluation of such a column is not finite shows
-/// in no stage, but in the result of the step.
+/// The columns up to the last nonzero one: those after it add nothing. If the evaluation of such a column is not finite, this shows in the
+/// result of the step but in no stage.
 const fn significant(columns: &'static [&'static [f64]]) -> &'static [&'static [f64]] {
     let mut count = columns.len();
     while count > 1 && is_zero(columns[count - 1]) {
@@ -129,25 +128,25 @@ pub(crate) struct Columns<P>(PhantomData<P>);
 impl<P: StageTableau> Columns<P> {
     pub(crate) const POSITIONS: &'static [&'static [f64]] = significant(P::POSITIONS.columns);
     pub(crate) const MOMENTA: &'static [&'static [f64]] = significant(P::MOMENTA.columns);
-    /// Those of second-order systems; none where there are no coefficients for them.
+    /// The columns for second-order systems; empty if there are no coefficients for them.
     pub(crate) const SECOND_ORDER: &'static [&'static [f64]] = match P::SECOND_ORDER {
         Some(tableau) => significant(tableau.columns),
         None => &[],
     };
-    /// [`SECOND_ORDER`](Self::SECOND_ORDER), of forces.
+    /// The columns of [`SECOND_ORDER`](Self::SECOND_ORDER) as factors of the forces.
     pub(crate) const OF_FORCES: &'static [&'static [f64]] = match P::SECOND_ORDER {
         Some(tableau) => significant(tableau.of_forces),
         None => &[],
     };
 }
 
-/// A transformation `X⁻¹ B X` of a stage matrix to blocks on the diagonal.
+/// A transformation `X⁻¹ B X` of a stage matrix to block-diagonal form.
 ///
-/// For a [`Separable`](crate::Separable) system `B = Ã A`, the product of the matrices of momenta and positions, which takes
-/// velocities to velocities. For a [`General`](crate::General) one `B = A`, and there is a transformation only where
-/// `A = Ã`. A real eigenvalue is a block, and so is a pair `α ± iω` of complex ones, `[[α, −ω], [ω, α]]`: s linear systems of
-/// n unknowns for a velocity each become as many of n unknowns that are solved one after the other, two in one complex
-/// system (Butcher, 1976; Hairer & Wanner, *Solving ODEs II*, IV.8).
+/// For a [`Separable`](crate::Separable) system `B = Ã A`, the product of the matrices of momenta and positions, which maps velocities to
+/// velocities. For a [`General`](crate::General) system `B = A`, and there is a transformation only if `A = Ã`. Each real eigenvalue is a
+/// block, and so is each pair `α ± iω` of complex eigenvalues, `[[α, −ω], [ω, α]]`. The s coupled linear systems, with n unknowns for each
+/// velocity, become s systems of n unknowns. These are solved one after the other, two of them as one complex system (Butcher, 1976; Hairer
+/// & Wanner, *Solving ODEs II*, IV.8).
 #[derive(Clone, Copy, Debug)]
 pub struct Decoupling {
     /// The blocks in their order: `(α, ω)`, with `ω = 0` for a real eigenvalue.

@@ -13,29 +13,28 @@
 /// assert_eq!(Lobatto3::A[1], [5.0 / 24.0, 1.0 / 3.0, -1.0 / 24.0]);
 /// ```
 ///
-/// Any number of definitions may stand in one macro. The type is `Copy`, has no fields and implements
-/// [`Method`](crate::Method); its coefficients are constants, each the double nearest to the exact one:
-/// `A`, `A_TILDE`, `B`, `B_TILDE`, `C`, `C_TILDE`; for other scalars than f64 there is
-/// [`Method::COEFFICIENTS`](crate::Method::COEFFICIENTS), rounded from the exact ones again. Its page in the
+/// One macro may contain any number of definitions. The type is `Copy`, has no fields and implements [`Method`](crate::Method). Its
+/// coefficients are constants, each the double nearest to the exact one: `A`, `A_TILDE`, `B`, `B_TILDE`, `C`, `C_TILDE`. For scalars other
+/// than f64 there is [`Method::COEFFICIENTS`](crate::Method::COEFFICIENTS), rounded anew from the exact coefficients. Its page in the
 /// documentation shows the exact tableau and what is proved about it.
 ///
 /// | key | value |
 /// |---|---|
 /// | `basis` | `polynomial(s)`, `legendre(s)`, or a list of `s` linearly independent functions of `t`: `[1, t, exp(-t/2)]`, `[1, cos(pi*t), sin(pi*t)]` |
-/// | `nodes` | `gauss(s)`, `lobatto(s)`, `radau-left(s)`, `radau-right(s)`, `chebyshev(s)`, `clenshaw-curtis(s)`, `fejer(s)`, `newton-cotes(s)`, or a list of distinct numbers in `[0, 1]`: `[0, 1/3, 1]`, `[1/2 - sqrt(2)/4, 1/2 + sqrt(2)/4]`: as many as functions |
+/// | `nodes` | `gauss(s)`, `lobatto(s)`, `radau-left(s)`, `radau-right(s)`, `chebyshev(s)`, `clenshaw-curtis(s)`, `fejer(s)`, `newton-cotes(s)`, or a list of distinct numbers in `[0, 1]`: `[0, 1/3, 1]`, `[1/2 - sqrt(2)/4, 1/2 + sqrt(2)/4]`, with as many nodes as functions |
 /// | `quadrature` | instead of `nodes`: the same with at least as many nodes as functions (rectangular Galerkin construction) |
 /// | `weights` | of the quadrature, if not the interpolatory ones: `[1/6, 2/3, 1/6]` |
 /// | `a`, `b` | instead of `basis`: given coefficients, `[[0, 0], [1/2, 1/2]]` and `[1/2, 1/2]` |
-/// | `a_tilde`, `b_tilde` | with them: those for momenta, or `a_tilde: symplectic_partner`; the same as for positions if left out |
+/// | `a_tilde`, `b_tilde` | with `a` and `b`: the coefficients for momenta, or `a_tilde: symplectic_partner`; default: those for positions |
 /// | `kick`, `drift`, `first`, `symmetric`, `claim` | instead of all these: a splitting, as in [`splitting!`](crate::splitting) |
 /// | `base`, `weights`, `symmetric`, `claim` | instead of all these: a method of the catalogue, or a composition of steps of it, as in [`composition!`](crate::composition) |
 /// | `compose` | instead of all these: steps of other methods one after another, each with its fraction of the step and its definition: `[[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]]` |
-/// | `exchange` | `true` where positions and momenta are exchanged in the end |
+/// | `exchange` | `true` exchanges positions and momenta at the end |
 /// | `adjoint` | `true` for the adjoint of the method |
 /// | `file` | instead of all these: a TOML file with a definition or a whole tableau, relative to the crate: `"tableaux/gauss-4.toml"`; it is derived and proved anew, and an edit of it rebuilds the crate |
-/// | `require` | properties that have to be proved: `symplectic`, `symmetric`, `consistent`, `equal_matrices`, `explicit`, `first_row_zero`, `stiffly_accurate`, `first_same_as_last`, `positive_weights`, `constrained`, `nonholonomic`; `symplectic(separable)` and `symmetric(separable)` for separable systems only; orders for a class of Hamiltonians: `order >= 4`, `order(separable) == 6`, `order(nystrom) >= 4`; of splittings for perturbed systems `H_A + εH_B`, drifts for `H_A` and kicks for `εH_B`, in `ε`, `ε²`, …: `order(perturbed) >= (8, 4)`; stability on the oscillator: `p_stable`, `stable_to(14/5)`, that is for 0 < hω ≤ 14/5 |
-/// | `accept` | `verified(100 bits)`: what is verified to as many binary places satisfies a requirement too; only tableaux that no exact arithmetic holds need it |
-/// | `max_stages` | a bound on the number of stages other than 36 |
+/// | `require` | properties to be proved: `symplectic`, `symmetric`, `consistent`, `equal_matrices`, `explicit`, `first_row_zero`, `stiffly_accurate`, `first_same_as_last`, `positive_weights`, `constrained`, `nonholonomic`; `symplectic(separable)` and `symmetric(separable)` for separable systems only; orders for a class of Hamiltonians: `order >= 4`, `order(separable) == 6`, `order(nystrom) >= 4`; orders in `ε`, `ε²`, … of splittings for perturbed systems `H_A + εH_B`, drifts for `H_A` and kicks for `εH_B`: `order(perturbed) >= (8, 4)`; stability on the oscillator: `p_stable`, `stable_to(14/5)`, that is for 0 < hω ≤ 14/5 |
+/// | `accept` | `verified(100 bits)`: a property verified to that many bits satisfies a requirement too; needed only for tableaux that no exact arithmetic can represent |
+/// | `max_stages` | maximum number of stages; default 36 |
 ///
 /// The coefficients are those of Leok & Zhang, *Discrete Hamiltonian variational integrators*, §4.4: with
 /// `M = [ψ_i(c_j)]` and `B_i = ∫_0^1 ψ_i`, `b = M⁻¹B`, `a = A_ψ M⁻ᵀ` where `(A_ψ)_ij = ∫_0^{c_i} ψ_j`, and
@@ -44,9 +43,9 @@
 ///
 /// # Errors
 ///
-/// What cannot be derived or is not proved does not compile; the error stands at the offending tokens, and
-/// all errors of all definitions are reported together. A method that is not consistent compiles with a
-/// warning, unless `consistent` is required.
+/// A definition that cannot be derived, or a requirement that is not proved, does not compile. The error points at the offending tokens,
+/// and all errors of all definitions are reported together. A method that is not consistent compiles with a warning, unless `consistent` is
+/// required.
 ///
 /// ```compile_fail
 /// symplectic::tableau! {
@@ -57,6 +56,6 @@
 ///
 /// # Cost
 ///
-/// The derivation runs while the crate compiles. Where it takes noticeable time in a debug build, optimise
-/// its arithmetic in the crate's `Cargo.toml`: `[profile.dev.build-override] opt-level = 3`.
+/// The derivation runs while the crate compiles. If it takes noticeable time in a debug build, optimise its arithmetic in the crate's
+/// `Cargo.toml`: `[profile.dev.build-override] opt-level = 3`.
 pub use symplectic_macros::tableau;

@@ -1,30 +1,30 @@
-//! What a step took, or why it could not be taken.
+//! Statistics of a step, and why a step failed.
 
 use core::ops::AddAssign;
 
 use crate::error::Quantity;
 
-/// What a step took.
+/// Statistics of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepStatistics {
-    /// Sweeps of the fixed-point iteration, or of another one.
+    /// Sweeps of the fixed-point iteration or of another iteration.
     pub iterations: u32,
-    /// Evaluations of a velocity or a force; those that derivatives are made of are not counted.
+    /// Evaluations of a velocity or a force. Evaluations made to form derivatives are not counted.
     pub evaluations: u32,
-    /// Times the linear systems of a Newton iteration were made and factored.
+    /// How often the linear systems of a Newton iteration were assembled and factored.
     pub factorisations: u32,
-    /// Attempts to find the stages that failed and were made good by another solver.
+    /// Failed attempts to find the stages after which another solver succeeded.
     pub rejected: u32,
-    /// How large the positions and the momenta of coupled stages were when that was last looked for, of several steps in the last; zero
-    /// where that is not known. Without a tolerance it is right but for a factor of two; of momenta where they show that an iteration
-    /// goes on, which in plain sums those of a separable system do not.
+    /// Size of the positions and of the momenta of the coupled stages when last measured; for several steps, in the last one. Zero if
+    /// unknown. Without a tolerance both are correct up to a factor of two. That of the momenta is correct only if the momenta decide
+    /// whether the iteration continues; with plain sums, those of a separable system do not.
     pub scales: [f64; 2],
-    /// The relative change of the stages in the last sweep of a Newton iteration; of several steps, the largest one. Zero elsewhere.
+    /// Relative change of the stages in the last sweep of a Newton iteration; for several steps, the largest one. Zero for other solvers.
     pub residual: f64,
 }
 
 impl Default for StepStatistics {
-    /// Nothing. Written out, for that of an array would be a call: see `array.rs`.
+    /// All zero. Written out because the default of an array would be a function call: see `array.rs`.
     #[inline(always)]
     fn default() -> Self {
         Self {
@@ -53,42 +53,43 @@ impl AddAssign for StepStatistics {
 /// Why the stages of a step could not be found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Failure {
-    /// The iteration did not settle: [`Error::NoConvergence`](crate::Error::NoConvergence).
+    /// The iteration did not converge: [`Error::NoConvergence`](crate::Error::NoConvergence).
     NoConvergence {
-        /// Relative change in the last sweep in which it was finite; infinite where that was not looked at.
+        /// Relative change in the last sweep in which it was finite; infinite if it was not measured.
         residual: f64,
-        /// Sweeps made.
+        /// Number of sweeps.
         iterations: u32,
     },
-    /// The iteration stands still, far above rounding errors: [`Error::Stagnation`](crate::Error::Stagnation).
+    /// The iteration stagnates far above round-off: [`Error::Stagnation`](crate::Error::Stagnation).
     Stagnation {
         /// Relative change in the last sweep.
         residual: f64,
-        /// Sweeps made.
+        /// Number of sweeps.
         iterations: u32,
     },
     /// An evaluation at the start of the iteration is not finite: [`Error::NonFinite`](crate::Error::NonFinite).
     NonFinite {
-        /// What is not finite.
+        /// The quantity that is not finite.
         what: Quantity,
         /// The stage of the evaluation, from 1.
         stage: Option<usize>,
     },
     /// A linear system of a Newton iteration has no solution: [`Error::SingularMatrix`](crate::Error::SingularMatrix).
     SingularMatrix,
-    /// The gradient of a constraint depends on those before it: [`Error::DependentConstraints`](crate::Error::DependentConstraints).
+    /// The gradient of a constraint depends linearly on those of the previous constraints:
+    /// [`Error::DependentConstraints`](crate::Error::DependentConstraints).
     DependentConstraints {
         /// The constraint, from 0.
         constraint: usize,
-        /// What is left of its row of `G M⁻¹ Gᵀ`, relative to its diagonal entry.
+        /// The pivot of its row of `G M⁻¹ Gᵀ`, relative to its diagonal entry.
         pivot: f64,
     },
-    /// The gradients of the constraints were set in other places than before: [`Error::MovingGradients`](crate::Error::MovingGradients).
+    /// The sparsity pattern of the gradients of the constraints changed: [`Error::MovingGradients`](crate::Error::MovingGradients).
     MovingGradients,
 }
 
 impl Failure {
-    /// The same in a longer step, in which there are this many stages before.
+    /// The same failure as part of a longer step, in which `stages` stages come before it.
     pub(crate) fn after(self, stages: usize) -> Self {
         match self {
             Self::NonFinite { what, stage } => Self::NonFinite {

@@ -1,4 +1,4 @@
-//! What holds for a discrete Lagrangian, to be asked in tests.
+//! Properties of a discrete Lagrangian, for tests.
 
 use num_traits::Float;
 
@@ -55,7 +55,7 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] where the positions differ in dimension.
+    /// [`Error::Dimension`] if the positions differ in dimension.
     pub fn momenta<L>(&self, lagrangian: &L) -> Result<(V, V), Error>
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
@@ -69,11 +69,11 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
         Ok((p0, p1))
     }
 
-    /// Whether `D1D2 Ld(q0, q1)` is invertible, up to rounding (Marsden & West, §1.5): then `q1` follows from `(q0, p0)`.
+    /// Whether `D1D2 Ld(q0, q1)` is invertible, up to rounding (Marsden & West, §1.5). Then `(q0, p0)` determines `q1`.
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] where the positions differ in dimension.
+    /// [`Error::Dimension`] if the positions differ in dimension.
     pub fn is_regular<L>(&self, lagrangian: &L) -> Result<bool, Error>
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
@@ -84,8 +84,8 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
         Ok(factors.factor(&derivatives.mixed).is_ok())
     }
 
-    /// `|Ld(q0, q1, h) + Ld(q1, q0, −h)|`: zero, up to rounding, at every path if and only if `Ld` is self-adjoint. Then its steps are symmetric and their order is even
-    /// (Marsden & West, §2.4).
+    /// `|Ld(q0, q1, h) + Ld(q1, q0, −h)|`: zero, up to rounding, on every path if and only if `Ld` is self-adjoint. Then its steps are
+    /// symmetric and their order is even (Marsden & West, §2.4).
     pub fn self_adjoint_defect<L>(&self, lagrangian: &L) -> f64
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
@@ -96,12 +96,12 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
         Float::abs(there + back)
     }
 
-    /// The discrete momentum maps `J⁻ = −D1 Ld·ξ(q0)` and `J⁺ = D2 Ld·ξ(q1)`, with the velocities `ξ(q)` of a symmetry. `J⁺ − J⁻` is the change of `Ld` along the symmetry: zero
-    /// where `Ld` is invariant (Marsden & West, §1.3.3).
+    /// The discrete momentum maps `J⁻ = −D1 Ld·ξ(q0)` and `J⁺ = D2 Ld·ξ(q1)`, with the velocities `ξ(q)` of a symmetry. `J⁺ − J⁻` is the
+    /// change of `Ld` along the symmetry: zero if `Ld` is invariant (Marsden & West, §1.3.3).
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] where the positions differ in dimension.
+    /// [`Error::Dimension`] if the positions differ in dimension.
     pub fn momentum_maps<L>(
         &self,
         lagrangian: &L,
@@ -114,20 +114,20 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
         Ok([(p0, self.q0), (p1, self.q1)].map(|(p, q)| dot(&p, &generator(q))))
     }
 
-    /// How far the difference `Δ` of two discrete Lagrangians is from a function of the step size, `(strong, weak)`, on a path that goes on to `q2`
-    /// (Marsden & West, §2.1.2):
+    /// How far the difference `Δ` of two discrete Lagrangians is from a function of the step size, `(strong, weak)`, on a path that
+    /// continues to `q2` (Marsden & West, §2.1.2):
     ///
     /// ```text
     /// strong = max(|D1 Δ(q0, q1)|, |D2 Δ(q0, q1)|)
     /// weak = max(|D1D2 Δ(q0, q1)|, |D2 Δ(q0, q1) + D1 Δ(q1, q2)|)
     /// ```
     ///
-    /// Strongly equivalent discrete Lagrangians, `strong = 0` everywhere, have the same momenta; weakly equivalent ones, `weak = 0` everywhere, differ by
-    /// `f(q1) − f(q0)` and have the same positions.
+    /// Strongly equivalent discrete Lagrangians, `strong = 0` everywhere, have the same momenta. Weakly equivalent ones, `weak = 0`
+    /// everywhere, differ by `f(q1) − f(q0)` and have the same positions.
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] where the positions differ in dimension.
+    /// [`Error::Dimension`] if the positions differ in dimension.
     pub fn difference<L, K>(&self, one: &L, other: &K, q2: &V) -> Result<(f64, f64), Error>
     where
         L: DiscreteLagrangian<Vector<f64> = V>,

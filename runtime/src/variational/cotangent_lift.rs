@@ -1,4 +1,4 @@
-//! Maps of positions, and what they do to momenta.
+//! Maps of positions, and their cotangent lifts.
 
 use alloc::vec;
 
@@ -11,12 +11,13 @@ use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
 use crate::state::State;
 
-/// A map of positions `Q = Φ(q)`: a symmetry, or a change of coordinates. It is written once for every scalar, and its derivatives are exact.
+/// A map of positions `Q = Φ(q)`: a symmetry, or a change of coordinates. It is written once for all scalars, and its derivatives are
+/// exact.
 pub trait PointTransformation {
-    /// The vectors that positions are, before and after.
+    /// The type of the vectors of positions, before and after the map.
     type Vector<T: Scalar>: Vector<Scalar = T>;
 
-    /// Writes `Φ(q)` into `image`, which has the dimension of `q` and is zero before.
+    /// Writes `Φ(q)` into `image`, which has the dimension of `q` and is zero on entry.
     fn map<T: Scalar>(&self, q: &Self::Vector<T>, image: &mut Self::Vector<T>);
 }
 
@@ -26,15 +27,15 @@ pub trait PointTransformation {
 /// Q = Φ(q)      P = p·(∂Φ/∂q)⁻¹
 /// ```
 ///
-/// It is symplectic, and `P·Q' = p·q'`. Lifts of the flow of `ξ_Q` are the flow of the [momentum map](super::momentum_map)
-/// `J = p·ξ_Q(q)` as a Hamiltonian. (The paper has `Φ⁻¹` in the first slot, which contradicts this J.)
+/// It is symplectic, and `P·Q' = p·q'`. The lifts of the flow of `ξ_Q` are the Hamiltonian flow of the [momentum map](super::momentum_map)
+/// `J = p·ξ_Q(q)`. (The paper has `Φ⁻¹` in the first slot, which contradicts this J.)
 ///
-/// A map for n components takes n evaluations and the elimination of a full matrix; memory is allocated.
+/// A map of n components takes n evaluations and the elimination of a full matrix; memory is allocated.
 ///
 /// # Errors
 ///
-/// [`Error::SingularTransformation`] where `∂Φ/∂q` is not invertible; [`Error::Dimension`] and [`Error::NonFiniteState`] for the state or its image;
-/// [`Error::Length`] where the map changes the dimension of a vector.
+/// [`Error::SingularTransformation`] if `∂Φ/∂q` is not invertible; [`Error::Dimension`] and [`Error::NonFiniteState`] for the state or its
+/// image; [`Error::Length`] if the map changes the dimension of a vector.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -74,7 +75,7 @@ pub fn cotangent_lift<F: PointTransformation>(
         *dual = HyperDual::from_f64(value);
     }
     let (mut new, mut transposed) = (state.clone(), vec![0.0; n * n]);
-    // The largest entries of the rows, by which they are divided: units of q do not matter.
+    // Rows are divided by their largest entries, so that the units of q do not matter.
     let mut scales = vec![1.0; n];
     for (k, row) in transposed.chunks_exact_mut(n.max(1)).enumerate() {
         position.as_mut_slice()[k].set_first(1.0);

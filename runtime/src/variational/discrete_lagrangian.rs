@@ -1,4 +1,4 @@
-//! Discrete Lagrangians that are given, and their derivatives.
+//! Discrete Lagrangians supplied by the user, and their derivatives.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -9,8 +9,8 @@ use crate::error::Error;
 use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
 
-/// A discrete Lagrangian `Ld(q0, q1)`: about the action from `q0` at the time t to `q1` at t + h. It is written once for every scalar, and its
-/// derivatives are exact (Marsden & West 2001, §1.3).
+/// A discrete Lagrangian `Ld(q0, q1)`: an approximation of the action from `q0` at the time t to `q1` at t + h. It is written once for all
+/// scalars, and its derivatives are exact (Marsden & West 2001, §1.3).
 ///
 /// ```
 /// use symplectic::Scalar;
@@ -31,7 +31,7 @@ use crate::number::{Scalar, Vector};
 /// }
 /// ```
 pub trait DiscreteLagrangian {
-    /// The vectors that positions and momenta are.
+    /// The type of the vectors of positions and momenta.
     type Vector<T: Scalar>: Vector<Scalar = T>;
 
     /// Whether there are [`forces`](Self::forces).
@@ -46,8 +46,8 @@ pub trait DiscreteLagrangian {
         q1: &Self::Vector<T>,
     ) -> T;
 
-    /// The discrete forces `f_d⁻(q0, q1)` at the start and `f_d⁺(q0, q1)` at the end of the step, which are impulses (Marsden & West 3.2.1).
-    /// Both vectors are zero before. They count with `FORCED = true`.
+    /// The discrete forces `f_d⁻(q0, q1)` at the start and `f_d⁺(q0, q1)` at the end of the step, which are impulses (Marsden & West
+    /// 3.2.1). Both vectors are zero on entry. They are used only with `FORCED = true`.
     fn forces<T: Scalar>(
         &self,
         _time: T,
@@ -82,7 +82,7 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for &L {
     }
 }
 
-/// The derivatives of a discrete Lagrangian and of its forces at two positions, and room to evaluate them.
+/// The derivatives of a discrete Lagrangian and of its forces at two positions, and the memory to evaluate them.
 pub(super) struct Derivatives<L: DiscreteLagrangian> {
     q0: L::Vector<HyperDual>,
     q1: L::Vector<HyperDual>,
@@ -94,12 +94,12 @@ pub(super) struct Derivatives<L: DiscreteLagrangian> {
     pub(super) start: Vec<f64>,
     /// `D2 Ld + f_d⁺`
     pub(super) end: Vec<f64>,
-    /// The derivative of `D1 Ld + f_d⁻` by q1, by rows.
+    /// The derivative of `D1 Ld + f_d⁻` with respect to q1, by rows.
     pub(super) mixed: Vec<f64>,
 }
 
 impl<L: DiscreteLagrangian> Derivatives<L> {
-    /// Room for vectors like this one.
+    /// Memory for vectors like `prototype`.
     pub(super) fn new(prototype: &L::Vector<f64>) -> Result<Self, Error> {
         let n = prototype.dimension();
         let zeros = || L::Vector::from_slice(&vec![HyperDual::zero(); n]);
@@ -150,8 +150,8 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
         self.add_forces(lagrangian, at);
     }
 
-    /// [`second`](Self::second), and the matrix of second derivatives `D1D2`, `D1D_h`, `D2D_h` and `D_hD_h` by rows: those of `D1 Ld` and then
-    /// of `∂Ld/∂h`, by q1 and h. Returns `∂Ld/∂h`.
+    /// [`second`](Self::second), and the matrix of the second derivatives `D1D2`, `D1D_h`, `D2D_h` and `D_hD_h` by rows: the derivatives of
+    /// `D1 Ld`, then of `∂Ld/∂h`, with respect to q1 and h. Returns `∂Ld/∂h`.
     pub(super) fn by_size(
         &mut self,
         lagrangian: &L,
@@ -194,7 +194,7 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
         }
     }
 
-    /// Ld with its derivatives by one component of q0 and one of q1.
+    /// Ld with its derivatives with respect to one component of q0 and one of q1.
     fn along(
         &mut self,
         lagrangian: &L,
@@ -232,7 +232,7 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
     }
 }
 
-/// Where a discrete Lagrangian is evaluated.
+/// The arguments at which a discrete Lagrangian is evaluated.
 pub(super) struct At<'a, V> {
     pub(super) time: f64,
     pub(super) size: f64,

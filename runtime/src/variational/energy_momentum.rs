@@ -22,19 +22,20 @@ use crate::state::State;
 ///
 /// $$ p_0 = -D_1 L_d(q_0, q_1, h) \qquad E = -\frac{\partial L_d}{\partial h}(q_0, q_1, h) \qquad p_1 = D_2 L_d(q_0, q_1, h) $$
 ///
-/// The first step has the size that is given, and defines E. Newton's iteration with the exact matrix solves for q1 and h. The momentum
-/// maps of the symmetries of `Ld` are conserved as in steps of one size.
+/// The first step has the given size, and defines E. Newton's iteration with the exact Jacobian solves for q1 and h. The momentum maps of
+/// the symmetries of `Ld` are conserved as in steps of constant size.
 ///
-/// # Where there is no step
+/// # Where no step exists
 ///
-/// At a state with the energy H the discrete energy of a step of size h is `H − h²c + …`, with a curvature c of the orbit; for the
-/// midpoint rule `c = (p·M⁻¹∇²V M⁻¹p + ∇V·M⁻¹∇V)/8`. So `h ∝ c^{−1/2}`, and where c changes its sign no step conserves the energy:
-/// steps grow on the way there, and the run ends with [`Error::NoEnergyStep`]. A step is at most twice as long as the step before and
-/// at least half as long, so that another root of the equations is not taken for it. For a Lagrangian without time, steps of one size
-/// ([`VariationalIntegrator`](super::VariationalIntegrator)) go on where these end, as Marsden & West (4.9.3) advise.
+/// At a state with the energy H the discrete energy of a step of size h is `H − h²c + …`, with a curvature c of the orbit. For the midpoint
+/// rule `c = (p·M⁻¹∇²V M⁻¹p + ∇V·M⁻¹∇V)/8`. So `h ∝ c^{−1/2}`, and where c changes its sign no step conserves the energy: the steps grow as
+/// the run approaches such a point, and the run ends with [`Error::NoEnergyStep`]. A step is at most twice and at least half as long as the
+/// previous one, which excludes other roots of the equations. For an autonomous Lagrangian, steps of constant size
+/// ([`VariationalIntegrator`](super::VariationalIntegrator)) continue beyond this point, as Marsden & West (4.9.3) advise.
 ///
-/// The condition of the equations grows as `h⁻²`: E is conserved to rounding times that. Newton's iteration ends where the equations hold
-/// to the rounding of q1; a free particle, which conserves its energy by steps of every size, keeps its step size.
+/// The condition number of the equations grows as `h⁻²`: E is conserved up to rounding errors times this number. Newton's iteration ends
+/// when the equations hold up to the rounding of q1. A free particle, which conserves its energy with steps of every size, keeps its step
+/// size.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -76,31 +77,31 @@ pub struct EnergyMomentumIntegrator<L: DiscreteLagrangian> {
     derivatives: Derivatives<L>,
     /// By rows.
     matrix: Vec<f64>,
-    /// The derivatives of `∂Ld/∂h` by q1 and h.
+    /// The derivatives of `∂Ld/∂h` with respect to q1 and h.
     last_row: Vec<f64>,
     factors: Factors,
 }
 
-/// Iterations after which Newton's iteration does not converge any more.
+/// Maximum number of Newton iterations.
 const MAX_ITERATIONS: u32 = 40;
 
 /// The relative change of an iterate after which the next iterate is exact up to rounding.
 const LAST_CHANGE: f64 = 1e-9;
 
-/// What q1 is known to, relative to itself.
+/// Relative accuracy to which q1 is known.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// The most by which a step is longer or shorter than the step before.
+/// Largest ratio of the sizes of two successive steps.
 const MOST_CHANGE: f64 = 2.0;
 
 impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
-    /// An integrator at `state`, with a first step of size `step_size`, negative to go backward.
+    /// An integrator at `state`, with a first step of size `step_size`, which is negative to go backward.
     ///
     /// Does not compile for a Lagrangian with [`forces`](DiscreteLagrangian::FORCED), which change the energy.
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`].
+    /// [`Error::StepSize`], [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`].
     pub fn new(lagrangian: L, state: State<L::Vector<f64>>, step_size: f64) -> Result<Self, Error> {
         const {
             assert!(
@@ -130,12 +131,12 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
     ///
     /// # Errors
     ///
-    /// [`Error::NoEnergyStep`] where no step conserves the discrete energy, as far as Newton's iteration tells;
-    /// [`Error::NoEndOfStep`], [`Error::IrregularLagrangian`], [`Error::NonFinite`] where a step of the size of the step before has no end;
-    /// [`Error::TimeResolution`]. The state is untouched.
+    /// [`Error::NoEnergyStep`] if Newton's iteration finds no step that conserves the discrete energy; [`Error::NoEndOfStep`],
+    /// [`Error::IrregularLagrangian`], [`Error::NonFinite`] if a step of the previous size has no end; [`Error::TimeResolution`]. The state
+    /// is then unchanged.
     pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
         let (time, before) = (self.state.time, self.step_size);
-        // The end of a step of the size before, and then that of a step with the energy.
+        // First the end of a step of the previous size, then that of a step with the energy E.
         self.q1
             .as_mut_slice()
             .copy_from_slice(self.state.q.as_slice());
@@ -191,28 +192,28 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
         &self.state
     }
 
-    /// The size of the last step; before the first step, its size.
+    /// The size of the last step; before the first step, the size that it will have.
     pub const fn step_size(&self) -> f64 {
         self.step_size
     }
 
-    /// The discrete energy E of all steps; `None` before the first one.
+    /// The discrete energy E of all steps; `None` before the first step.
     pub const fn discrete_energy(&self) -> Option<f64> {
         self.energy
     }
 
-    /// The curvature c at the start of the last step, from the slope of the discrete energy by the step size: `−dE_d/dh / (2h)`. Where it
+    /// The curvature c at the start of the last step, from the derivative of the discrete energy by the step size: `−dE_d/dh / (2h)`. If it
     /// comes near zero, the run is about to end. `None` before the first step.
     pub const fn curvature(&self) -> Option<f64> {
         self.curvature
     }
 
-    /// Steps taken.
+    /// Number of steps taken.
     pub const fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// Newton's iteration for q1, and for the step size if there is an energy; from the q1 that is there.
+    /// Newton's iteration for q1, and for the step size if `energy` is given. It starts from the present q1.
     fn solve(&mut self, before: f64, energy: Option<f64>) -> Result<f64, Failure> {
         let n = self.q1.dimension();
         let (mut size, mut residual) = (before, f64::INFINITY);
@@ -223,7 +224,7 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
             }
             let missing = energy.map(|energy| found - energy);
             if missing.is_none() {
-                // The last equation is that the size stays.
+                // The last equation keeps the step size.
                 self.matrix[n * (n + 1)..].fill(0.0);
                 self.matrix[n * (n + 1) + n] = 1.0;
             }
@@ -269,7 +270,7 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
         })
     }
 
-    /// Whether the equations hold as far as q1 is known, to its rounding: where the discrete energy lacks `missing`.
+    /// Whether the equations hold up to the rounding of q1; `missing` is the error of the discrete energy.
     fn holds(&self, missing: f64) -> bool {
         let q1 = self.q1.as_slice();
         let rounding = |row: &[f64]| {
@@ -298,7 +299,7 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
         -slope
     }
 
-    /// `dE_d/dh` along the ends of steps of all sizes, where the iteration for one size has just ended.
+    /// `dE_d/dh` along the ends of steps of all sizes, after the iteration for one size has converged.
     fn slope_of_energy(&mut self) -> f64 {
         let n = self.q1.dimension();
         let right = (0..=n).map(|k| if k == n { 1.0 } else { 0.0 });

@@ -1,11 +1,11 @@
-//! Steps that are not taken.
+//! Failed steps.
 
 use super::regular::Singular;
 use crate::error::{Error, Quantity};
 
-/// Why a step was not taken.
+/// Why a step failed.
 pub(super) enum Failure {
-    /// Something is not finite: at this stage, from 1.
+    /// A value is not finite: at this stage, from 1.
     NonFinite {
         stage: Option<usize>,
     },
@@ -17,7 +17,7 @@ pub(super) enum Failure {
 }
 
 impl Failure {
-    /// The error of the step with this number; `what` is not finite.
+    /// The error of the step with the number `step`; `what` is not finite.
     pub(super) fn error(self, what: Quantity, time: f64, step_size: f64, step: u64) -> Error {
         match self {
             Self::NonFinite { stage } => Error::NonFinite {

@@ -1,4 +1,4 @@
-//! The function that generates a step.
+//! The generating function of a step.
 
 use num_traits::Zero;
 
@@ -10,7 +10,7 @@ use crate::method::{Method, ProvedFor, Solver, Step, Stopping};
 use crate::number::{Coefficients, Scalar, Summation, Vector};
 use crate::system::{Conservative, System};
 
-/// What [`generating_function`] returns: the value at `(q0, p1)`, and the step that it generates.
+/// The value at `(q0, p1)`, and the step that it generates; returned by [`generating_function`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct GeneratingFunction<V: Vector> {
     /// `H_d⁺(q0, p1)`, an action.
@@ -46,40 +46,40 @@ impl<V: Vector> GeneratingFunction<V> {
 /// $$ H_d^{+}(q_0, p_1) = p_1 q_0 - h^2 \sum_{ij} b_i a_{ij} \frac{\partial H}{\partial q}(Q_i, P_i)
 /// \frac{\partial H}{\partial p}(Q_j, P_j) + h \sum_i b_i H(Q_i, P_i) $$
 ///
-/// with the stages of the step from `(q0, p0)` to `(q1, p1)`, which are solved for from the two ends that are given:
+/// with the stages of the step from `(q0, p0)` to `(q1, p1)`. These are found from the two given ends,
 ///
 /// ```text
 /// Q_i = q0 + h Σ_j a_ij velocity_j      P_i = p1 − h Σ_j (b̃_j − ã_ij) force_j
 /// ```
 ///
-/// by the iteration of [`FixedPoint`](crate::solver::FixedPoint), with its stopping rule. `p0` and `q1` come from these stages; that they are
-/// the derivatives is what symplecticity says. **It holds for symplectic methods only**, `b = b̃` and
-/// `b_i ã_ij + b̃_j a_ji = b_i b̃_j`, which is every method that the macro derives; for another one that is written by
-/// hand the value means nothing.
+/// by the iteration of [`FixedPoint`](crate::solver::FixedPoint), with its stopping criterion. `p0` and `q1` come from these stages. They
+/// are the derivatives of the function because the method is symplectic. **It holds for symplectic methods only**, `b = b̃` and
+/// `b_i ã_ij + b̃_j a_ji = b_i b̃_j`, which includes every method that the macro derives. For another method, written by hand, the value
+/// has no meaning.
 ///
-/// A sum over l = 0..k of `H_d⁺(q_l, p_{l+1}) − p_{l+1}·q_{l+1}` along an orbit, with `p_k·q_k` added, is the discrete
-/// extremum function, whose derivative by `p_k` is `q_k` (eq. 21 to 24). Unlike a discrete Lagrangian it
-/// is there for degenerate systems too, such as `H = q·p`, below.
+/// The sum over l = 0..k of `H_d⁺(q_l, p_{l+1}) − p_{l+1}·q_{l+1}` along an orbit, plus `p_k·q_k`, is the discrete extremum function, whose
+/// derivative with respect to `p_k` is `q_k` (eq. 21 to 24). Unlike a discrete Lagrangian it exists for degenerate systems too, such as
+/// `H = q·p` below.
 ///
 /// # Cost
 ///
-/// For s stages of dimension n, a sweep makes 2s evaluations and 2s²n products, and the value takes s²n products and
-/// s energies. Memory is allocated; it is no part of a step.
+/// For s stages of dimension n, a sweep takes 2s evaluations and 2s²n products. The value takes s²n products and s energies. Memory is
+/// allocated, separate from that of a step.
 ///
 /// # Time
 ///
-/// Where H depends on time, the force is taken at `t0 + c_i h` and the velocity at `t0 + c̃_i h`, as in a step (see
-/// [`Hamiltonian`](crate::Hamiltonian#time)). The energy is the sum of what belongs to both, so it has to be one time: where
-/// `c_i ≠ c̃_i`, the energies at the two have to be equal.
+/// If H depends on time, the force is evaluated at `t0 + c_i h` and the velocity at `t0 + c̃_i h`, as in a step (see
+/// [`Hamiltonian`](crate::Hamiltonian#time)). The energy contains the terms of both, so it needs a single time: if `c_i ≠ c̃_i`, the
+/// energies at the two times have to be equal.
 ///
-/// With friction, an [applied force](crate::Hamiltonian::applied_force) or constraints there is no such function, and the call does not
+/// With friction, an [applied force](crate::Hamiltonian::applied_force) or constraints no such function exists, and the call does not
 /// compile.
 ///
 /// # Errors
 ///
-/// [`Error::NoEnergy`] where the system gives none; [`Error::TwoClocks`] where it depends on time and the method
-/// has `c ≠ c̃`; [`Error::StepSize`], [`Error::Dimension`] and [`Error::NonFiniteState`] for the arguments;
-/// [`Error::NoConvergence`], [`Error::NonFinite`] and [`Error::EvaluationDimension`] as in a step.
+/// [`Error::NoEnergy`] if the system has no energy; [`Error::TwoClocks`] if it depends on time and the method has `c ≠ c̃`;
+/// [`Error::StepSize`], [`Error::Dimension`] and [`Error::NonFiniteState`] for the arguments; [`Error::NoConvergence`],
+/// [`Error::NonFinite`] and [`Error::EvaluationDimension`] as in a step.
 ///
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
@@ -130,15 +130,14 @@ pub fn generating_function<
 impl<M: Method, S: System<V, Class: Conservative>, V: Vector, R: Summation, N: Solver<V, S>>
     Integrator<M, S, V, R, N>
 {
-    /// Takes one step and returns its generating function at the position before and the momentum after it, the
-    /// `p0` and `q1` of which are the momentum before and the position after it, up to rounding.
+    /// Takes one step and returns its generating function at the position before and the momentum after it. Its `p0` and `q1` are the
+    /// momentum before and the position after the step, up to rounding.
     ///
-    /// The stages are solved for once more, and memory is allocated: see
-    /// [`generating_function`](crate::variational::generating_function).
+    /// The stages are computed again, and memory is allocated: see [`generating_function`](crate::variational::generating_function).
     ///
     /// # Errors
     ///
-    /// Those of [`step`](Self::step), [`Error::NoEnergy`], [`Error::TwoClocks`]; the state is untouched.
+    /// Those of [`step`](Self::step), [`Error::NoEnergy`], [`Error::TwoClocks`]; the state is then unchanged.
     ///
     /// ```
     /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
@@ -163,7 +162,7 @@ impl<M: Method, S: System<V, Class: Conservative>, V: Vector, R: Summation, N: S
     }
 }
 
-/// [`generating_function`] with `q0` and `p1` for the position and the momentum of `step`, whose number is for errors.
+/// [`generating_function`] with the position and the momentum of `step` as `q0` and `p1`. `number` is the number of the step, for errors.
 fn generating<M: Method, S: System<V>, V: Vector>(
     system: &S,
     step: &Step<'_, V>,
@@ -182,7 +181,7 @@ fn generating<M: Method, S: System<V>, V: Vector>(
 }
 
 impl<M: Method, V: Vector> Unknowns<M, V> {
-    /// The value of the generating function, once the stages are known.
+    /// The value of the generating function, from the stages.
     fn value<S: System<V>>(
         &mut self,
         system: &S,
@@ -209,7 +208,7 @@ impl<M: Method, V: Vector> Unknowns<M, V> {
             if !energy.is_finite() {
                 return Err(not_finite(Some(i + 1)));
             }
-            // A system that reads no clock gives the same number, bit for bit.
+            // A system that does not depend on time gives the same number, bit for bit.
             if position_time != momentum_time && system.energy(momentum_time, q, p) != Some(energy)
             {
                 let [position_time, momentum_time] = [c, c_tilde].map(|c| step.at(c));

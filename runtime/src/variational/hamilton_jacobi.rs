@@ -4,7 +4,7 @@ use super::two_ends::dot;
 use crate::number::{Scalar, Vector};
 use crate::state::State;
 
-/// The generating functions of all steps of a run at once, which solve the discrete Hamilton–Jacobi equations (Leok & Zhang, eq. 21 to 24):
+/// The generating functions of a whole run, which solve the discrete Hamilton–Jacobi equations (Leok & Zhang, eq. 21 to 24):
 ///
 /// ```text
 /// S_I(q0, q_N)   = Σ L_d                  dS_I   = p_N·dq_N − p0·dq0
@@ -52,12 +52,12 @@ pub struct DiscreteHamiltonJacobi<T> {
     /// `p0·q0`
     start: T,
     action: T,
-    /// What the sum leaves out.
+    /// The compensation of the sum.
     rest: T,
 }
 
 impl<T: Scalar> DiscreteHamiltonJacobi<T> {
-    /// That of no steps from a state: `S_I = 0`, `S_II = p0·q0`, `S_III = −p0·q0`.
+    /// The functions before the first step from a state: `S_I = 0`, `S_II = p0·q0`, `S_III = −p0·q0`.
     pub fn new<V: Vector<Scalar = T>>(start: &State<V>) -> Self {
         Self {
             start: dot(&start.p, &start.q),
@@ -79,7 +79,7 @@ impl<T: Scalar> DiscreteHamiltonJacobi<T> {
         self.action
     }
 
-    /// `S_II`, at the momentum of `state`, which is the one after the steps.
+    /// `S_II`, at the momentum of `state`, which is the state after the steps.
     pub fn type_two<V: Vector<Scalar = T>>(&self, state: &State<V>) -> T {
         dot(&state.p, &state.q) - self.action
     }

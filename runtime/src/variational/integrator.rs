@@ -19,17 +19,17 @@ use crate::state::State;
 ///
 /// $$ p_0 = -D_1 L_d(q_0, q_1) - f_d^-(q_0, q_1) \qquad p_1 = D_2 L_d(q_0, q_1) + f_d^+(q_0, q_1) $$
 ///
-/// Newton's iteration with the exact matrix `D1D2 Ld` solves the first equation for `q1`, from `q1 = q0`; for `L = v·Mv/2 − U(q)` its first iterate is about
-/// `q0 + h M⁻¹p0`. What rounding leaves of that equation is added to `p1`: so
-/// `p1 − p0 = D1 Ld + D2 Ld + f_d⁻ + f_d⁺` holds to rounding, and with it the balance of every momentum map.
+/// Newton's iteration with the exact Jacobian `D1D2 Ld` solves the first equation for `q1`, from `q1 = q0`. For `L = v·Mv/2 − U(q)` its
+/// first iterate is about `q0 + h M⁻¹p0`. The residual that rounding leaves in this equation is added to `p1`. So
+/// `p1 − p0 = D1 Ld + D2 Ld + f_d⁻ + f_d⁺` holds up to rounding, and with it the balance of every momentum map.
 ///
-/// Without forces a step is symplectic, its order is that of `Ld` as an approximation of the action (Theorem 2.3.1), and it conserves the momentum maps of the symmetries
-/// of `Ld` (Theorem 1.3.3).
+/// Without forces a step is symplectic, and its order is that of `Ld` as an approximation of the action (Theorem 2.3.1). It conserves the
+/// momentum maps of the symmetries of `Ld` (Theorem 1.3.3).
 ///
 /// # Cost
 ///
-/// For n components, an iteration takes n² evaluations of `Ld` with its derivatives and the elimination of a full matrix, and the end of the step n evaluations. A
-/// step allocates nothing. A step that fails leaves the state as it was.
+/// For n components, an iteration takes n² evaluations of `Ld` with its derivatives and the elimination of a full matrix. The end of the
+/// step takes n evaluations. A step allocates no memory. A step that fails leaves the state unchanged.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -71,25 +71,26 @@ pub struct VariationalIntegrator<L: DiscreteLagrangian> {
     action: Option<f64>,
 }
 
-/// Iterations after which Newton's iteration does not converge any more: it takes 3 to 6.
+/// Maximum number of Newton iterations; 3 to 6 are typical.
 const MAX_ITERATIONS: u32 = 40;
 
 impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
-    /// An integrator at `state`, with steps of size `step_size`, negative to go backward.
+    /// An integrator at `state`, with steps of size `step_size`, which is negative to go backward.
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`].
+    /// [`Error::StepSize`], [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`].
     pub fn new(lagrangian: L, state: State<L::Vector<f64>>, step_size: f64) -> Result<Self, Error> {
         Self::by(SymmetricSteps::ONE, lagrangian, state, step_size)
     }
 
-    /// [`new`](Self::new) with the steps of a composition that [`composition!`](crate::composition) makes of Störmer–Verlet steps: it has the order of that
-    /// composition for general Hamiltonians, `M::ORDERS.general`, if `Ld` has order 2 and is self-adjoint, which [`self_adjoint_defect`](super::DiscretePath::self_adjoint_defect) tells.
+    /// [`new`](Self::new) with the steps of a composition of Störmer–Verlet steps, made by [`composition!`](crate::composition). It has the
+    /// order of that composition for general Hamiltonians, `M::ORDERS.general`, if `Ld` has order 2 and is self-adjoint, which
+    /// [`self_adjoint_defect`](super::DiscretePath::self_adjoint_defect) tests.
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new). With another method it does not compile.
+    /// As for [`new`](Self::new). Does not compile with another method.
     pub fn composed<M: Method>(
         _method: M,
         lagrangian: L,
@@ -124,17 +125,19 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
     ///
     /// # Errors
     ///
-    /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is untouched.
+    /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is then
+    /// unchanged.
     pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
         self.one_step()?;
         Ok(&self.state)
     }
 
-    /// Goes to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or backward.
+    /// Integrates to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or
+    /// backward.
     ///
     /// # Errors
     ///
-    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last good step.
+    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that after the last successful step.
     pub fn integrate_to(&mut self, end: f64) -> Result<&State<L::Vector<f64>>, Error> {
         self.steps_to(end)?;
         Ok(&self.state)
@@ -145,7 +148,7 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
         &self.state
     }
 
-    /// `Ld(q0, q1)` of the last step, in a composition the sum over its steps; `None` before the first one.
+    /// `Ld(q0, q1)` of the last step, for a composition the sum over its substeps; `None` before the first step.
     pub const fn action(&self) -> Option<f64> {
         self.action
     }
@@ -160,16 +163,16 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
         self.pace.step_size()
     }
 
-    /// Steps taken.
+    /// Number of steps taken.
     pub const fn steps(&self) -> u64 {
         self.pace.taken()
     }
 
-    /// Changes the step size; negative to go backward.
+    /// Sets the step size, which is negative to go backward.
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`]; the one before then holds.
+    /// [`Error::StepSize`]; the step size is then unchanged.
     pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
         self.pace.set_step_size(self.state.time, step_size)
     }

@@ -1,10 +1,10 @@
-//! Discrete mechanics: what generates a step, its stages, and the balances of energy and momentum.
+//! Discrete mechanics: generating functions and stages of steps, and the balances of energy and momentum.
 //!
-//! A method has a [generating function](generating_function()) for each of its steps, and [stages](StagesOfStep) with the work and the impulse
-//! of applied forces. A [`DiscreteLagrangian`] that is given has steps that it generates, by a [`VariationalIntegrator`], or
-//! an [`EnergyMomentumIntegrator`] that chooses their size; what holds for it
-//! is asked of a [`DiscretePath`]. A [`LagrangianIntegrator`] takes the steps of a method for a [`Lagrangian`](crate::Lagrangian); degenerate
-//! ones, and constraints on velocities, are for a [`DiracIntegrator`].
+//! Every step of a method has a [generating function](generating_function()), and [stages](StagesOfStep) with the work and the impulse of
+//! applied forces. A [`DiscreteLagrangian`] supplied by the user generates the steps of a [`VariationalIntegrator`], or those of an
+//! [`EnergyMomentumIntegrator`], which chooses their size. A [`DiscretePath`] tests its properties. A [`LagrangianIntegrator`] takes the
+//! steps of a method for a [`Lagrangian`](crate::Lagrangian). A [`DiracIntegrator`] is for degenerate Lagrangians and for constraints on
+//! velocities.
 
 mod checks;
 mod cotangent_lift;

@@ -30,36 +30,34 @@ use crate::system::{Hamiltonian, Separable, System};
 ///
 /// $$ x = q - \beta h^2 a(q) \qquad \dot x = M^{-1} p \qquad \dot p = -\nabla V(q(x)) $$
 ///
-/// (Marsden & West print `η(q) = q − βh² M⁻¹∇V`; the sign is plus.) An [`Integrator`](crate::Integrator) with Störmer–Verlet and the
-/// step size `h` steps it: the states are `(x, p)`, and [`unshift`](Self::unshift) gives `(q, p)`. So dx∧dp is preserved, and dq∧dp is
-/// not unless `β = 0`.
+/// (Marsden & West print `η(q) = q − βh² M⁻¹∇V`; the sign is plus.) An [`Integrator`](crate::Integrator) with Störmer–Verlet and the step
+/// size `h` steps this system. The states are `(x, p)`, and [`unshift`](Self::unshift) gives `(q, p)`. So dx∧dp is preserved, but dq∧dp is
+/// preserved only for `β = 0`.
 ///
-/// | β | what it is |
+/// | β | method |
 /// |---|---|
 /// | 0 | Störmer–Verlet in q; stable for hω < 2 |
 /// | 1/12 | the positions of an orbit are those of Numerov's method |
 /// | 1/6 | linear acceleration; stable for hω < 2√3 |
 /// | 1/4 | average acceleration: linear oscillators are stable at every step size |
 ///
-/// The order is 2 for all of them. Below 0 the limit of stability is lower than that of Störmer–Verlet; such a β is refused.
+/// All of them have order 2. For β < 0 the stability limit is lower than that of Störmer–Verlet; such a β is refused.
 ///
 /// # Energy
 ///
-/// [`energy`](System::energy) is the Hamiltonian of the shifted system, `H(q, p) + βh²/2 ∇V·M⁻¹∇V`: the potential in x is
-/// the least value of `V(q) + |q − x|²/(2βh²)`, in the norm of M, where V is convex. With an
-/// [applied force](Hamiltonian::applied_force) there is none.
+/// [`energy`](System::energy) is the Hamiltonian of the shifted system, `H(q, p) + βh²/2 ∇V·M⁻¹∇V`. If V is convex, the potential in x is
+/// the minimum of `V(q) + |q − x|²/(2βh²)`, in the norm of M. With an [applied force](Hamiltonian::applied_force) there is no energy.
 ///
 /// # Step size
 ///
-/// The shift has the `h` that is given here. A step of another size, such as the last one before an end time, is
-/// a step of Störmer–Verlet for the same shifted system, which differs by O(h²) from the given one.
+/// The shift has the `h` given here. A step of another size, such as the last one before an end time, is a step of Störmer–Verlet for the
+/// same shifted system, which differs by O(h²) from the given one.
 ///
 /// # Cost
 ///
-/// An evaluation of the force solves for `q(x)` by Newton's iteration from `q = x`, with exact derivatives: for n
-/// components an iteration takes n/2 evaluations of the force with its derivatives and the elimination of a full matrix. Memory is allocated at the first
-/// evaluation only. Where no `q` is found the force is NaN, and the step fails with [`Error::NonFinite`]: with a
-/// smaller step there is one.
+/// An evaluation of the force solves for `q(x)` by Newton's iteration from `q = x`, with exact derivatives. For n components an iteration
+/// takes n/2 evaluations of the force with its derivatives and the elimination of a full matrix. Memory is allocated only at the first
+/// evaluation. If no `q` is found, the force is NaN and the step fails with [`Error::NonFinite`]; a smaller step succeeds.
 ///
 /// ```
 /// use symplectic::variational::Newmark;
@@ -98,16 +96,16 @@ pub struct Newmark<S: Hamiltonian<Class = Separable>> {
     system: S,
     /// `βh²`
     shift: f64,
-    /// Where `q(x)` is solved for; there is none before the first time, and during it.
+    /// Memory to solve for `q(x)`; `None` before the first evaluation and during one.
     room: Cell<Option<Box<Room<S>>>>,
 }
 
 impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
-    /// The system in the positions that belong to `beta` and steps of size `step_size`.
+    /// The shifted system for `beta` and steps of size `step_size`.
     ///
     /// # Errors
     ///
-    /// [`Error::NewmarkBeta`] where `beta` is negative or not finite; [`Error::StepSize`].
+    /// [`Error::NewmarkBeta`] if `beta` is negative or not finite; [`Error::StepSize`].
     pub fn new(system: S, beta: f64, step_size: f64) -> Result<Self, Error> {
         check_step_size(step_size)?;
         if !(beta >= 0.0 && beta.is_finite()) {
@@ -124,7 +122,8 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`]; [`Error::NonFiniteState`] for the state or its force; [`Error::NewmarkMasses`] where the velocity is not `M⁻¹p` with a constant M.
+    /// [`Error::Dimension`]; [`Error::NonFiniteState`] for the state or its force; [`Error::NewmarkMasses`] if the velocity is not `M⁻¹p`
+    /// with a constant M.
     pub fn shift(&self, state: &State<S::Vector<f64>>) -> Result<State<S::Vector<f64>>, Error> {
         let State { time, q, p } = state;
         check_state(*time, q, p, q.dimension())?;
@@ -152,11 +151,11 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
         Ok(shifted)
     }
 
-    /// The state `(q, p)` of a state `(x, p)`, with the `q` for which `q − βh² a(q) = x`.
+    /// The state `(q, p)` of a state `(x, p)`, with the `q` that solves `q − βh² a(q) = x`.
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`]; [`Error::NewmarkPosition`] where no such `q` is found.
+    /// [`Error::Dimension`], [`Error::NonFiniteState`]; [`Error::NewmarkPosition`] if no such `q` is found.
     pub fn unshift(&self, state: &State<S::Vector<f64>>) -> Result<State<S::Vector<f64>>, Error> {
         let State { time, q, p } = state;
         check_state(*time, q, p, q.dimension())?;
@@ -164,7 +163,7 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
         Ok(State::new(*time, q, p.clone()))
     }
 
-    /// The system in its own positions.
+    /// The system in its original positions.
     pub const fn system(&self) -> &S {
         &self.system
     }
@@ -177,7 +176,7 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
         (force, acceleration)
     }
 
-    /// `look` at `q(x)`.
+    /// The result of `look` at `q(x)`.
     fn at_position<T>(
         &self,
         time: f64,
@@ -276,10 +275,10 @@ impl<S: Hamiltonian<Class = Separable> + fmt::Debug> fmt::Debug for Newmark<S> {
     }
 }
 
-/// Iterations after which Newton's iteration for `q(x)` does not converge any more.
+/// Maximum number of Newton iterations for `q(x)`.
 const MAX_ITERATIONS: u32 = 40;
 
-/// The unknown of `q − βh² a(q) = x`, and room to evaluate the left-hand side with its derivatives.
+/// The unknown of `q − βh² a(q) = x`, and memory to evaluate the left-hand side with its derivatives.
 struct Room<S: Hamiltonian> {
     position: S::Vector<f64>,
     q: S::Vector<HyperDual>,
@@ -304,7 +303,7 @@ impl<S: Hamiltonian> Room<S> {
         })
     }
 
-    /// Solves for the position; the error is the relative change of the last iterate.
+    /// Solves for the position; the error is the relative change in the last iteration.
     fn solve(&mut self, system: &S, time: f64, shift: f64, x: &S::Vector<f64>) -> Result<(), f64> {
         self.position.as_mut_slice().copy_from_slice(x.as_slice());
         let mut residual = f64::NAN;
@@ -324,7 +323,7 @@ impl<S: Hamiltonian> Room<S> {
         Err(residual)
     }
 
-    /// Writes the matrix `1 − βh² ∂a/∂q`, two columns by one evaluation of the acceleration.
+    /// Writes the matrix `1 − βh² ∂a/∂q`; each evaluation of the acceleration gives two columns.
     fn linearise(&mut self, system: &S, time: f64, shift: f64) {
         let n = self.position.dimension();
         let time = HyperDual::from_f64(time);

@@ -9,22 +9,22 @@ use crate::integrator::validation::check_step_size;
 use crate::number::Vector;
 use crate::state::State;
 
-/// The order of a discrete Lagrangian that is observed along an orbit: `log2` of the ratio of the errors of its momenta in a step of size
-/// `step_size` and in one of half that size, both from the time `time`.
+/// The order of a discrete Lagrangian observed along an orbit. It is `log2` of the ratio of the errors of its momenta in a step of size
+/// `step_size` and in a step of half that size, both from the time `time`.
 ///
 /// ```text
 /// error(h) = max(|−D1 Ld(q(t), q(t + h)) − p(t)|, |D2 Ld(q(t), q(t + h)) − p(t + h)|)
 /// ```
 ///
-/// with the discrete forces where there are any. `orbit(t)` is the exact state at the time t, or a more precise one. Along an orbit these errors are `O(h^r)` and that of `Ld` is `O(h^{r+1})`,
-/// for a derivative by an end takes away a power of h; r is the order of the [steps](super::VariationalIntegrator) (Marsden & West 2001, Theorem 2.3.1).
+/// with the discrete forces if there are any. `orbit(t)` is the exact state at the time t, or a more precise one. Along an orbit these
+/// errors are `O(h^r)` and that of `Ld` is `O(h^{r+1})`, because a derivative with respect to an end removes a power of h. Here r is the
+/// order of the [steps](super::VariationalIntegrator) (Marsden & West 2001, Theorem 2.3.1).
 ///
-/// The result is near r where h is small and the errors are far above rounding: ask at several step sizes. It is NaN where
-/// both errors are zero.
+/// The result is near r if h is small and the errors are far above rounding: compare several step sizes. It is NaN if both errors are zero.
 ///
 /// # Errors
 ///
-/// Those of `orbit`; [`Error::StepSize`]; [`Error::Dimension`] where positions differ in dimension.
+/// Those of `orbit`; [`Error::StepSize`]; [`Error::Dimension`] if positions differ in dimension.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -75,7 +75,7 @@ pub fn observed_order<L: DiscreteLagrangian>(
             let pairs = found.as_slice().iter().zip(exact.as_slice());
             pairs.fold(largest, |largest, (found, exact)| {
                 let error = Float::abs(found - exact);
-                // NaN stays.
+                // NaN is kept.
                 if error > largest || error.is_nan() {
                     error
                 } else {

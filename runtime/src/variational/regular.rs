@@ -1,4 +1,4 @@
-//! Where a step has a unique end.
+//! Tests whether a step has a unique end.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -7,11 +7,11 @@ use num_traits::Float;
 
 use crate::number::elimination::Elimination;
 
-/// The change of an iterate, relative to the way from the start, after which the next iterate is exact up to rounding, for the iteration
-/// converges quadratically.
+/// If an iterate changes by less than this, relative to the distance from the start, the next iterate is exact up to rounding: the
+/// iteration converges quadratically.
 const LAST_CHANGE: f64 = 1e-9;
 
-/// The matrix of a Newton iteration in factors.
+/// The factors of the matrix of a Newton iteration.
 #[derive(Clone)]
 pub(super) struct Factors {
     elimination: Elimination<f64>,
@@ -28,15 +28,15 @@ pub(super) struct Singular {
     pub(super) pivot: f64,
 }
 
-/// What a correction did to an iterate.
+/// The effect of a correction on an iterate.
 pub(super) struct Correction {
-    /// Whether the iterate is exact up to rounding now.
+    /// Whether the iterate is now exact up to rounding.
     pub(super) is_last: bool,
     /// The change relative to the iterate.
     pub(super) residual: f64,
 }
 
-/// The largest size of some numbers.
+/// The largest magnitude of some numbers.
 pub(super) fn largest(numbers: &[f64]) -> f64 {
     let sizes = numbers.iter().map(|&number| Float::abs(number));
     sizes.fold(0.0, f64::max)

@@ -10,7 +10,7 @@ use crate::method::{Failure, Method, Plan, Solver, StageView, Step, Stopping};
 use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, System};
 
-/// A stage of a step, with what is evaluated there.
+/// A stage of a step, with the evaluations there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StageOfStep<V> {
     /// `h b_i`
@@ -25,13 +25,13 @@ pub struct StageOfStep<V> {
     pub p: V,
     /// `∂H/∂p` there.
     pub velocity: V,
-    /// The force there, with what is applied and without that of constraints.
+    /// The force there, with the applied force and without that of constraints.
     pub force: V,
     /// The [applied force](crate::Hamiltonian::applied_force) f there.
     pub applied: V,
 }
 
-/// What [`Integrator::step_with_stages`] returns: every stage of the tableau, of a composition those of all its steps.
+/// The stages of the tableau, for a composition those of all its steps; returned by [`Integrator::step_with_stages`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct StagesOfStep<V> {
     stages: Vec<StageOfStep<V>>,
@@ -45,7 +45,8 @@ impl<V: Vector> StagesOfStep<V> {
 
     /// The work of the applied force, `h Σ b_i f_i·v_i`.
     ///
-    /// The exact flow changes the energy by the integral of `f·v`; a step changes it by the work up to an error of the order of the method.
+    /// The exact flow changes the energy by the integral of `f·v`. A step changes it by the work, up to an error of the order of the
+    /// method.
     pub fn work(&self) -> V::Scalar {
         self.sum(|stage| dot(&stage.applied, &stage.velocity))
     }
@@ -53,8 +54,8 @@ impl<V: Vector> StagesOfStep<V> {
     /// The impulse of the applied force in the direction of a symmetry with the generator `ξ_Q`, `h Σ b_i f_i·ξ_Q(Q_i)`; `generator(q, out)`
     /// writes `ξ_Q(q)` into `out`.
     ///
-    /// Where H, and constraints if there are any, have this symmetry and `ξ_Q` is linear in q, the momentum map `J = p·ξ_Q(q)` changes
-    /// in a step by exactly that (Marsden & West, 2001, 3.2.3), up to rounding.
+    /// If H, and constraints if there are any, have this symmetry and `ξ_Q` is linear in q, the momentum map `J = p·ξ_Q(q)` changes in a
+    /// step by exactly this impulse (Marsden & West, 2001, 3.2.3), up to rounding.
     pub fn impulse(&self, mut generator: impl FnMut(&V, &mut V)) -> V::Scalar {
         let Some(first) = self.stages.first() else {
             return V::Scalar::from_f64(0.0);
@@ -69,7 +70,7 @@ impl<V: Vector> StagesOfStep<V> {
     /// The discrete Lagrangian `L_d(q0, q1) = h Σ b_i (P_i·v_i − H(Q_i, P_i))`, the action of the step.
     ///
     /// # Errors
-    /// [`Error::NoEnergy`] where the system gives none.
+    /// [`Error::NoEnergy`] if the system has no energy.
     pub fn action<S: System<V>>(&self, system: &S) -> Result<V::Scalar, Error> {
         let mut action = V::Scalar::from_f64(0.0);
         for stage in &self.stages {
@@ -93,13 +94,13 @@ impl<V: Vector> StagesOfStep<V> {
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Takes one step and returns its stages, for balances of energy and momentum, and for the discrete action.
     ///
-    /// The stages are solved for once more, to rounding, by fixed-point iteration, and memory is allocated: for tests and reports, not for
+    /// The stages are computed again, to rounding, by fixed-point iteration, and memory is allocated. Use it for tests and reports, not for
     /// every step of a long run.
     ///
     /// # Errors
     ///
-    /// Those of [`step`](Self::step); [`Error::OtherClass`] for a system of class [`Damped`](crate::Damped), whose kicks are exact flows and
-    /// no stages. The state is untouched then.
+    /// Those of [`step`](Self::step); [`Error::OtherClass`] for a system of class [`Damped`](crate::Damped), whose kicks are exact flows
+    /// without stages. The state is then unchanged.
     ///
     /// ```
     /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
@@ -134,7 +135,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 }
 
-/// The stages of a step of which the position at its start, the momentum at its start, and that at its end are known.
+/// The stages of a step with known position and momentum at its start and known momentum at its end.
 fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
     system: &S,
     step: &Step<'_, V>,
@@ -192,7 +193,7 @@ fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
     Ok(StagesOfStep { stages })
 }
 
-/// A step that could be taken cannot be taken again.
+/// The error of a step that succeeded once and fails when it is repeated.
 fn error<V: Vector>(step: &Step<'_, V>, number: u64, failure: Failure) -> Error {
     let attempt = Attempt {
         time: step.time,

@@ -1,4 +1,4 @@
-//! Checks of a step: symplectic, and equivariant under a symmetry.
+//! Tests whether a step is symplectic, and equivariant under a symmetry.
 
 use crate::error::Error;
 use crate::integrator::Integrator;
@@ -25,7 +25,7 @@ pub fn momentum_map<V: Vector>(state: &State<V>, generator: impl FnOnce(&V, &mut
     super::two_ends::dot(&state.p, &direction)
 }
 
-/// How far the family goes to both sides in [`Integrator::symplecticity_defect`].
+/// Spacing of the states of the family in [`Integrator::symplecticity_defect`].
 const STEP: f64 = 1e-3;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N>
@@ -35,9 +35,9 @@ where
     /// How much the next step changes `ω = dq∧dp` on two directions, relative to the size of its terms: zero up to about 10⁻¹¹ for a
     /// symplectic step.
     ///
-    /// `family(a, b)` are states near the present one, which is `family(0, 0)`; the directions are its derivatives by a and b, taken as
-    /// differences of order 4 from values up to 1/500: a family that changes little over that is resolved best. With constraints all of its states have to obey them: see [`consistent`](crate::consistent). The integrator
-    /// itself takes no step.
+    /// `family(a, b)` are states near the present one, which is `family(0, 0)`. The directions are its derivatives with respect to a and b,
+    /// computed as differences of order 4 from values up to 1/500. A family that varies little over this range gives the best accuracy.
+    /// With constraints all of its states have to obey them: see [`consistent`](crate::consistent). The integrator itself takes no step.
     ///
     /// # Errors
     ///
@@ -94,8 +94,8 @@ where
     }
 
     /// How far the next step is from commuting with a symmetry, relative to the largest component: the distance between the step from
-    /// `act(state)` and `act` of the step (Marsden & West, 2001, §1.3.3). Zero up to rounding for an equivariant step, as all these
-    /// methods are under linear symmetries of the system. The integrator itself takes no step.
+    /// `act(state)` and `act` of the step (Marsden & West, 2001, §1.3.3). Zero up to rounding for an equivariant step; all these methods
+    /// are equivariant under linear symmetries of the system. The integrator itself takes no step.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! The stages of a step, solved for from the position at its start and the momentum at its end.
+//! The stages of a step, found from the position at its start and the momentum at its end.
 
 use alloc::vec::Vec;
 use core::marker::PhantomData;
@@ -16,8 +16,8 @@ use crate::number::{Coefficient, Coefficients, Plain, Scalar, Summation, Vector,
 use crate::solver::fixed_point::by_stages;
 use crate::system::{Class, System};
 
-/// The stages of the step whose position at the start and momentum at the end are `q` and `p` of `step`, with the momentum at the start and
-/// the position at the end. `number` is for errors.
+/// The stages of the step with position `step.q` at its start and momentum `step.p` at its end; also the momentum at the start and the
+/// position at the end. `number` is the number of the step, for errors.
 pub(super) fn solve<M: Method, S: System<V>, V: Vector>(
     system: &S,
     step: &Step<'_, V>,
@@ -55,15 +55,15 @@ pub(super) fn solve<M: Method, S: System<V>, V: Vector>(
     let mismatch = stages.mismatch(attempt.dimension);
     let sound = mismatch.is_none() && is_finite(&q1) && is_finite(&p0);
     if outcome.is_err() || !sound {
-        // The stages are there to tell.
+        // The stages are in memory for the error.
         let observed = FirstFault::new(attempt.dimension);
         return Err(attempt.error(outcome.err(), &observed, &stages, &q1));
     }
     Ok((stages, [p0, q1]))
 }
 
-/// The plan that goes from `(q0, p1)` to `(q1, p0)`: for it the position and the momentum of the [`Step`] are the two
-/// that are known, and of its results the second is `p0`.
+/// The plan that goes from `(q0, p1)` to `(q1, p0)`. The position and the momentum of its [`Step`] are the known `q0` and `p1`, and the
+/// momentum of its result is `p0`.
 struct TypeTwo<M, C>(PhantomData<(M, C)>);
 
 impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
@@ -87,7 +87,7 @@ impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
         stages.weights = Weights::new(&M::COEFFICIENTS, step.size);
         stages.q.iter_mut().for_each(|q| q.clone_from(step.q));
         stages.p.iter_mut().for_each(|p| p.clone_from(step.p));
-        // One evaluation for all: the iteration finds the rest.
+        // One evaluation for all stages: the iteration does the rest.
         if let Some((first, others)) = stages.velocity.split_first_mut() {
             system.velocity(V::Scalar::from_f64(step.time), step.q, step.p, first);
             others.iter_mut().for_each(|other| other.clone_from(first));
@@ -151,14 +151,14 @@ impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
     }
 }
 
-/// The stages, one of each for every stage of the tableau.
+/// The values and evaluations of all stages of the tableau.
 #[derive(Clone)]
 pub(super) struct Unknowns<M, V: Vector> {
     pub(super) q: Vec<V>,
     pub(super) p: Vec<V>,
     pub(super) velocity: Vec<V>,
     pub(super) force: Vec<V>,
-    /// What is added to the base.
+    /// The increment of a stage, without its base.
     pub(super) increment: V,
     pub(super) weights: Weights<V::Scalar>,
     method: PhantomData<M>,
@@ -196,7 +196,7 @@ impl<T: Scalar> Weights<T> {
     }
 }
 
-/// `b − a`, also where the two nearly cancel.
+/// `b − a`, accurate even if the two nearly cancel.
 fn difference(b: Coefficient, a: Coefficient) -> Coefficient {
     Coefficient::exact((b.double() - a.double()) + (b.low() - a.low()))
 }
@@ -215,7 +215,7 @@ impl<M: Method, V: Vector> StageStorage<V> for Unknowns<M, V> {
         }
     }
 
-    /// Nothing is left for another step.
+    /// No data is left for another step.
     fn words(&mut self, _visit: &mut Visit<'_>) {}
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
@@ -240,7 +240,7 @@ pub(super) fn sum<V: Vector>(out: &mut V, weights: &[V::Scalar], terms: &[V]) {
     }
 }
 
-/// `out = base + increment`; notes in `change` how far `out` moved.
+/// `out = base + increment`; records in `change` how far `out` moved.
 fn settle<V: Vector>(out: &mut V, base: &V, increment: &V, change: &mut HalfChange) {
     let ends = base.as_slice().iter().zip(increment.as_slice());
     for (out, (&base, &increment)) in out.as_mut_slice().iter_mut().zip(ends) {

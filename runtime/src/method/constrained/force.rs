@@ -26,13 +26,13 @@ pub struct ConstraintForce<V: Vector> {
 /// G H_pp Gᵀ λ = d/dt (G ∂H/∂p)   along q' = ∂H/∂p, p' = −∂H/∂q
 /// ```
 ///
-/// So it has the order of the state, where the multipliers inside a step of s stages have order s − 1 only (Jay, 1996). The derivative
-/// by time is a quotient of differences over five points, with about twelve correct digits, and about eight
-/// if the velocity is not linear in the momentum.
+/// So it has the order of the state, whereas the multipliers inside a step of s stages have only order s − 1 (Jay, 1996). The time
+/// derivative is a difference quotient over five points. It has about twelve correct digits, and about eight if the velocity is not linear
+/// in the momentum.
 ///
 /// # Errors
 ///
-/// [`Error::InconsistentStart`], where the state is not on the constraints, [`Error::DependentConstraints`], [`Error::NonFiniteState`].
+/// [`Error::InconsistentStart`] if the state is not on the constraints; [`Error::DependentConstraints`]; [`Error::NonFiniteState`].
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -87,7 +87,7 @@ where
     Ok(ConstraintForce { multipliers, force })
 }
 
-/// Adds the force of the constraints to `force`, where there are multipliers.
+/// Adds the force of the constraints to `force`. If the multipliers cannot be found, fills `force` with NaN.
 pub(in crate::method) fn add_to_force<V: Vector, S: System<V>>(
     system: &S,
     time: f64,
@@ -102,7 +102,7 @@ pub(in crate::method) fn add_to_force<V: Vector, S: System<V>>(
     }
 }
 
-/// The multipliers at a place where the force without the constraints is known.
+/// The multipliers at a state at which the force without the constraints is known.
 fn multipliers<V: Vector, S: System<V>>(
     system: &S,
     time: f64,
@@ -124,7 +124,7 @@ fn multipliers<V: Vector, S: System<V>>(
     let scales = scales.into_iter().filter(|&(a, b)| a > 0.0 && b > 0.0);
     let scale = scales.map(|(a, b)| a / b).fold(f64::INFINITY, f64::min);
     let scale = if scale.is_finite() { scale } else { 1.0 };
-    // Truncation h⁴ and rounding ε/h are alike.
+    // Balances the truncation error h⁴ and the rounding error ε/h.
     let step = num_traits::Float::powf(V::Scalar::EPSILON, 0.2) * scale * 2.0;
     let [moved_q, moved_p, moved_velocity] = &mut scratch;
     let mut gradients = point.gradients.clone();

@@ -1,4 +1,4 @@
-//! The last impulse of a step, which takes the velocity to the constraints.
+//! The last impulse of a step, which projects the velocity onto the constraints.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -17,9 +17,9 @@ pub(in crate::method) struct LastImpulse<T> {
     pub(in crate::method) multipliers: Vec<T>,
     /// `G velocity` at the end.
     rates: Vec<T>,
-    /// What each is compared with.
+    /// The sizes that each rate is compared with.
     terms: Vec<Terms>,
-    /// `|G velocity|` before the impulse, which removes it.
+    /// `|G velocity|` before the impulse removes it.
     drive: Vec<f64>,
 }
 
@@ -33,12 +33,12 @@ impl<T: Scalar> LastImpulse<T> {
         }
     }
 
-    /// Adds the impulse to the last of the `increments` of the momentum, and writes that after the step into `outcome`, where the
-    /// position is. `end` is the place there.
+    /// Adds the impulse to the last of the `increments` of the momentum, and writes the momentum after the step into `outcome`, which
+    /// already holds the position. `end` is the point there.
     ///
     /// # Errors
     ///
-    /// [`Failure::NonFinite`], where a velocity is not finite; [`Failure::NoConvergence`].
+    /// [`Failure::NonFinite`] if a velocity is not finite; [`Failure::NoConvergence`].
     #[allow(clippy::too_many_arguments)]
     pub(in crate::method) fn find<R, V, S>(
         &mut self,
@@ -79,7 +79,7 @@ impl<T: Scalar> LastImpulse<T> {
                 (best, since) = (residual, 0);
             } else {
                 since += 1;
-                // Where velocities are small differences of large momenta, rounding errors of these are all that is left.
+                // If velocities are small differences of large momenta, only rounding errors of the momenta are left.
                 let p = outcome.p.as_slice();
                 let size = |k: usize| p[k].magnitude();
                 let gradients = &end.gradients;

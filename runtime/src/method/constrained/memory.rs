@@ -14,7 +14,7 @@ use crate::method::{Method, StageStorage};
 use crate::number::{Scalar, Vector, Visit, scalar_words, vector_words};
 use crate::system::{Gradients, System, Terms};
 
-/// What depends on the numbers of constraints and stages.
+/// Everything that depends on the numbers of constraints and stages.
 #[derive(Clone, Debug)]
 pub(super) struct Workspace<V: Vector> {
     pub(super) metric: Metric<V::Scalar>,
@@ -34,14 +34,14 @@ pub(super) struct Workspace<V: Vector> {
     pub(super) gradients: Vec<Gradients<V::Scalar>>,
     /// `h b_k Λ_k`, stage by stage.
     pub(super) impulses: Vec<V::Scalar>,
-    /// One for each number of stages; that of a costly one is made when it is first needed.
+    /// One for each number of stages; a costly one is made when it is first needed.
     pub(super) jacobians: Vec<StageJacobian<V::Scalar>>,
     /// `φ(Q_i)`, then `S⁻¹ φ(Q_i)`, i = 2..s, stage by stage.
     pub(super) defects: Vec<V::Scalar>,
-    /// The multipliers at the end of the step before, from which those of a step start.
+    /// The multipliers at the end of the previous step, which are the starting values of the next.
     pub(super) multipliers: Vec<V::Scalar>,
     pub(super) last_impulse: LastImpulse<V::Scalar>,
-    /// What the residuals of every constraint are compared with.
+    /// The sizes that the residuals of every constraint are compared with.
     pub(super) terms: Vec<Terms>,
     /// A velocity, a force, a momentum.
     pub(super) scratch: [V; 3],
@@ -52,7 +52,7 @@ pub(super) struct Workspace<V: Vector> {
 pub struct ConstrainedStages<V: Vector> {
     /// None until the system is known.
     pub(super) workspace: Option<Workspace<V>>,
-    /// Where the result of a substep is: position and momentum, each with what it leaves out.
+    /// The result of a substep: position and momentum, each with its compensation.
     pub(super) between: [V; 4],
 }
 

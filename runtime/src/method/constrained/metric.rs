@@ -19,11 +19,11 @@ pub(in crate::method) enum InverseMasses<T> {
     Unit,
     /// Each component of the velocity is the component of the momentum times a constant.
     Diagonal(Vec<T>),
-    /// Any other way: `M⁻¹` stands for ∂velocity/∂p.
+    /// Any other dependence: `M⁻¹` stands for ∂velocity/∂p.
     Full,
 }
 
-/// What `G M⁻¹ Gᵀ` is computed with at every state.
+/// The data from which `G M⁻¹ Gᵀ` is computed at every state.
 #[derive(Clone, Debug)]
 pub(in crate::method) struct Metric<T> {
     masses: InverseMasses<T>,
@@ -32,10 +32,10 @@ pub(in crate::method) struct Metric<T> {
     linear: bool,
 }
 
-/// What is known at a state on the constraints: at the start of a step, and at its end.
+/// Data at a state on the constraints: at the start of a step, and at its end.
 #[derive(Clone, Debug)]
 pub(in crate::method) struct Point<V: Vector> {
-    /// The force without that of the constraints; of separable systems.
+    /// The force without that of the constraints; only for separable systems.
     pub(in crate::method) force: V,
     pub(in crate::method) gradients: Gradients<V::Scalar>,
     /// `G M⁻¹ Gᵀ`, factored.
@@ -43,7 +43,7 @@ pub(in crate::method) struct Point<V: Vector> {
 }
 
 impl<T: Scalar> Metric<T> {
-    /// That of a system as it is at a state, and room for a point.
+    /// The metric of a system at a state, and an empty point.
     pub(in crate::method) fn new<V: Vector<Scalar = T>, S: System<V>>(
         system: &S,
         time: f64,
@@ -110,8 +110,8 @@ impl<T: Scalar> Metric<T> {
         normal.factor()
     }
 
-    /// The velocity that others are compared with: at momentum zero if it is linear, where it was so at the start. It may be affine
-    /// elsewhere, as in a magnetic field.
+    /// The reference velocity for differences: at momentum zero if the velocity was linear at the start, otherwise at `p`. Away from the
+    /// start the velocity may be affine, as in a magnetic field.
     fn reference<V: Vector<Scalar = T>, S: System<V>>(
         &self,
         system: &S,
@@ -127,8 +127,8 @@ impl<T: Scalar> Metric<T> {
         }
     }
 
-    /// `direction = M⁻¹ moved`, where `velocity` is the [reference](Self::reference) and `largest` the largest component of `moved`,
-    /// which is lost.
+    /// `direction = M⁻¹ moved`, where `velocity` is the [reference](Self::reference) and `largest` the largest component of `moved`.
+    /// Overwrites `moved`.
     fn direction<V: Vector<Scalar = T>, S: System<V>>(
         &self,
         system: &S,
@@ -160,17 +160,17 @@ impl<T: Scalar> Metric<T> {
         }
     }
 
-    /// Whether `M⁻¹` is known by evaluations of the velocity only.
+    /// Whether `M⁻¹` is known only through evaluations of the velocity.
     pub(in crate::method) fn is_full(&self) -> bool {
         self.masses == InverseMasses::Full
     }
 
-    /// How far apart the numbers of constraints with a component in common may be.
+    /// The largest difference between the numbers of two constraints that share a component.
     pub(in crate::method) const fn half_bandwidth(&self) -> usize {
         self.products.half_bandwidth()
     }
 
-    /// `left M⁻¹ rightᵀ` as a band by rows, `M⁻¹` at a place.
+    /// `left M⁻¹ rightᵀ` as a band by rows, with `M⁻¹` at a state.
     pub(in crate::method) fn cross<V: Vector<Scalar = T>, S: System<V>>(
         &self,
         system: &S,
@@ -266,7 +266,7 @@ fn inverse_masses<V: Vector, S: System<V>>(
         velocity
     };
     let inverse = velocity(&|_| 1.0);
-    // Momenta with components that are all different: entries off the diagonal show.
+    // Momenta whose components are all different, so that entries off the diagonal show.
     let tries = [0.618_033_988_749_895, 0.754_877_666_246_693];
     let diagonal = tries.iter().all(|ratio| {
         let momentum = |k: usize| 1.0 + (k as f64 * ratio) % 1.0;

@@ -41,7 +41,7 @@ use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, Constrained, System, Unconstrained};
 use memory::Workspace;
 
-/// How the method `M` steps systems with constraints.
+/// The plan of the method `M` for systems with holonomic constraints.
 #[derive(Debug)]
 pub struct ConstrainedPlan<M, C>(PhantomData<(M, C)>);
 
@@ -102,7 +102,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         }))
     }
 
-    /// The stages are in the memory.
+    /// Does nothing: the stages are in the memory.
     fn observe<R, V, S, N, W>(
         _step: &Step<'_, V>,
         _system: &S,
@@ -165,7 +165,7 @@ impl<V: Vector> ConstrainedStages<V> {
     }
 }
 
-/// Takes a step with nothing kept from the one before, for what `take` shows of it; its result is left.
+/// Repeats a step, with nothing kept from the previous one, to show its stages by `take`; discards its result.
 pub(super) fn taken_once_more<V: Vector>(
     step: &Step<'_, V>,
     take: impl FnOnce(WarmStart, Outcome<'_, V>) -> Result<StepStatistics, Failure>,
@@ -180,7 +180,7 @@ pub(super) fn taken_once_more<V: Vector>(
     take(WarmStart::default(), outcome).map(|_| ())
 }
 
-/// Takes the steps of a composition one after another. `take` takes one; it is told whether the one before ended where it starts.
+/// Takes the steps of a composition one after another. `take` takes one step and is told whether the previous one ended where it starts.
 pub(super) fn in_turn<'a, V: Vector>(
     steps: &[ConstrainedStep],
     step: &Step<'_, V>,
@@ -196,7 +196,7 @@ pub(super) fn in_turn<'a, V: Vector>(
 ) -> Result<StepStatistics, Failure> {
     let mut work = StepStatistics::default();
     for (number, substep) in steps.iter().enumerate() {
-        // Results go to one of two places in turn, the last one to where it belongs.
+        // Results alternate between two places, so that the last one is written to `outcome`.
         let (here, there) = if (steps.len() - number) % 2 == 1 {
             (&mut outcome, &between)
         } else {

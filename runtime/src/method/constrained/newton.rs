@@ -9,13 +9,13 @@ use crate::number::elimination::Elimination;
 use crate::number::{Scalar, Vector};
 use crate::system::{Gradients, System};
 
-/// The matrix of the positions of the stages by the impulses of the constraints, at the present stages:
+/// The Jacobian of the constraints at the stage positions with respect to the impulses of the constraints, at the present stages:
 ///
 /// ```text
 /// ∂φ(Q_i)/∂(h b_k Λ_k) = −h Z_ik G(Q_i) M⁻¹ G(Q_k)ᵀ      Z_ik = Σ_j b_j μ_ij μ̃_jk
 /// ```
 ///
-/// How forces change with positions is left out: that is smaller by h².
+/// The change of the forces with the positions is left out: it is smaller by a factor of h².
 #[derive(Clone, Debug)]
 pub(super) struct StageJacobian<T> {
     elimination: Elimination<T>,
@@ -24,7 +24,7 @@ pub(super) struct StageJacobian<T> {
 }
 
 impl<T: Scalar> StageJacobian<T> {
-    /// Memory for this many constraints, and stages with multipliers.
+    /// Memory for the given numbers of constraints and of stages with multipliers.
     pub(super) fn new(constraints: usize, stages: usize, half_bandwidth: usize) -> Self {
         let half = (half_bandwidth + 1) * stages - 1;
         Self {
@@ -33,7 +33,7 @@ impl<T: Scalar> StageJacobian<T> {
         }
     }
 
-    /// Whether it is the memory for these numbers.
+    /// Whether the memory has the size for these numbers.
     pub(super) fn fits(&self, constraints: usize, stages: usize, half_bandwidth: usize) -> bool {
         self.blocks.len() == Self::entries(constraints, stages, half_bandwidth)
     }
@@ -44,13 +44,12 @@ impl<T: Scalar> StageJacobian<T> {
 }
 
 impl<V: Vector> Workspace<V> {
-    /// Whether the matrix takes many evaluations of the velocity.
+    /// Whether the matrix needs many evaluations of the velocity.
     pub(super) fn jacobian_is_costly(&self) -> bool {
         self.metric.is_full()
     }
 
-    /// New impulses of the constraints from the defects, by a step of Newton's method, with the matrix of an earlier sweep unless it
-    /// is to be `renew`ed.
+    /// New impulses of the constraints from the defects, by a Newton step. Uses the matrix of an earlier sweep unless `renew` is set.
     ///
     /// # Errors
     /// [`Failure::SingularMatrix`]
@@ -97,7 +96,7 @@ impl<V: Vector> Workspace<V> {
         let (stages, constraints) = (tableau.weights.len() - 1, self.multipliers.len());
         let half = self.metric.half_bandwidth();
         let width = 2 * half + 1;
-        // Those at Q_1 … Q_{s−1} are known from the sweep.
+        // The gradients at Q_1 … Q_{s−1} are known from the sweep.
         let q = &self.q[stages];
         let last = &mut self.end.gradients;
         if !last.evaluate(|gradients| system.constraint_gradients(q, gradients)) {
@@ -132,7 +131,7 @@ impl<V: Vector> Workspace<V> {
             elimination,
             blocks,
         } = jacobian;
-        // Constraint by constraint, in each its stages.
+        // Ordered by constraint, then by stage.
         Ok(elimination.factor(|row, column| {
             let (c, i) = (row / stages, row % stages);
             let (d, k) = (column / stages, column % stages);

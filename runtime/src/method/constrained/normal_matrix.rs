@@ -9,7 +9,7 @@ use crate::method::Failure;
 use crate::number::{Scalar, Visit, scalar_words};
 use crate::system::Gradients;
 
-/// Which products of entries of G an entry of S consists of.
+/// The products of entries of G that make up the entries of S.
 #[derive(Clone, Debug)]
 pub(in crate::method) struct Products {
     /// Two entries of G in the same column, the place of their product in the band, and the column.
@@ -18,7 +18,7 @@ pub(in crate::method) struct Products {
 }
 
 impl Products {
-    /// The products for gradients with these places; with [`InverseMasses::Full`] none, and a full matrix.
+    /// The products for gradients with this sparsity pattern. With [`InverseMasses::Full`] there are none, and the matrix is full.
     pub(in crate::method) fn new<T: Scalar>(
         gradients: &Gradients<T>,
         masses: &InverseMasses<T>,
@@ -45,7 +45,7 @@ impl Products {
                 for &(_, other_row, other) in &column[..=number] {
                     let place = row * half_bandwidth + half_bandwidth + other_row;
                     pairs.push([entry, other, place, component].map(|x| x as u32).into());
-                    // Both orders of two entries of one constraint in one column.
+                    // Two entries of one constraint in one column count in both orders.
                     if row == other_row && entry != other {
                         pairs.push([other, entry, place, component].map(|x| x as u32).into());
                     }
@@ -64,7 +64,7 @@ impl Products {
         self.half_bandwidth
     }
 
-    /// Two entries of G in the same column, their constraints, the second not above the first, and the column.
+    /// Two entries of G in the same column, the numbers of their constraints (the second is not larger than the first), and the column.
     pub(in crate::method) fn pairs(
         &self,
     ) -> impl Iterator<Item = (usize, usize, usize, usize, usize)> {
@@ -77,7 +77,7 @@ impl Products {
     }
 }
 
-/// A symmetric band: row k holds the entries from column `k − half_bandwidth` to k; its factors `L D Lᵀ` in the same places.
+/// A symmetric band matrix: row k holds the entries from column `k − half_bandwidth` to k. The factors `L D Lᵀ` take the same places.
 #[derive(Clone, Debug)]
 pub(in crate::method) struct NormalMatrix<T> {
     size: usize,
@@ -124,7 +124,7 @@ impl<T: Scalar> NormalMatrix<T> {
         }
     }
 
-    /// Row `row` of `G M⁻¹ Gᵀ` from `direction`, `M⁻¹` times the gradient of that constraint; of a full matrix.
+    /// Sets row `row` of `G M⁻¹ Gᵀ` from `direction`, which is `M⁻¹` times the gradient of that constraint; for a full matrix.
     pub(in crate::method) fn set_row(
         &mut self,
         row: usize,
@@ -144,8 +144,8 @@ impl<T: Scalar> NormalMatrix<T> {
     /// Factors the matrix.
     ///
     /// # Errors
-    /// [`Failure::DependentConstraints`], where a pivot is lost in rounding errors: the gradient of the constraint depends on those
-    /// of the constraints before it, or vanishes; [`Failure::NonFinite`].
+    /// [`Failure::DependentConstraints`] if a pivot is lost in rounding errors: the gradient of the constraint depends linearly on those of
+    /// the previous constraints, or vanishes; [`Failure::NonFinite`].
     pub(in crate::method) fn factor(&mut self) -> Result<(), Failure> {
         let (size, half) = (self.size, self.half_bandwidth);
         for k in 0..size {
@@ -183,7 +183,7 @@ impl<T: Scalar> NormalMatrix<T> {
         Ok(())
     }
 
-    /// Solves for a right-hand side, in its place.
+    /// Solves for a right-hand side in place.
     pub(in crate::method) fn solve(&self, unknown: &mut [T]) {
         for k in 0..self.size {
             let (before, rest) = unknown.split_at_mut(k);

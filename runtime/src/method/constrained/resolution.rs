@@ -9,21 +9,21 @@ use crate::system::{Gradients, System};
 
 /// Displacements are tried from `4^−RANGE` to `4^RANGE`.
 const RANGE: i32 = 48;
-/// The values answer to a displacement where they change as the gradient says, up to this part.
+/// The values respond to a displacement if they change as the gradient predicts, up to this fraction.
 const ANSWER: f64 = 0.25;
 
-/// The rounding errors of constraints at a state, where their terms may be much larger than gradient times position: those of a
-/// pendulum with the pivot `c` at `q = 0`, say, in `|q − c|² − |c|²`.
+/// The rounding errors of constraints at a state. The terms of a constraint may be much larger than gradient times position: for example
+/// those of a pendulum with the pivot `c` at `q = 0`, in `|q − c|² − |c|²`.
 #[derive(Clone, Debug)]
 pub(super) struct Resolution {
-    /// The size of the terms of each constraint; its values have a rounding error of about `ε` times that.
+    /// The size of the terms of each constraint; its values have a rounding error of about `ε` times this size.
     pub(super) values: Vec<f64>,
-    /// The size of the position that has the same effect, the largest one.
+    /// The size of a position with the same rounding error, for the constraint where it is largest.
     pub(super) position: f64,
 }
 
 impl Resolution {
-    /// Measured by the smallest displacement that the values answer to.
+    /// Measured by the smallest displacement that the values respond to.
     pub(super) fn new<V: Vector, S: System<V>>(
         system: &S,
         q: &V,
@@ -51,7 +51,7 @@ impl Resolution {
             for c in 0..constraints {
                 let expected = slopes[c] * V::Scalar::from_f64(size);
                 let error = (there[c] - here[c] - expected).magnitude();
-                // Twice in turn: once may be chance.
+                // Two responses in a row: a single one may be chance.
                 let answers = error <= ANSWER * expected.magnitude() && expected.magnitude() > 0.0;
                 match answered[c] {
                     2 => {}

@@ -13,11 +13,11 @@ use crate::number::{Scalar, Vector};
 use crate::state::State;
 use crate::system::{Class, Constrained, System, Terms, Unconstrained};
 
-/// How far a start may be from the constraints, relative to the terms of which they consist.
+/// How far a start may be from the constraints, relative to the sizes of their terms.
 pub(in crate::method) const CONSISTENT: f64 = 1e-10;
-/// How far a gradient may be from the quotient of differences.
+/// How far a gradient may be from the difference quotient, relative to its terms.
 const GRADIENT: f64 = 1e-4;
-/// Most iterations on the way to a consistent state.
+/// Maximum number of iterations to find a consistent state.
 const ITERATIONS: usize = 100;
 
 /// The constraints of a system at a state.
@@ -26,13 +26,13 @@ pub(in crate::method) struct Examined<V: Vector> {
     point: Point<V>,
     scratch: [V; 3],
     resolution: Resolution,
-    /// `φ(q)`, and what each is compared with.
+    /// `φ(q)`, and the sizes that each value is compared with.
     values: Vec<V::Scalar>,
     terms: Vec<Terms>,
-    /// `G velocity`, and what each is compared with.
+    /// `G velocity`, and the sizes that each rate is compared with.
     rates: Vec<V::Scalar>,
     rate_terms: Vec<Terms>,
-    /// What the force makes of each: `√(|G M⁻¹ force| |φ|)`, of the sizes of their terms. At rest there is no other rate.
+    /// The scale of each rate given by the force, `√(|G M⁻¹ force| |φ|)`, from the sizes of their terms. At rest there is no other scale.
     rate_scales: Vec<f64>,
 }
 
@@ -115,7 +115,7 @@ impl<V: Vector> Examined<V> {
         })
     }
 
-    /// The largest residual relative to its scale, with the number of the constraint.
+    /// The largest residual relative to its scale, with the number of its constraint.
     fn largest(
         values: &[V::Scalar],
         terms: &[Terms],
@@ -136,7 +136,7 @@ impl<V: Vector> Examined<V> {
         Self::largest(&self.values, &self.terms, |c| self.resolution.values[c])
     }
 
-    /// The constraint of which `G velocity` is farthest from zero, and how far, relative to its scale.
+    /// The constraint whose `G velocity` is farthest from zero relative to its scale, and this relative size.
     pub(in crate::method) fn momentum(&self) -> (usize, f64) {
         Self::largest(&self.rates, &self.rate_terms, |c| self.rate_scales[c])
     }
@@ -171,7 +171,7 @@ impl<V: Vector> Examined<V> {
     }
 }
 
-/// Why there are no multipliers at a state.
+/// The error of a state at which there are no multipliers.
 pub(super) const fn error(failure: Failure, time: f64) -> Error {
     match failure {
         Failure::DependentConstraints { constraint, pivot } => Error::DependentConstraints {
@@ -201,8 +201,8 @@ pub(in crate::method) fn check_numbers<V: Vector>(q: &V, p: &V) -> Result<(), Er
     Ok(())
 }
 
-/// Checks that a state is on the constraints, `φ(q) = 0` and `G ∂H/∂p = 0`, and that these are independent with the gradients that
-/// the system states.
+/// Checks that a state is on the constraints, `φ(q) = 0` and `G ∂H/∂p = 0`, that the constraints are independent, and that the gradients
+/// stated by the system are right.
 pub(crate) fn check_start<V: Vector, S: System<V>>(
     system: &S,
     time: f64,
@@ -228,7 +228,7 @@ pub(crate) fn check_start<V: Vector, S: System<V>>(
     })
 }
 
-/// Compares the gradients with differences of the constraints in two directions.
+/// Compares the gradients with difference quotients of the constraints in two directions.
 fn check_gradients<V: Vector, S: System<V>>(
     system: &S,
     q: &V,
@@ -260,7 +260,7 @@ fn check_gradients<V: Vector, S: System<V>>(
         for (constraint, &stated) in stated.iter().enumerate() {
             let found = (high[constraint] - low[constraint]) * half;
             let difference = (stated - found).magnitude();
-            // Where the constraint is not defined nearby, it says nothing.
+            // Where the constraint is undefined nearby, the difference is NaN and proves nothing.
             if terms[constraint].relative(difference, found.magnitude()) > GRADIENT {
                 return Err(Error::GradientMismatch {
                     constraint,
@@ -274,20 +274,18 @@ fn check_gradients<V: Vector, S: System<V>>(
     Ok(())
 }
 
-/// The state on the constraints of a system that is nearest to `state` in the metric of its masses, to first order: with
-/// `G = ∂φ/∂q`,
+/// The state on the constraints of a system that is nearest to `state` in the metric of its masses, to first order. With `G = ∂φ/∂q`,
 ///
 /// ```text
 /// q ← q − M⁻¹ G(q)ᵀ μ with φ(q) = 0,    then    p ← p − G(q)ᵀ ν with G(q) ∂H/∂p(q, p) = 0
 /// ```
 ///
-/// An integrator projects nothing by itself: [`Integrator::new`](crate::Integrator::new) refuses a state that is not on the
-/// constraints.
+/// An integrator does not project by itself: [`Integrator::new`](crate::Integrator::new) refuses a state that is not on the constraints.
 ///
 /// # Errors
 ///
-/// [`Error::NoConsistentState`], where the iteration does not come to rest; [`Error::DependentConstraints`],
-/// [`Error::NonFiniteState`], and the errors of a system whose constraints or gradients are wrong.
+/// [`Error::NoConsistentState`] if the iteration does not converge; [`Error::DependentConstraints`], [`Error::NonFiniteState`], and the
+/// errors of a system whose constraints or gradients are wrong.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;

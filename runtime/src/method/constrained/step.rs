@@ -12,23 +12,24 @@ use crate::system::{Class, Gradients, System};
 
 /// A residual of this many units of rounding counts as zero.
 pub(in crate::method) const ROUNDING: f64 = 2.0;
-/// A residual that no longer shrinks may be as large as this, in units of rounding.
+/// A residual that no longer decreases is accepted up to this size, in units of rounding.
 pub(in crate::method) const NOISE: f64 = 256.0;
-/// A sweep that leaves more of the residual than this contracts badly.
+/// A sweep that leaves more than this fraction of the residual contracts badly.
 const SLOW: f64 = 0.125;
-/// Sweeps without a smaller residual after which the iteration has ended.
+/// Number of sweeps without a smaller residual after which the iteration has ended.
 pub(in crate::method) const PATIENCE: u32 = 4;
 
 impl<V: Vector> Workspace<V> {
-    /// Takes a step; `carried` says that the step before ended where this one starts.
+    /// Takes a step; `carried` means that the previous step ended where this one starts.
     ///
-    /// A sweep evaluates the forces at the stages, makes stages of them with the present multipliers, and corrects these, first by
+    /// A sweep evaluates the forces at the stages, computes the stages with the present multipliers, and corrects the multipliers, first by
     ///
     /// ```text
     /// h b_k Λ_k += (b_k/h) Σ_i (X⁻¹)_ki S⁻¹ φ(Q_i)      S = G M⁻¹ Gᵀ at q0
     /// ```
     ///
-    /// then by a step of Newton's method, until the residuals are rounding errors. Then `Q_s = q1`, and the last multiplier follows from `G velocity(q1, p1) = 0`.
+    /// then by a Newton step, until the residuals are rounding errors. Then `Q_s = q1`, and the last multiplier follows from
+    /// `G velocity(q1, p1) = 0`.
     pub(super) fn take<R: Summation, S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
@@ -41,7 +42,7 @@ impl<V: Vector> Workspace<V> {
         let separable = S::Class::SEPARABLE;
         let mut work = StepStatistics::default();
         if !carried {
-            // Those of another state, or of a step that failed, are no start.
+            // The multipliers of another state, or of a step that failed, are no starting values.
             self.multipliers.fill(V::Scalar::from_f64(0.0));
             let Self {
                 metric,
@@ -63,7 +64,7 @@ impl<V: Vector> Workspace<V> {
         Ok(work)
     }
 
-    /// Where the stages and multipliers start from.
+    /// Starting values of the stages and multipliers.
     fn begin<S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
@@ -116,7 +117,7 @@ impl<V: Vector> Workspace<V> {
             self.kicks(tableau, step, system, work)?;
             self.drifts::<S>(tableau, step, system, work);
             let [defect, movement, noise] = self.positions::<R, S>(tableau, step, system, outcome);
-            // What is left of a movement shrinks at least as the movements did.
+            // The remaining movement shrinks at least as fast as the movements did.
             let rate = if sweep > 1 && movement < moved {
                 movement / moved
             } else {
@@ -144,7 +145,7 @@ impl<V: Vector> Workspace<V> {
                     });
                 }
             }
-            // The matrix of the start costs nothing; that of the first stages contracts much faster.
+            // The matrix at the start of the step costs nothing extra; that at the first stages contracts much faster.
             let slow = residual > SLOW * before;
             before = residual;
             if sweep == 1 || self.jacobian_is_costly() && !slow {
@@ -161,7 +162,7 @@ impl<V: Vector> Workspace<V> {
         })
     }
 
-    /// `h b_j force_j` of all stages but the last, with the impulses of the constraints.
+    /// `h b_j force_j` of all stages except the last, with the impulses of the constraints.
     fn kicks<S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
@@ -225,8 +226,8 @@ impl<V: Vector> Workspace<V> {
         }
     }
 
-    /// The positions of the stages. Returns how far they are from the constraints, and how far those have moved that forces depend on,
-    /// both in units of rounding; and the larger of both in units of what the values of the constraints resolve.
+    /// The positions of the stages. Returns their distance from the constraints, and the movement of the positions that forces depend on,
+    /// both in units of rounding. The third value is the larger of the two in units of what the values of the constraints resolve.
     fn positions<R: Summation, S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
@@ -235,7 +236,7 @@ impl<V: Vector> Workspace<V> {
         outcome: &mut Outcome<'_, V>,
     ) -> [f64; 3] {
         let (stages, constraints) = (tableau.weights.len(), self.multipliers.len());
-        // No force inside the step of a separable system depends on the last one.
+        // No force inside the step of a separable system depends on the last position.
         let moving = if S::Class::SEPARABLE {
             stages - 1
         } else {
@@ -350,7 +351,7 @@ impl<V: Vector> Workspace<V> {
             Err(Failure::NonFinite { .. }) => return Err(self.not_finite()),
             found => found?,
         }
-        // The impulse −Gᵀy of the last stage, in place of its multiplier; of the stage before where the weight is zero.
+        // The impulse −Gᵀy of the last stage, in place of its multiplier; that of the previous stage if the weight is zero.
         let constraints = self.multipliers.len();
         let (impulses, weight) = if weight == V::Scalar::from_f64(0.0) {
             let weight = V::Scalar::weight(step.size, tableau.weights[last - 1]);
@@ -365,7 +366,7 @@ impl<V: Vector> Workspace<V> {
         Ok(())
     }
 
-    /// What is not finite in the stages.
+    /// The failure for stages that are not finite.
     fn not_finite(&self) -> Failure {
         let finite = |gradients: &Gradients<V::Scalar>| {
             let mut values = gradients.values().iter();
@@ -392,7 +393,7 @@ impl<V: Vector> Workspace<V> {
     }
 }
 
-/// Shows the stages of a step that was taken.
+/// Shows the stages of a completed step.
 #[inline]
 pub(in crate::method) fn show_stages<V: Vector, S: System<V>>(
     tableau: &ConstrainedTableau,
@@ -415,7 +416,7 @@ pub(in crate::method) fn show_stages<V: Vector, S: System<V>>(
     }
 }
 
-/// Whether momentum and velocity of a stage are those of the stage before: of a separable system, where the rows are the same.
+/// Whether momentum and velocity of a stage are those of the previous stage: for a separable system with equal rows.
 pub(in crate::method) fn same_momentum<V: Vector, S: System<V>>(
     tableau: &ConstrainedTableau,
     i: usize,
@@ -426,7 +427,7 @@ pub(in crate::method) fn same_momentum<V: Vector, S: System<V>>(
         && tableau.momentum_nodes[i] == tableau.momentum_nodes[i - 1]
 }
 
-/// Position or momentum after a step, `base + low + Σ_j increment_j`, with what it leaves out.
+/// Position or momentum after a step, `base + low + Σ_j increment_j`, with its compensation.
 pub(in crate::method) fn result<R: Summation, V: Vector>(
     (out, out_low): (&mut V, &mut V),
     (base, low): (&V, &V),
@@ -467,7 +468,7 @@ pub(in crate::method) fn stage<V: Vector>(
     }
 }
 
-/// The larger number, or NaN if one of them is.
+/// The larger number, or NaN if either is NaN.
 #[inline(always)]
 pub(in crate::method) const fn maximum(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }

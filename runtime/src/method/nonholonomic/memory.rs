@@ -11,7 +11,7 @@ use crate::method::{Method, StageStorage};
 use crate::number::{Scalar, Vector, Visit};
 use crate::system::{Gradients, System, Terms};
 
-/// What depends on the numbers of constraints and stages.
+/// Everything that depends on the numbers of constraints and stages.
 #[derive(Clone, Debug)]
 pub(super) struct Workspace<V: Vector> {
     pub(super) metric: Metric<V::Scalar>,
@@ -33,14 +33,14 @@ pub(super) struct Workspace<V: Vector> {
     pub(super) last_impulse: LastImpulse<V::Scalar>,
     /// w(Q_i) of one stage.
     pub(super) rows: Gradients<V::Scalar>,
-    /// `w(Q_i)·(q1 − q0)` of one stage, and the mean of all.
+    /// `w(Q_i)·(q1 − q0)` of one stage, and the weighted mean over all stages.
     pub(super) part: Vec<V::Scalar>,
     pub(super) defects: Vec<V::Scalar>,
-    /// What the defects are compared with.
+    /// The sizes that the defects are compared with.
     pub(super) terms: Vec<Terms>,
     /// `q1 − q0`
     pub(super) displacement: V,
-    /// How far every component has moved in a step at most, in all sweeps.
+    /// The largest displacement of every component over all sweeps of a step.
     pub(super) reach: V,
     /// A velocity, a force, a momentum or position.
     pub(super) scratch: [V; 3],
@@ -51,7 +51,7 @@ pub(super) struct Workspace<V: Vector> {
 pub struct NonholonomicStages<V: Vector> {
     /// None until the system is known.
     pub(super) workspace: Option<Workspace<V>>,
-    /// Where the result of a substep is: position and momentum, each with what it leaves out.
+    /// The result of a substep: position and momentum, each with its compensation.
     pub(super) between: [V; 4],
 }
 

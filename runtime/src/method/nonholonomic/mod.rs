@@ -5,13 +5,13 @@
 //! Σ_i b_i w(Q_i)·(q1 − q0) = 0    q1 = q0 + h Σ_i b_i velocity_i    p1 = p + h Σ_i b_i force_i − w(q1)ᵀμ,   w(q1) ∂H/∂p(q1, p1) = 0
 //! ```
 //!
-//! The discrete constraint is that at the midpoint for Gauss with one stage, the mean of those at both ends for Lobatto IIIA–IIIB with
-//! two, and that at one end for the methods of Euler: each is its own adjoint, or the adjoint of the other, as the tableau is. So a
-//! symmetric tableau gives a symmetric step, which has order 2, and composes as such. Positions do not depend on μ: the next step finds
-//! λ for any momentum of `p1 + span wᵀ`.
+//! The discrete constraint is imposed at the midpoint for Gauss with one stage, as the mean of both ends for Lobatto IIIA–IIIB with two
+//! stages, and at one end for the Euler methods. Each step is its own adjoint, or the adjoint of the other, as its tableau is. So a
+//! symmetric tableau gives a symmetric step of order 2, which can be composed as such. Positions do not depend on μ: the next step finds λ
+//! for any momentum in `p1 + span wᵀ`.
 //!
-//! The stages need H only, so H may be degenerate as long as `w H_pp wᵀ` is invertible. With the generating functions of the same tableau
-//! without constraints, a step is also one of the implicit discrete Hamilton's equations (Leok & Ohsawa 4.35 and 4.52), with
+//! The stages need only H, so H may be degenerate as long as `w H_pp wᵀ` is invertible. With the generating functions of the same tableau
+//! without constraints, a step also satisfies the implicit discrete Hamilton's equations (Leok & Ohsawa 4.35 and 4.52), with
 //! `P = p1 + w(q1)ᵀμ` and `p = p0 − w(q0)ᵀλ`:
 //!
 //! ```text
@@ -41,7 +41,7 @@ use crate::system::{Class, Nonholonomic, System, Unconstrained};
 use memory::Workspace;
 use rows::RowsAsGradients;
 
-/// How the method `M` steps systems with non-holonomic constraints.
+/// The plan of the method `M` for systems with non-holonomic constraints.
 #[derive(Debug)]
 pub struct NonholonomicPlan<M, C>(PhantomData<(M, C)>);
 
@@ -102,7 +102,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
         }))
     }
 
-    /// The stages are in the memory.
+    /// Does nothing: the stages are in the memory.
     fn observe<R, V, S, N, W>(
         _step: &Step<'_, V>,
         _system: &S,

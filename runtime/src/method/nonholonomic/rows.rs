@@ -5,7 +5,7 @@ use crate::number::Vector;
 use crate::solver::FixedPoint;
 use crate::system::{Class, Gradients, Nonholonomic, System, Unconstrained};
 
-/// A system with its rows w in place of the gradients of holonomic constraints: what is linear algebra is the same for both.
+/// A system with its rows w in place of the gradients of holonomic constraints: the linear algebra is the same for both.
 pub(super) struct RowsAsGradients<'a, S>(pub(super) &'a S);
 
 impl<V, S, C> System<V> for RowsAsGradients<'_, S>

@@ -32,12 +32,12 @@ pub(super) fn check_start<V: Vector, S: System<V>>(
 /// p ← p − w(q)ᵀν    with w(q) ∂H/∂p(q, p) = 0
 /// ```
 ///
-/// An integrator projects nothing by itself: [`Integrator::new`](crate::Integrator::new) refuses a state whose velocity does not obey the
+/// An integrator does not project by itself: [`Integrator::new`](crate::Integrator::new) refuses a state whose velocity does not obey the
 /// constraints.
 ///
 /// # Errors
 ///
-/// [`Error::NoConsistentState`], where the iteration does not come to rest; [`Error::DependentConstraints`],
+/// [`Error::NoConsistentState`] if the iteration does not converge; [`Error::DependentConstraints`],
 /// [`Error::NonFiniteState`], and the errors of a system whose rows are wrong.
 ///
 /// ```

@@ -11,9 +11,9 @@ use crate::number::{Coefficient, Scalar, Summation, Vector, copy};
 use crate::system::{Class, System};
 
 impl<V: Vector> Workspace<V> {
-    /// Takes a step; `carried` says that the step before ended where this one starts.
+    /// Takes a step; `carried` means that the previous step ended where this one starts.
     ///
-    /// A sweep evaluates the forces at the stages, makes stages of them with the present multipliers, and corrects these by
+    /// A sweep evaluates the forces at the stages, computes the stages with the present multipliers, and corrects the multipliers by
     ///
     /// ```text
     /// λ += S⁻¹ Σ_i b_i w(Q_i)·(q1 − q0)/h      S = w M⁻¹ wᵀ at q0
@@ -46,7 +46,7 @@ impl<V: Vector> Workspace<V> {
         Ok(work)
     }
 
-    /// Where the stages start from; the multipliers start from zero.
+    /// Starting values of the stages; the multipliers start from zero.
     fn begin<S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
@@ -95,7 +95,7 @@ impl<V: Vector> Workspace<V> {
             self.drifts(tableau, step, system, work);
             let movement = self.positions::<R>(tableau, step, outcome);
             let defect = self.defects(tableau, system)?;
-            // What is left of a movement shrinks at least as the movements did.
+            // The remaining movement shrinks at least as fast as the movements did.
             let rate = if sweep > 1 && movement.own < moved {
                 movement.own / moved
             } else {
@@ -142,7 +142,7 @@ impl<V: Vector> Workspace<V> {
         work: &mut StepStatistics,
     ) {
         for (j, &weight) in tableau.weights.iter().enumerate() {
-            // The force of a separable system is known where the position is.
+            // The force of a separable system is known if the position has not moved.
             if S::Class::SEPARABLE && !self.moved[j] {
                 continue;
             }
@@ -189,7 +189,7 @@ impl<V: Vector> Workspace<V> {
         }
     }
 
-    /// The positions of the stages and after the step, and the displacement between. Returns how far the stages have moved.
+    /// The positions of the stages and after the step, and the displacement `q1 − q0`. Returns how far the stages have moved.
     fn positions<R: Summation>(
         &mut self,
         tableau: &ConstrainedTableau,
@@ -229,7 +229,7 @@ impl<V: Vector> Workspace<V> {
         Residual::new::<V>(own, difference / size)
     }
 
-    /// `Σ_i b_i w(Q_i)·(q1 − q0)`. Returns how large it is relative to what has moved.
+    /// `Σ_i b_i w(Q_i)·(q1 − q0)`. Returns its size relative to the displacement.
     fn defects<S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
@@ -261,8 +261,7 @@ impl<V: Vector> Workspace<V> {
         Ok(Residual::new::<V>(own, largest))
     }
 
-    /// The changes of the multipliers, in the place of the defects. Returns how large their impulse is, in units of rounding of the
-    /// momentum.
+    /// The changes of the multipliers, in place of the defects. Returns the size of their impulse, in units of rounding of the momentum.
     fn changes(&mut self, tableau: &ConstrainedTableau, step: &Step<'_, V>) -> f64 {
         self.start.normal.solve(&mut self.defects);
         let factor = V::Scalar::from_f64(step.size.recip());
@@ -317,7 +316,7 @@ impl<V: Vector> Workspace<V> {
         }
     }
 
-    /// What is not finite in the stages.
+    /// The failure for stages that are not finite.
     fn not_finite(&self) -> Failure {
         let stages = self.q.len();
         let kicks = self.kick[..stages].iter().position(|kick| !is_finite(kick));
@@ -335,7 +334,7 @@ impl<V: Vector> Workspace<V> {
 struct Residual {
     /// Relative to the size of each component.
     own: f64,
-    /// Relative to that of all: what rounding errors of large components leave of small ones.
+    /// Relative to the size of all components, because rounding errors of large components perturb the small ones.
     largest: f64,
 }
 

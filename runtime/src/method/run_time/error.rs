@@ -1,4 +1,4 @@
-//! What is wrong with coefficients.
+//! Errors in coefficients.
 
 use super::RunTimeCoefficients;
 
@@ -10,20 +10,20 @@ pub enum TableauError {
     #[error("the tableau has no stages; give at least one weight")]
     NoStages,
 
-    /// A list or a row is not as long as there are stages.
+    /// A list or a row does not have an entry for each stage.
     #[error("{what}{} has {found} entries and the tableau {expected} stages", OfRow(*.row))]
     Shape {
         /// The list or matrix: `a`, `ã`, `b`, `b̃`, `c` or `c̃`.
         what: &'static str,
-        /// The row, where rows are as many as they should be.
+        /// The row; `None` if the list itself or the number of rows is wrong.
         row: Option<usize>,
-        /// Number of stages, that of the entries of `b`.
+        /// Number of stages, which is the number of entries of `b`.
         expected: usize,
         /// Number of entries.
         found: usize,
     },
 
-    /// A coefficient is infinite or not a number.
+    /// A coefficient is NaN or infinite.
     #[error("entry {column} of {what}{} is {value}; coefficients must be finite", OfRow(*.row))]
     NotFinite {
         /// The list or matrix.
@@ -83,20 +83,20 @@ impl core::fmt::Display for OfRow {
     }
 }
 
-/// Units of rounding by which sums and products of correctly rounded numbers may be off, and one more for each term of a sum.
+/// Rounding errors of sums and products of correctly rounded numbers, in units of EPSILON; each term of a sum adds one more.
 const UNITS: f64 = 4.0;
 
-/// Whether two numbers are equal up to the rounding of what they were made of, so many terms.
+/// Whether two numbers are equal up to the rounding errors of the `terms` terms that they were computed from.
 pub(super) fn is_about(left: f64, right: f64, terms: usize) -> bool {
     is_rounding(left - right, left.abs() + right.abs(), terms)
 }
 
-/// Whether a number is the rounding error of so many terms, the sizes of which sum to `size`.
+/// Whether a number is the rounding error of `terms` terms whose sizes sum to `size`.
 fn is_rounding(value: f64, size: f64, terms: usize) -> bool {
     value.abs() <= (UNITS + terms as f64) * f64::EPSILON * size
 }
 
-/// Checks all that can be seen of coefficients.
+/// Makes every check that needs only the coefficients.
 pub(super) fn check(coefficients: &RunTimeCoefficients) -> Result<(), TableauError> {
     let RunTimeCoefficients {
         a,

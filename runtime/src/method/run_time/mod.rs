@@ -1,4 +1,4 @@
-//! Methods that are known only when the program runs: a tableau is a value instead of a type.
+//! Methods that are known only at run time: a tableau is a value instead of a type.
 
 mod error;
 mod plan;
@@ -41,14 +41,14 @@ pub struct RunTimeCoefficients {
     pub c_tilde: Vec<f64>,
 }
 
-/// A symplectic partitioned Runge–Kutta method that is known only when the program runs: derived by it, or read from a file.
+/// A symplectic partitioned Runge–Kutta method that is known only at run time: derived by the program, or read from a file.
 ///
-/// [`Integrator::at_run_time`](crate::Integrator::at_run_time) steps a system with it. Steps take longer than those of a method
-/// that a macro emits, by a factor that the guide has measured.
+/// [`Integrator::at_run_time`](crate::Integrator::at_run_time) steps a system with it. Steps take longer than those of a method that a
+/// macro emits, by a factor measured in the guide.
 ///
-/// It is symplectic as rounded, as emitted methods are: stages are sums of increments with `μ_ij = a_ij/b_j` and
-/// `μ̃_ij = ã_ij/b̃_j`, of which the larger one is rounded and the other one is the exact rest, so that `μ̃_ij + μ_ji = 1`.
-/// Coefficients are known to 53 bits, whatever the scalar.
+/// It is symplectic as rounded, like emitted methods: stages are sums of increments with `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`. The
+/// larger of the two is rounded and the other is its exact complement, so that `μ̃_ij + μ_ji = 1`. Coefficients are known to 53 bits,
+/// whatever the scalar.
 ///
 /// A copy shares the coefficients.
 ///
@@ -92,15 +92,15 @@ struct Data {
 }
 
 impl RunTimeTableau {
-    /// The method with these coefficients. `orders` are its orders for each class of Hamiltonians, as the compiler has found them;
-    /// they decide for which systems the method is refused.
+    /// The method with these coefficients. `orders` are its orders for each class of Hamiltonians, as found by the compiler; they decide
+    /// for which systems the method is refused.
     ///
     /// # Errors
     ///
-    /// [`TableauError`], with the row where something is wrong: [`Shape`](TableauError::Shape),
-    /// [`NotFinite`](TableauError::NotFinite), [`Weights`](TableauError::Weights) where weights do not sum to 1,
-    /// [`Node`](TableauError::Node) where a node is not the sum of its row, and [`NotSymplectic`](TableauError::NotSymplectic)
-    /// where `b_i ã_ij + b̃_j a_ji` is not `b_i b̃_j`; all but the first two up to rounding of the coefficients.
+    /// [`TableauError`], with the row that is wrong: [`Shape`](TableauError::Shape), [`NotFinite`](TableauError::NotFinite),
+    /// [`Weights`](TableauError::Weights) if weights do not sum to 1, [`Node`](TableauError::Node) if a node is not the sum of its row, and
+    /// [`NotSymplectic`](TableauError::NotSymplectic) if `b_i ã_ij + b̃_j a_ji` is not `b_i b̃_j`. All except the first two are tested up
+    /// to rounding of the coefficients.
     pub fn new(
         name: &str,
         coefficients: &RunTimeCoefficients,
@@ -119,7 +119,7 @@ impl RunTimeTableau {
         })
     }
 
-    /// The same method, for every system: also where its order is lower or it is not symplectic.
+    /// The same method for every system, even if its order is lower or it is not symplectic.
     #[must_use]
     pub fn accept_lower_order(self) -> Self {
         Self {
@@ -128,7 +128,7 @@ impl RunTimeTableau {
         }
     }
 
-    /// What it is called.
+    /// Name of the method.
     pub fn name(&self) -> &str {
         &self.data.name
     }
@@ -153,7 +153,7 @@ impl RunTimeTableau {
         matches!(self.data.separable, Schedule::Splitting(_))
     }
 
-    /// Whether it is for general Hamiltonians what it is for separable ones: symplectic, for which `b = b̃`, and of the same order.
+    /// Whether it keeps its properties for general Hamiltonians: it is symplectic, which needs `b = b̃`, and has the same order.
     pub(crate) fn keeps_its_order_in_general(&self) -> bool {
         let Orders {
             general, separable, ..
@@ -164,7 +164,7 @@ impl RunTimeTableau {
         self.accepts_lower_order || general >= separable && weights.all(are_equal)
     }
 
-    /// The orders where the kinetic energy has to be quadratic for the higher one.
+    /// The orders, if the higher one requires a quadratic kinetic energy and a lower order is not accepted.
     pub(crate) fn needs_quadratic_kinetic(&self) -> Option<Orders> {
         let Orders {
             separable, nystrom, ..
@@ -172,7 +172,7 @@ impl RunTimeTableau {
         (!self.accepts_lower_order && nystrom > separable).then_some(self.data.orders)
     }
 
-    /// How it steps systems of a class.
+    /// The schedule of its steps for systems of class `C`.
     #[inline]
     pub(crate) fn schedule<C: Class>(&self) -> &Schedule {
         if C::SEPARABLE {
@@ -182,7 +182,7 @@ impl RunTimeTableau {
         }
     }
 
-    /// All coefficients, bit by bit: what a checkpoint is compared by.
+    /// All coefficients, bit by bit; checkpoints are compared by them.
     pub(crate) fn definition(&self) -> String {
         let RunTimeCoefficients {
             a,
@@ -227,5 +227,5 @@ impl Method for AtRunTime {
     type Separable = RunTimePlan<Separable>;
 }
 
-// Looked at when the integrator is made.
+// Checked when the integrator is made.
 impl<C: Unconstrained> ProvedFor<C> for AtRunTime {}

@@ -94,7 +94,7 @@ impl<V: Vector, C: Class> StageStorage<V> for RunTimeStages<V, C> {
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         if self.q.is_empty() {
-            // Evaluations of a splitting are observed.
+            // An observer receives the evaluations of a splitting.
             return None;
         }
         first_non_finite((&self.q, &self.force), (&self.p, &self.velocity))
@@ -110,14 +110,14 @@ impl<V: Vector, C: Class> StageStorage<V> for RunTimeStages<V, C> {
     }
 }
 
-/// What [`Integrator::at_run_time`](crate::Integrator::at_run_time) has put there, and no other way makes an integrator.
+/// Set by [`Integrator::at_run_time`](crate::Integrator::at_run_time), which is the only way to make such an integrator.
 const TABLEAU: &str = "the memory of a step at run time has its tableau";
 
 impl<C: Class> Plan for RunTimePlan<C> {
     type Class = C;
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = RunTimeStages<V, C>;
 
-    /// Where the tableau [is explicit](RunTimeTableau::is_explicit).
+    /// Valid only if the tableau [is explicit](RunTimeTableau::is_explicit).
     const LANEWISE: bool = C::SEPARABLE;
 
     #[inline]
@@ -184,7 +184,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
 
     const INTERPOLATION: Interpolation = Interpolation::Hermite;
 
-    /// The inside of a step is the cubic polynomial of its ends.
+    /// Does nothing: values inside a step come from the cubic polynomial of its ends.
     fn extend<V, S, N>(_memory: &RunTimeStages<V, C>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
     where
         V: Vector,

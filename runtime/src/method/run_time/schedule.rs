@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::RunTimeCoefficients;
 use crate::number::summation::two_sum;
 
-/// How a step goes.
+/// Order of computation of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Schedule {
     /// Drifts and kicks, each applied to the state in full.
@@ -19,19 +19,19 @@ pub enum Schedule {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Splitting {
     pub evaluations: Vec<Evaluation>,
-    /// Whether the first evaluation is the last one of the step before.
+    /// Whether the first evaluation is the last one of the previous step.
     pub carries: bool,
 }
 
-/// An evaluation and what is made of it.
+/// An evaluation and its use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
     pub kind: Kind,
     /// Its time, as a fraction of the step.
     pub time: f64,
-    /// What it is multiplied by, beside the step size: its weight, or 1 where that is zero.
+    /// Its factor besides the step size: its weight, or 1 if the weight is zero.
     pub factor: f64,
-    /// Whether it is in the result of the step.
+    /// Whether it enters the result of the step.
     pub counts: bool,
 }
 
@@ -56,29 +56,29 @@ pub struct Coupled {
 /// One half of coupled stages: stage values, and the evaluations at them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Half {
-    /// A stage value each, as a sum of increments of the other half.
+    /// For each stage value, its terms: increments of the other half.
     pub rows: Vec<Row>,
-    /// An evaluation each.
+    /// For each stage value, the evaluation there.
     pub evaluations: Vec<Evaluation>,
-    /// The evaluations that are in the result of the step.
+    /// The indices of the evaluations that enter the result of the step.
     pub counting: Vec<usize>,
-    /// The matrix, by rows, that takes the increments to those of the next step of the same size; empty where there is none.
+    /// The matrix, by rows, that extrapolates the increments to the next step of the same size; empty if there is none.
     pub extrapolation: Vec<Vec<f64>>,
 }
 
-/// The entries of a row that are not zero: the increment, and what it is multiplied by.
+/// The nonzero entries of a row: index of the increment, and its factor.
 pub type Row = Vec<(usize, f64)>;
 
-/// The most evaluations of which increments are extrapolated, as in emitted methods.
+/// Maximum number of evaluations whose increments are extrapolated, as in emitted methods.
 pub const MOST: usize = 16;
 
 /// Distinct evaluations of both halves with their matrices.
 struct Graph {
     forces: Vec<Evaluation>,
     velocities: Vec<Evaluation>,
-    /// For each force the entries of its position, one for each velocity: `h`-free sums of `a_ij`.
+    /// For each force the row of its position, with an entry for each velocity: sums of `a_ij`, without `h`.
     positions: Vec<Vec<f64>>,
-    /// For each velocity the entries of its momentum, one for each force.
+    /// For each velocity the row of its momentum, with an entry for each force.
     momenta: Vec<Vec<f64>>,
 }
 
@@ -100,7 +100,7 @@ impl Schedule {
 }
 
 impl Graph {
-    /// Of a separable Hamiltonian evaluations at equal stage values are one; those that no result needs are left out.
+    /// For a separable Hamiltonian evaluations at equal stage values are merged. Evaluations that the result does not need are left out.
     fn new(coefficients: &RunTimeCoefficients, separable: bool) -> Self {
         let RunTimeCoefficients {
             a,
@@ -158,7 +158,7 @@ impl Graph {
         }
     }
 
-    /// With the coefficients of increments in place of those of evaluations, rounded so that `μ̃_ij + μ_ji = 1`.
+    /// Replaces the coefficients of evaluations by those of increments, rounded so that `μ̃_ij + μ_ji = 1`.
     fn relative(mut self) -> Self {
         for (f, force) in self.forces.iter().enumerate() {
             for (v, velocity) in self.velocities.iter().enumerate() {
@@ -173,7 +173,7 @@ impl Graph {
         self
     }
 
-    /// The order of a splitting; `None` where evaluations depend on each other, or are in later stages in part.
+    /// The order of a splitting; `None` if evaluations depend on each other, or enter later stages with part of their weight.
     fn order(&self) -> Option<Splitting> {
         let all = (self.forces.iter()).chain(&self.velocities);
         if !all.clone().all(|evaluation| evaluation.counts) {
@@ -251,7 +251,7 @@ fn used(coefficients: &RunTimeCoefficients, separable: bool) -> [Vec<bool>; 2] {
     }
 }
 
-/// The sum, rounded once but for the rounding of what the sum leaves out.
+/// The sum, rounded once except for the rounding of its compensation.
 fn sum(values: impl Iterator<Item = f64>) -> f64 {
     let (high, low) = values.fold((0.0, 0.0), |(high, low), value| {
         let (high, rest) = two_sum(high, value);
@@ -260,7 +260,7 @@ fn sum(values: impl Iterator<Item = f64>) -> f64 {
     high + low
 }
 
-/// Makes two numbers that sum to 1 up to rounding do so exactly: the smaller one is the rest of the larger one.
+/// Makes two numbers that sum to 1 up to rounding do so exactly: the smaller one becomes the complement of the larger one.
 fn complement(mu: &mut f64, mu_tilde: &mut f64) {
     if *mu == 0.0 {
         *mu_tilde = 1.0;
@@ -288,7 +288,7 @@ fn half(matrix: &[Vec<f64>], evaluations: &[Evaluation]) -> Half {
     }
 }
 
-/// The values of the polynomial through the evaluations of a step at the times of those of the next one, of increments.
+/// The matrix that extrapolates increments: the polynomial through the evaluations of a step, at the times of the next step.
 fn extrapolation(evaluations: &[Evaluation]) -> Vec<Vec<f64>> {
     let times: Vec<f64> = evaluations
         .iter()
@@ -354,7 +354,7 @@ mod tests {
             .iter()
             .map(|e| (e.kind, e.factor))
             .collect();
-        // Both momenta are one.
+        // The two stage momenta are equal, so they are merged.
         let expected = [
             (Kind::Force, 0.5),
             (Kind::Velocity, 1.0),
@@ -380,7 +380,7 @@ mod tests {
             let graph = Graph::new(&coefficients(Gauss3), separable).relative();
             for (f, row) in graph.positions.iter().enumerate() {
                 for (v, mu) in row.iter().enumerate() {
-                    // The sum is exact: the larger one is from 1/2 to 2.
+                    // The sum is exact because the larger number is between 1/2 and 2.
                     assert_eq!(mu + graph.momenta[v][f], 1.0);
                 }
             }

@@ -1,4 +1,4 @@
-//! The matrix of Newton's iteration, and what is left of the equations.
+//! The matrix of Newton's iteration, and its residual.
 
 use num_traits::Float;
 
@@ -83,7 +83,7 @@ impl<L: DiracSystem> Equations<L> {
         Ok(())
     }
 
-    /// D1 Ld and −D2 Ld, as far as a point of the rule contributes.
+    /// The contribution of a point of the rule to `D1 Ld` and `−D2 Ld`.
     fn add_point(&mut self, system: &L, part: Part, Point { weight, place }: Point) {
         let n = self.q.len();
         let time = match place {
@@ -121,7 +121,7 @@ impl<L: DiracSystem> Equations<L> {
         }
     }
 
-    /// `w_d·u`, as far as a point of the rule contributes.
+    /// The contribution of a point of the rule to `w_d·u`.
     fn add_discrete_constraint(
         &mut self,
         system: &L,

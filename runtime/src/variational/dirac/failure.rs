@@ -1,11 +1,11 @@
-//! Why a step is not taken.
+//! Why a step failed.
 
 use crate::error::{Error, Quantity};
 
-/// Iterations after which Newton's iteration does not converge any more: it takes 2 to 6.
+/// Maximum number of Newton iterations; 2 to 6 are typical.
 pub(super) const MAX_ITERATIONS: u32 = 40;
 
-/// Why a step was not taken.
+/// Why a step failed.
 pub(super) enum Failure {
     NonFinite,
     MovingRows,

@@ -1,4 +1,4 @@
-//! Steps of degenerate Lagrangians and of constraints on velocities.
+//! Steps of degenerate Lagrangians, and of Lagrangians with constraints on velocities.
 
 use super::primary::consistent_velocity;
 use super::step::Equations;
@@ -25,27 +25,27 @@ use crate::variational::two_ends::dot;
 ///
 /// A [`DiracRule`] gives `Ld` and `w_d`. A force of the Lagrangian is added to both of its derivatives, as an impulse (Marsden & West 3.2.5).
 ///
-/// The second line says that every state is one of the continuous system: its momentum obeys the primary constraints, which
-/// [`primary_constraints`](super::primary_constraints) tells, and its velocity the constraints. For a regular Lagrangian that chooses μ, as
-/// a step of [`Nonholonomic`](crate::Nonholonomic) systems does, and the steps are the same. For a degenerate one it also gives the
-/// conditions on `q1` that are missing in the first line.
+/// The second line says that every state is a state of the continuous system: its momentum obeys the primary constraints, given by
+/// [`primary_constraints`](super::primary_constraints), and its velocity obeys the constraints. For a regular Lagrangian this determines μ,
+/// as in a step of [`Nonholonomic`](crate::Nonholonomic) systems, and the steps are the same. For a degenerate Lagrangian it also gives the
+/// conditions on `q1` that the first line does not contain.
 ///
 /// # Degenerate Lagrangians
 ///
-/// Newton's iteration eliminates with complete pivoting and stops at the rank. Equations that depend on others have to be satisfied, and `q1`
-/// has to be determined; else there is an error that names the component. It is not always possible:
+/// Newton's iteration eliminates with complete pivoting and stops at the rank. Equations that depend on others have to be satisfied, and
+/// `q1` has to be determined; otherwise an error names the component. A step is not always possible:
 ///
-/// * A Lagrangian that is linear in the velocities, `L = a(q)·v − H(q)` with a linear a, as point vortices have it, takes the rule
-///   [`Midpoint`](DiracRule::Midpoint): its steps are those of Gauss with one stage for H, and symplectic. Where a is not linear, `D2 Ld` is
-///   not `a(q1)`, and there is no such step. Its discrete Lagrangian is regular if `∂a/∂q − (∂a/∂q)ᵀ` is, and a
-///   [`VariationalIntegrator`](crate::variational::VariationalIntegrator) takes its steps, with momenta off the primary constraints.
-/// * Velocities without a mass, as in a loop of capacitors, take [`Trapezoid`](DiracRule::Trapezoid).
+/// * A Lagrangian that is linear in the velocities, `L = a(q)·v − H(q)` with a linear a, such as that of point vortices, needs the rule
+///   [`Midpoint`](DiracRule::Midpoint). Its steps are those of Gauss with one stage for H, and symplectic. If a is not linear, `D2 Ld` is
+///   not `a(q1)`, and no such step exists. Its discrete Lagrangian is regular if `∂a/∂q − (∂a/∂q)ᵀ` is. A
+///   [`VariationalIntegrator`](crate::variational::VariationalIntegrator) then takes its steps, with momenta off the primary constraints.
+/// * Velocities without a mass, as in a loop of capacitors, need [`Trapezoid`](DiracRule::Trapezoid).
 /// * The trapezoidal rule needs a start that satisfies the conditions on positions (secondary constraints).
 ///
 /// # Cost
 ///
-/// For n components and m constraints, an iteration eliminates a full matrix of 2(n + m) rows and takes n(2n + 1) evaluations of L at each
-/// point of the rule and at the end. A step allocates nothing. A step that fails leaves the state as it was.
+/// For n components and m constraints, an iteration eliminates a full matrix of 2(n + m) rows. It takes n(2n + 1) evaluations of L at each
+/// point of the rule and at the end. A step allocates no memory. A step that fails leaves the state unchanged.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -103,16 +103,16 @@ pub struct DiracIntegrator<L: DiracSystem> {
 }
 
 impl<L: DiracSystem> DiracIntegrator<L> {
-    /// An integrator at `state`, with steps of size `step_size`, negative to go backward.
+    /// An integrator at `state`, with steps of size `step_size`, which is negative to go backward.
     ///
-    /// The velocity of the momentum is sought from `v = 0`, where `∂²L/∂v∂v` must have the rank that it has elsewhere: a momentum of
-    /// `L = v⁴` is refused.
+    /// The velocity that belongs to the momentum is sought from `v = 0`. There `∂²L/∂v∂v` must have the same rank as elsewhere: a momentum
+    /// of `L = v⁴` is refused.
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`]; [`Error::PrimaryConstraint`] where no
-    /// velocity has this momentum, [`Error::InconsistentVelocity`] where that velocity violates the constraints, [`Error::NoVelocity`] where
-    /// none is found; [`Error::ConstraintCount`] and [`Error::GradientPlace`] where the rows are wrong.
+    /// [`Error::StepSize`], [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`]; [`Error::PrimaryConstraint`] if no
+    /// velocity has this momentum, [`Error::InconsistentVelocity`] if that velocity violates the constraints, [`Error::NoVelocity`] if none
+    /// is found; [`Error::ConstraintCount`] and [`Error::GradientPlace`] if the rows are wrong.
     pub fn new(
         rule: DiracRule,
         system: L,
@@ -122,13 +122,13 @@ impl<L: DiracSystem> DiracIntegrator<L> {
         Self::by(SymmetricSteps::ONE, rule, system, state, step_size)
     }
 
-    /// [`new`](Self::new) with the steps of a composition that [`composition!`](crate::composition) makes of Störmer–Verlet steps. It has the
-    /// order of that composition for general Hamiltonians, `M::ORDERS.general`, with the rule [`Trapezoid`](DiracRule::Trapezoid) and, for
-    /// regular Lagrangians and those linear in the velocities, with [`Midpoint`](DiracRule::Midpoint).
+    /// [`new`](Self::new) with the steps of a composition of Störmer–Verlet steps, made by [`composition!`](crate::composition). With the
+    /// rule [`Trapezoid`](DiracRule::Trapezoid) it has the order of that composition for general Hamiltonians, `M::ORDERS.general`. For
+    /// regular Lagrangians and those linear in the velocities it also has this order with [`Midpoint`](DiracRule::Midpoint).
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new). With another method it does not compile.
+    /// As for [`new`](Self::new). Does not compile with another method.
     pub fn composed<M: Method>(
         _method: M,
         rule: DiracRule,
@@ -165,17 +165,18 @@ impl<L: DiracSystem> DiracIntegrator<L> {
     /// # Errors
     ///
     /// [`Error::ContradictoryStep`], [`Error::UndeterminedPosition`], [`Error::DependentConstraints`], [`Error::MovingGradients`],
-    /// [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is untouched.
+    /// [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is then unchanged.
     pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
         self.one_step()?;
         Ok(&self.state)
     }
 
-    /// Goes to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or backward.
+    /// Integrates to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or
+    /// backward.
     ///
     /// # Errors
     ///
-    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last good step.
+    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that after the last successful step.
     pub fn integrate_to(&mut self, end: f64) -> Result<&State<L::Vector<f64>>, Error> {
         self.steps_to(end)?;
         Ok(&self.state)
@@ -186,13 +187,13 @@ impl<L: DiracSystem> DiracIntegrator<L> {
         &self.state
     }
 
-    /// A velocity v with `∂L/∂v = p` and `w(q) v = 0`. What these leave open is that of the mean velocity of the last step, and 0 before the
-    /// first one.
+    /// A velocity v with `∂L/∂v = p` and `w(q) v = 0`. Components that these equations do not determine are those of the mean velocity of
+    /// the last step, and 0 before the first step.
     pub const fn velocity(&self) -> &L::Vector<f64> {
         &self.velocity
     }
 
-    /// The energy `p·v − L(t, q, v)`; it does not depend on velocities that p leaves open.
+    /// The energy `p·v − L(t, q, v)`; it does not depend on velocities that p does not determine.
     pub fn energy(&self) -> f64 {
         let State { time, q, p } = &self.state;
         dot(p, &self.velocity) - self.system.lagrangian(*time, q, &self.velocity)
@@ -208,16 +209,16 @@ impl<L: DiracSystem> DiracIntegrator<L> {
         self.pace.step_size()
     }
 
-    /// Steps taken.
+    /// Number of steps taken.
     pub const fn steps(&self) -> u64 {
         self.pace.taken()
     }
 
-    /// Changes the step size; negative to go backward.
+    /// Sets the step size, which is negative to go backward.
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`]; the one before then holds.
+    /// [`Error::StepSize`]; the step size is then unchanged.
     pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
         self.pace.set_step_size(self.state.time, step_size)
     }

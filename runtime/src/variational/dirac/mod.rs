@@ -13,7 +13,7 @@ pub use primary::{PrimaryConstraint, primary_constraints};
 use crate::number::Scalar;
 use crate::system::{Gradients, Lagrangian};
 
-/// A Lagrangian, regular or degenerate, with the constraints `w(q) v = 0` on its velocities, of which there may be none.
+/// A Lagrangian, regular or degenerate, with optional constraints `w(q) v = 0` on its velocities.
 ///
 /// ```text
 /// d/dt ∂L/∂v − ∂L/∂q − f = wᵀλ      w(q) v = 0
@@ -23,12 +23,12 @@ use crate::system::{Gradients, Lagrangian};
 ///
 /// See [`DiracIntegrator`] for an example.
 pub trait DiracSystem: Lagrangian {
-    /// The number m of constraints, at most that of components.
+    /// The number m of constraints, at most the number of components.
     fn nonholonomic_constraints(&self) -> usize {
         0
     }
 
-    /// Sets the entries of the m×n matrix `w(q)`, always the same ones in the same order, also where they are zero.
+    /// Sets the entries of the m×n matrix `w(q)`: always the same entries in the same order, even if they are zero.
     fn nonholonomic_rows<T: Scalar>(&self, _q: &Self::Vector<T>, _rows: &mut Gradients<T>) {}
 }
 
@@ -42,7 +42,7 @@ impl<L: DiracSystem> DiracSystem for &L {
     }
 }
 
-/// How a step takes the Lagrangian and the constraints, with `u = (q1 − q0)/h`:
+/// How a step discretises the Lagrangian and the constraints, with `u = (q1 − q0)/h`:
 ///
 /// ```text
 /// Ld = h Σ_i b_i L(t0 + c_i h, q0 + c_i h u, u)      w_d = Σ_i b_i w(q0 + c_i h u)
@@ -51,17 +51,17 @@ impl<L: DiracSystem> DiracSystem for &L {
 /// $$ L_d = h \sum_i b_i L(t_0 + c_i h, q_0 + c_i h u, u) \qquad w_d = \sum_i b_i w(q_0 + c_i h u) $$
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DiracRule {
-    /// At the middle of the step. Order 2, self-adjoint.
+    /// The midpoint of the step. Order 2, self-adjoint.
     ///
-    /// It is for regular Lagrangians and for those that are linear in the velocities. A condition on positions, as that of a loop of
-    /// capacitors, holds at the middle; its error at the ends has order 2 and changes its sign in every step.
+    /// For regular Lagrangians and for those that are linear in the velocities. A condition on positions, such as that of a loop of
+    /// capacitors, holds at the midpoint. Its error at the ends has order 2 and changes its sign in every step.
     Midpoint,
     /// The mean of both ends. Order 2, self-adjoint. Conditions on positions hold at the ends of steps.
     Trapezoid,
     /// At the start, Δ^(+) of Leok & Ohsawa. Order 1; the energy drifts if the constraints are not integrable. Conditions on positions
     /// leave the end of a step undetermined.
     AtStart,
-    /// At the end, Δ^(−). Order 1; the energy drifts if the constraints are not integrable. One step goes from any start to the conditions on
-    /// positions.
+    /// At the end, Δ^(−). Order 1; the energy drifts if the constraints are not integrable. From any start, one step satisfies the
+    /// conditions on positions.
     AtEnd,
 }

@@ -1,4 +1,4 @@
-//! Primary constraints: what the momenta of a degenerate Lagrangian obey.
+//! Primary constraints on the momenta of a degenerate Lagrangian.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -32,7 +32,7 @@ pub struct PrimaryConstraint<V> {
 ///
 /// # Errors
 ///
-/// [`Error::Dimension`] where `q` and `v` differ; [`Error::NonFiniteState`] where a derivative of L is not finite.
+/// [`Error::Dimension`] if `q` and `v` differ; [`Error::NonFiniteState`] if a derivative of L is not finite.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -104,7 +104,7 @@ fn room<L: Lagrangian>(q: &L::Vector<f64>, v: &L::Vector<f64>) -> Result<Derivat
     Derivatives::new(position)
 }
 
-/// A velocity v with `∂L/∂v = p` and `w(q) v = 0`, from zero: components that neither determines are zero.
+/// A velocity v with `∂L/∂v = p` and `w(q) v = 0`, found from zero: components that neither equation determines are zero.
 pub(super) fn consistent_velocity<L: DiracSystem>(
     system: &L,
     State { time, q, p }: &State<L::Vector<f64>>,

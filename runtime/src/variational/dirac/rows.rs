@@ -16,18 +16,18 @@ pub(super) struct Entry {
     pub(super) constraint: usize,
     pub(super) component: usize,
     pub(super) value: f64,
-    /// Its derivative by a component of q.
+    /// Its derivative with respect to a component of q.
     pub(super) slope: f64,
 }
 
-/// The rows, and room to evaluate them.
+/// The rows, and memory to evaluate them.
 pub(super) struct Rows<L: DiracSystem> {
     q: L::Vector<HyperDual>,
     rows: Gradients<HyperDual>,
 }
 
 impl<L: DiracSystem> Rows<L> {
-    /// Those of a system as they are at `q`.
+    /// The rows of a system at `q`.
     pub(super) fn new(system: &L, q: &[f64]) -> Result<Self, Error> {
         let (constraints, dimension) = (system.nonholonomic_constraints(), q.len());
         if constraints > dimension {
@@ -57,13 +57,13 @@ impl<L: DiracSystem> Rows<L> {
         self.rows.constraints()
     }
 
-    /// The entries at `q`; `None` where they are set in other places than at first.
+    /// The entries at `q`; `None` if their sparsity pattern has changed.
     pub(super) fn at(&mut self, system: &L, q: &[f64]) -> Option<impl Iterator<Item = Entry>> {
         place(&mut self.q, q);
         self.evaluate(system)
     }
 
-    /// The entries at `q` with their derivatives by a component of it.
+    /// The entries at `q` with their derivatives with respect to a component of `q`.
     pub(super) fn along(
         &mut self,
         system: &L,

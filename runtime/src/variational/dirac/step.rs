@@ -16,10 +16,11 @@ use crate::state::State;
 use crate::variational::lagrangian::derivatives::Derivatives;
 use crate::variational::regular::largest;
 
-/// What is left of an equation that depends on others is zero if it is smaller, relative to its terms.
+/// The residual of a dependent equation counts as zero if it is smaller than this, relative to its terms.
 pub(super) const CONSISTENT: f64 = 1e-10;
 
-/// The change, relative to the velocity, after which the next iterate is exact up to rounding, for the iteration converges quadratically.
+/// If an iterate changes by less than this, relative to the velocity, the next iterate is exact up to rounding: the iteration converges
+/// quadratically.
 pub(super) const LAST_CHANGE: f64 = 1e-9;
 
 /// The equations of a step, in this order:
@@ -57,7 +58,8 @@ impl<L: DiracSystem> Equations<L> {
         })
     }
 
-    /// Takes a step from `state`, and writes its end there. `velocity` is about that of the start, and then that of the end.
+    /// Takes a step from `state`, and writes its end there. On entry `velocity` is an approximation of that at the start; on return it is
+    /// that at the end.
     pub(super) fn take(
         &mut self,
         system: &L,
@@ -114,7 +116,7 @@ impl<L: DiracSystem> Equations<L> {
         Err(Failure::NotFound { residual })
     }
 
-    /// Eliminates z, λ and μ, and then u from what is left: u is unique if each of its components has a pivot.
+    /// Eliminates z, λ and μ, then u from the remaining equations: u is unique if each of its components has a pivot.
     fn eliminate(&mut self, n: usize) -> Result<(), Failure> {
         let linear = &mut self.linear;
         if !linear.is_finite() {
@@ -132,7 +134,7 @@ impl<L: DiracSystem> Equations<L> {
         }
     }
 
-    /// The equation that contradicts the others most, if there is one.
+    /// The equation that contradicts the others most, if any does.
     fn contradiction(&self, n: usize) -> Option<Failure> {
         let Rest { row, value, .. } = largest_contradiction(self.linear.rests())?;
         let (what, index) = if row < 2 * n {
@@ -147,7 +149,7 @@ impl<L: DiracSystem> Equations<L> {
         Some(Failure::Contradiction { what, index, value })
     }
 
-    /// Goes to q1 and v1.
+    /// Moves to q1 and v1.
     pub(super) fn look_at(&mut self, q0: &[f64], way: f64) {
         let n = q0.len();
         self.go(q0, way);
@@ -156,7 +158,7 @@ impl<L: DiracSystem> Equations<L> {
         }
     }
 
-    /// Goes to the position `q0 + way u`.
+    /// Moves to the position `q0 + way u`.
     pub(super) fn go(&mut self, q0: &[f64], way: f64) {
         let pairs = q0.iter().zip(&self.unknowns);
         for (q, (q0, u)) in self.q.iter_mut().zip(pairs) {
@@ -165,7 +167,7 @@ impl<L: DiracSystem> Equations<L> {
     }
 }
 
-/// The largest of the rests that are more than rounding errors, relative to their terms.
+/// The largest of the residuals that exceed rounding errors, relative to their terms.
 pub(super) fn largest_contradiction(rests: impl Iterator<Item = Rest>) -> Option<Rest> {
     let relative = |rest: &Rest| Float::abs(rest.value) / rest.size;
     rests

@@ -27,12 +27,12 @@ pub(super) struct StageCoefficients {
     pub(super) end: Vec<f64>,
     pub(super) weights: Vec<f64>,
     pub(super) nodes: Vec<f64>,
-    /// The unknowns of the next step by those of this one, where the next one starts from.
+    /// The matrix that extrapolates the unknowns to the next step, for its starting values.
     pub(super) next: Vec<Vec<f64>>,
 }
 
 impl StageCoefficients {
-    /// Those of a partitioned Runge–Kutta method, `P_i = p0 + h Σ_j ã_ij P'_j`: the unknowns are the velocities at the stages.
+    /// The coefficients of a partitioned Runge–Kutta method, `P_i = p0 + h Σ_j ã_ij P'_j`: the unknowns are the velocities at the stages.
     pub(super) fn of<M: Method>() -> Self {
         let tableau = &M::COEFFICIENTS;
         let stages = tableau.b.len();
@@ -51,18 +51,19 @@ impl StageCoefficients {
         }
     }
 
-    /// Those of the Galerkin method of the same basis and quadrature formula (Leok & Zhang, 38), with unknown coordinates of the velocity in the
-    /// space of the basis:
+    /// The coefficients of the Galerkin method with the same basis and quadrature formula (Leok & Zhang, 38). The unknowns are coordinates
+    /// of the velocity in the space of the basis:
     ///
     /// ```text
     /// 0 = h Σ_i b_i (∫_0^{c_i} ψ_k − ∫_0^1 ψ_k) P'_i + Σ_i b_i ψ_k(c_i) P_i − ∫_0^1 ψ_k p0
     /// ```
     ///
-    /// At the nodes the velocities of that space are those `Q̇` for which a position `q0 + h Σ_j a_ij Q̇_j` is exact, and their span is that of
-    /// the rows of `a_ij/b_j` and of the row of ones. The basis here is one of that span, orthonormal for the quadrature formula.
+    /// At the nodes, the velocities of that space are those `Q̇` for which the position `q0 + h Σ_j a_ij Q̇_j` is exact. They are spanned
+    /// by the rows of `a_ij/b_j` and the row of ones. The basis used here spans the same space and is orthonormal for the quadrature
+    /// formula.
     ///
     /// # Errors
-    /// [`Error::NoConstants`] where that span is larger than the space of the basis.
+    /// [`Error::NoConstants`] if that span is larger than the space of the basis.
     pub(super) fn galerkin<M: Method>() -> Result<Self, Error> {
         if M::FUNCTIONS == M::STAGES {
             return Ok(Self::of::<M>());
@@ -112,10 +113,10 @@ impl StageCoefficients {
     }
 }
 
-/// A number of functions on the nodes, orthonormal for the weights up to their sign, with the span of `a_ij/b_j` and of one: by Gram and Schmidt,
-/// twice each, the largest remainder first. `None` if these span more.
+/// `count` functions on the nodes that span `a_ij/b_j` and the constant 1, orthonormal for the weights up to their sign. Gram–Schmidt, with
+/// each function orthogonalised twice, the largest remainder first. `None` if the span is larger.
 fn orthonormal(rows: &[Vec<f64>], weights: &[f64], count: usize) -> Option<Vec<Vec<f64>>> {
-    /// A norm that is a rounding error beside 1, of functions as smooth as a method can have.
+    /// A norm that is a rounding error compared with 1, for functions as smooth as a method can have.
     const NOTHING: f64 = 1e-8;
     let product = |x: &[f64], y: &[f64]| -> f64 {
         let terms = x.iter().zip(y).zip(weights);
@@ -157,7 +158,7 @@ fn identity(size: usize) -> Vec<Vec<f64>> {
     (0..size).map(row).collect()
 }
 
-/// The values at `1 + c_i` of the polynomials that are 1 at one node and 0 at the others; none where two nodes are equal.
+/// The values at `1 + c_i` of the polynomials that are 1 at one node and 0 at the others; `None` if two nodes are equal.
 fn extrapolation(nodes: &[f64]) -> Option<Vec<Vec<f64>>> {
     let polynomial = |j: usize, at: f64| -> f64 {
         let others = nodes.iter().enumerate().filter(|&(k, _)| k != j);

@@ -10,7 +10,8 @@ use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
 use crate::system::Lagrangian;
 
-/// The momentum and its rate at a state of positions and velocities, with their Jacobians, and room to evaluate them. Matrices are by rows.
+/// The momentum and its rate at a state of positions and velocities, with their Jacobians, and memory to evaluate them. Matrices are by
+/// rows.
 pub(crate) struct Derivatives<L: Lagrangian> {
     q: L::Vector<HyperDual>,
     v: L::Vector<HyperDual>,
@@ -34,7 +35,7 @@ pub(crate) struct Derivatives<L: Lagrangian> {
 }
 
 impl<L: Lagrangian> Derivatives<L> {
-    /// Room for vectors of this many components.
+    /// Memory for vectors of `n` components.
     pub(crate) fn new(n: usize) -> Result<Self, Error> {
         let zeros = || L::Vector::from_slice(&vec![HyperDual::zero(); n]);
         let double = || L::Vector::from_slice(&vec![0.0; n]);
@@ -78,7 +79,7 @@ impl<L: Lagrangian> Derivatives<L> {
         }
     }
 
-    /// [`first`](Self::first) without the force, where the Lagrangian gives its gradient.
+    /// [`first`](Self::first) without the force, if the Lagrangian supplies its gradient; otherwise returns `false`.
     fn gradient(&mut self, lagrangian: &L, time: f64, q: &[f64], v: &[f64]) -> bool {
         let [at, velocity, by_velocity, by_position] = &mut self.doubles;
         at.as_mut_slice().copy_from_slice(q);
@@ -86,7 +87,7 @@ impl<L: Lagrangian> Derivatives<L> {
         if !lagrangian.gradient(time, at, velocity, by_velocity, by_position) {
             return false;
         }
-        // L may be no number where its gradient is one: ln x at x < 0.
+        // L may be NaN where its gradient is finite: ln x at x < 0.
         self.value = lagrangian.lagrangian(time, at, velocity);
         self.momentum.copy_from_slice(by_velocity.as_slice());
         self.rate.copy_from_slice(by_position.as_slice());
@@ -100,7 +101,7 @@ impl<L: Lagrangian> Derivatives<L> {
         }
     }
 
-    /// Evaluates everything: n(2n + 1) evaluations for n components, and n of a force.
+    /// Evaluates everything: n(2n + 1) evaluations of L for n components, and n of a force.
     pub(crate) fn second(&mut self, lagrangian: &L, time: f64, q: &[f64], v: &[f64]) {
         self.place(q, v);
         let n = q.len();

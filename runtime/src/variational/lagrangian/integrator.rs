@@ -22,19 +22,19 @@ use crate::variational::two_ends::dot;
 /// $$ Q_i = q_0 + h \sum_j a_{ij} V_j \qquad P_i = p_0 + h \sum_j \tilde a_{ij} \Big( \frac{\partial L}{\partial q} + f \Big)_j \qquad
 /// P_i = \frac{\partial L}{\partial v}(t_0 + c_i h, Q_i, V_i) $$
 ///
-/// They are the steps of the same method for the Hamiltonian of L, without it: the unknowns are the stage velocities. Where L depends on time
-/// and `c̃ ≠ c`, as for Störmer–Verlet, they differ, and have the same order. L need not be quadratic in v, and it may be degenerate if the
-/// method determines every velocity (Gauss methods do where L is linear in v).
+/// They are the steps of the same method for the Hamiltonian of L, but do not need it: the unknowns are the stage velocities. If L depends
+/// on time and `c̃ ≠ c`, as for Störmer–Verlet, the steps differ but have the same order. L need not be quadratic in v. It may be
+/// degenerate if the method determines every velocity (Gauss methods do if L is linear in v).
 ///
-/// Without a force the step has the discrete Lagrangian `Ld = h Σ_i b_i L(Q_i, V_i)`, whose value is [`action`](Self::action); it is
+/// Without a force the step has the discrete Lagrangian `Ld = h Σ_i b_i L(Q_i, V_i)`, whose value is [`action`](Self::action). It is
 /// symplectic, and conserves the momentum maps of linear symmetries of L.
 ///
 /// # Cost
 ///
-/// Newton's iteration begins with the velocities and the factors of the step before, and takes new factors when it contracts slowly. For s
-/// stages and n components, these take s n(2n + 1) evaluations of L by hyper-dual numbers and the elimination of a full matrix of size sn. An
-/// iteration takes s evaluations of L with its [gradient](Lagrangian::gradient), or s n by hyper-dual numbers. A step allocates nothing. A
-/// step that fails leaves the state as it was.
+/// Newton's iteration begins with the velocities and the factors of the previous step, and factors a new matrix when it contracts slowly.
+/// For s stages and n components, a new matrix takes s n(2n + 1) evaluations of L by hyper-dual numbers and the elimination of a full
+/// matrix of size sn. An iteration takes s evaluations of L with its [gradient](Lagrangian::gradient), or s n by hyper-dual numbers. A step
+/// allocates no memory. A step that fails leaves the state unchanged.
 ///
 /// ```
 /// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
@@ -75,11 +75,11 @@ pub struct LagrangianIntegrator<L: Lagrangian> {
 }
 
 impl<L: Lagrangian> LagrangianIntegrator<L> {
-    /// An integrator at `state`, with steps of size `step_size`, negative to go backward.
+    /// An integrator at `state`, with steps of size `step_size`, which is negative to go backward.
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`].
+    /// [`Error::StepSize`], [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`].
     pub fn new<M: Method + ProvedFor<General>>(
         _method: M,
         lagrangian: L,
@@ -90,11 +90,11 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     }
 
     /// An integrator by the Galerkin method of the basis and the quadrature formula of `M` (Leok & Zhang 2011, 38), at `state`. The
-    /// positions inside a step are combinations of integrals of the s basis functions, and the action is that of the quadrature formula, with
-    /// r ≥ s nodes; of all such paths the step takes the one with stationary action. Combinations of the basis have to contain the constants.
+    /// positions inside a step are combinations of integrals of the s basis functions. The action is that of the quadrature formula, with
+    /// r ≥ s nodes. Of all such paths the step takes the one with stationary action. The space of the basis has to contain the constants.
     ///
-    /// For r = s it is the Runge–Kutta method. For r > s, `tableau! { … basis: …, quadrature: … }`, it is that method only where
-    /// `L = v·Mv/2 − U(q)`: on other systems both have the order of `M` and differ by their errors. There are s unknown velocities, not r.
+    /// For r = s it is the Runge–Kutta method. For r > s, `tableau! { … basis: …, quadrature: … }`, it is that method only if
+    /// `L = v·Mv/2 − U(q)`. On other systems both have the order of `M` and differ by their errors. There are s unknown velocities, not r.
     ///
     /// # Errors
     ///
@@ -148,11 +148,12 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         })
     }
 
-    /// [`new`](Self::new) with the momentum `∂L/∂v` of the velocity `v`, where Newton's iteration begins; [`new`](Self::new) begins at rest.
+    /// [`new`](Self::new) with the momentum `∂L/∂v` of the velocity `v`, where Newton's iteration begins; that of [`new`](Self::new) begins
+    /// at rest.
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new), and [`Error::NonFiniteState`] where the momentum is not finite.
+    /// As for [`new`](Self::new), and [`Error::NonFiniteState`] if the momentum is not finite.
     pub fn from_velocity<M: Method + ProvedFor<General>>(
         method: M,
         lagrangian: L,
@@ -171,17 +172,19 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     ///
     /// # Errors
     ///
-    /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is untouched.
+    /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is then
+    /// unchanged.
     pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
         self.one_step()?;
         Ok(&self.state)
     }
 
-    /// Goes to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or backward.
+    /// Integrates to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or
+    /// backward.
     ///
     /// # Errors
     ///
-    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last good step.
+    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that after the last successful step.
     pub fn integrate_to(&mut self, end: f64) -> Result<&State<L::Vector<f64>>, Error> {
         self.steps_to(end)?;
         Ok(&self.state)
@@ -192,7 +195,8 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         &self.state
     }
 
-    /// The velocity of the present state: that of [`velocity_of_momentum`], but Newton's iteration begins with the mean velocity of the last step.
+    /// The velocity of the present state, as from [`velocity_of_momentum`], but Newton's iteration begins with the mean velocity of the
+    /// last step.
     ///
     /// # Errors
     ///
@@ -216,7 +220,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         Ok(dot(p, &v) - self.lagrangian.lagrangian(*time, q, &v))
     }
 
-    /// The discrete Lagrangian `h Σ_i b_i L_i` of the last step; `None` before the first one.
+    /// The discrete Lagrangian `h Σ_i b_i L_i` of the last step; `None` before the first step.
     pub const fn action(&self) -> Option<f64> {
         self.action
     }
@@ -231,16 +235,16 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         self.pace.step_size()
     }
 
-    /// Steps taken.
+    /// Number of steps taken.
     pub const fn steps(&self) -> u64 {
         self.pace.taken()
     }
 
-    /// Changes the step size; negative to go backward.
+    /// Sets the step size, which is negative to go backward.
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`]; the one before then holds.
+    /// [`Error::StepSize`]; the step size is then unchanged.
     pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
         self.pace.set_step_size(self.state.time, step_size)
     }

@@ -13,7 +13,7 @@ use crate::variational::regular::Factors;
 ///
 /// # Errors
 ///
-/// [`Error::Dimension`] where `q` and `v` differ, [`Error::NonFiniteState`] where they or the momentum are not finite.
+/// [`Error::Dimension`] if `q` and `v` differ, [`Error::NonFiniteState`] if `q`, `v` or the momentum is not finite.
 ///
 /// ```
 /// # use symplectic::nalgebra::SVector;
@@ -56,12 +56,13 @@ pub fn momentum_of_velocity<L: Lagrangian>(
     Ok(momentum)
 }
 
-/// The velocity `v` with `∂L/∂v(t, q, v) = p`: Newton's iteration from `v = 0`, with changes halved that lead to where L is not finite.
+/// The velocity `v` with `∂L/∂v(t, q, v) = p`, by Newton's iteration from `v = 0`. A change is halved if it leads to a point where L is not
+/// finite.
 ///
 /// # Errors
 ///
-/// [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`], [`Error::NoVelocity`] where L does not determine the velocity or
-/// none is found.
+/// [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`], [`Error::NoVelocity`] if L does not determine the velocity or no
+/// velocity is found.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -97,7 +98,7 @@ pub fn velocity_of_momentum<L: Lagrangian>(
     velocity_near(lagrangian, time, q, p, q.zeros_like())
 }
 
-/// [`velocity_of_momentum`] by an iteration that begins at `velocity`; `q` and `p` are those of a state.
+/// [`velocity_of_momentum`] by an iteration that begins at `velocity`; `q` and `p` are valid for a state.
 pub(super) fn velocity_near<L: Lagrangian>(
     lagrangian: &L,
     time: f64,
@@ -145,9 +146,9 @@ pub(super) fn velocity_near<L: Lagrangian>(
     Err(not_found(None))
 }
 
-/// Changes below this, relative to the velocity, that become no smaller are roundings of `∂L/∂v`.
+/// Changes below this, relative to the velocity, that no longer decrease are rounding errors of `∂L/∂v`.
 const STATIONARY: f64 = 1e-9;
-/// So many of them are enough.
+/// Number of such changes after which the iteration has stagnated.
 const MOST_STALLED: u32 = 4;
-/// Iterations and halvings together.
+/// Maximum number of iterations and halvings together.
 const MAX_ITERATIONS: u32 = 1000;

@@ -1,4 +1,4 @@
-//! Lagrangians: momenta and velocities, and the steps that need no Hamiltonian.
+//! Lagrangians: momenta and velocities, and steps that need no Hamiltonian.
 
 mod coefficients;
 pub(crate) mod derivatives;

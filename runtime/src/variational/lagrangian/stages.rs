@@ -12,12 +12,12 @@ use crate::system::Lagrangian;
 use crate::variational::failure::Failure;
 use crate::variational::regular::{Factors, Singular, largest};
 
-/// The unknown velocities of a step, and what follows from them. Each list is of vectors one after the other.
+/// The unknown velocities of a step, and quantities computed from them. Each list consists of vectors one after the other.
 pub(super) struct Stages<L: Lagrangian> {
     coefficients: StageCoefficients,
     /// The unknowns `V_k`.
     unknowns: Vec<f64>,
-    /// Those of the last step that was taken.
+    /// The unknowns of the last successful step.
     before: Vec<f64>,
     /// `P'_i`.
     rates: Vec<f64>,
@@ -32,7 +32,7 @@ pub(super) struct Stages<L: Lagrangian> {
     change: Vec<f64>,
     matrix: Vec<f64>,
     factors: Factors,
-    /// The step size for which there are factors.
+    /// The step size of the present factors; `None` if there are none.
     factored: Option<f64>,
     derivatives: Derivatives<L>,
 }
@@ -46,20 +46,20 @@ pub(super) struct Start<'a> {
     pub(super) p: &'a [f64],
 }
 
-/// Iterations after which Newton's iteration does not converge any more.
+/// Maximum number of Newton iterations.
 const MAX_ITERATIONS: u32 = 60;
-/// Halvings of a change that leads to where L is not finite.
+/// Maximum number of halvings of a change that leads to a point where L is not finite.
 const MAX_HALVINGS: u32 = 60;
-/// A matrix is kept while the changes become smaller by this factor.
+/// A matrix is kept while the changes decrease by at least this factor.
 const CONTRACTION: f64 = 0.1;
-/// Changes below this, relative to the velocities, are roundings.
+/// Changes below this, relative to the velocities, are rounding errors.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Changes below these may be, where they become no smaller: with a matrix that was kept, and with a new one, whose iteration converges
-/// quadratically otherwise.
+/// Changes that no longer decrease are accepted below these bounds: with a matrix that was kept, and with a new one, whose iteration
+/// otherwise converges quadratically.
 const STATIONARY: [f64; 2] = [1e-13, 1e-9];
 
 impl<L: Lagrangian> Stages<L> {
-    /// Room for vectors of `n` components.
+    /// Memory for vectors of `n` components.
     pub(super) fn new(coefficients: StageCoefficients, n: usize) -> Result<Self, Error> {
         let (stages, unknowns) = (coefficients.stages(), coefficients.unknowns());
         let size = unknowns * n;
@@ -94,7 +94,7 @@ impl<L: Lagrangian> Stages<L> {
         add_combination(out, &self.coefficients.end, &self.before);
     }
 
-    /// Takes a step, and writes its end. A step that fails changes nothing.
+    /// Takes a step, and writes its end. A step that fails leaves the unknowns unchanged.
     pub(super) fn take(
         &mut self,
         lagrangian: &L,
@@ -127,8 +127,8 @@ impl<L: Lagrangian> Stages<L> {
         }
     }
 
-    /// Finds the stages: Newton's iteration, from the unknowns of the step before, extrapolated if that was as long; or from fractions of
-    /// these if something is not finite there. The factors are kept from step to step as long as they do.
+    /// Finds the stages by Newton's iteration from the unknowns of the previous step, extrapolated if that step had the same size. If
+    /// something is not finite there, starts from fractions of these. The factors are kept from step to step while they contract well.
     fn find(&mut self, lagrangian: &L, start: Start<'_>) -> Result<(), Failure> {
         let (mut fresh, mut last) = (self.factored.take() != Some(start.size), f64::INFINITY);
         if !fresh {
@@ -167,7 +167,7 @@ impl<L: Lagrangian> Stages<L> {
         })
     }
 
-    /// Whether the residual is that of rounding errors. Near rest it tells, for there are no velocities to compare changes with.
+    /// Whether the residual consists of rounding errors. Needed near rest, where there are no velocities to compare changes with.
     fn is_solved(&self) -> bool {
         let mut rows = self.residual.iter().zip(&self.terms);
         rows.all(|(residual, terms)| Float::abs(*residual) <= ROUNDING * terms)
@@ -182,8 +182,8 @@ impl<L: Lagrangian> Stages<L> {
         })
     }
 
-    /// Evaluates where the last change has led; if something is not finite there, after as many halvings of the change as it takes. Returns
-    /// whether the change is whole.
+    /// Evaluates at the present unknowns. While something is not finite there, halves the last change, at most `MAX_HALVINGS` times.
+    /// Returns whether the whole change was made.
     fn evaluate_on_the_way(
         &mut self,
         lagrangian: &L,
@@ -207,7 +207,7 @@ impl<L: Lagrangian> Stages<L> {
         outcome.map(|()| false)
     }
 
-    /// Evaluates the stages, the residual of the equations, and with `with_matrix` its derivative by the unknowns.
+    /// Evaluates the stages, the residual of the equations, and with `with_matrix` its derivative with respect to the unknowns.
     fn evaluate(
         &mut self,
         lagrangian: &L,
@@ -266,7 +266,7 @@ impl<L: Lagrangian> Stages<L> {
         }
     }
 
-    /// Adds what a stage contributes to the equations.
+    /// Adds the contribution of a stage to the equations.
     fn add(&mut self, stage: usize, h: f64, with_matrix: bool) {
         let (n, size) = (self.q.len(), self.residual.len());
         let (coefficients, at) = (&self.coefficients, &self.derivatives);
@@ -299,7 +299,7 @@ impl<L: Lagrangian> Stages<L> {
         }
     }
 
-    /// Writes the end of the step whose stages are found.
+    /// Writes the end of the step from its stages.
     fn end(&self, start: Start<'_>, q1: &mut [f64], p1: &mut [f64]) {
         let StageCoefficients { end, weights, .. } = &self.coefficients;
         for (out, from, row, vectors) in [
