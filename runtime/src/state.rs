@@ -1,4 +1,4 @@
-//! Where a system is.
+//! The state of a system.
 
 use nalgebra::SVector;
 
@@ -36,7 +36,7 @@ impl<V: Vector> State<V> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] where the slices differ in length, [`Error::Length`] where a static vector has another
+    /// [`Error::Dimension`] if the slices differ in length, [`Error::Length`] if a static vector has another
     /// dimension.
     ///
     /// ```

@@ -1,13 +1,13 @@
-//! What constraints are called.
+//! The names of constraints.
 
 use core::fmt;
 
-/// What a constraint is called: `rod`, or `rods[3]` in a family.
+/// The name of a constraint: `rod`, or `rods[3]` in a family.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ConstraintName {
-    /// The name of it, or of its family.
+    /// The name of the constraint, or of its family.
     pub name: &'static str,
-    /// The number in the family, from 0.
+    /// The index in the family, from 0.
     pub member: Option<usize>,
 }
 

@@ -1,45 +1,45 @@
-//! Why a flow could not be taken.
+//! The errors of flows.
 
 use super::Quantity;
 
-/// Why a [`Flow`](crate::flow::Flow) could not be taken; an integrator says at which step, in
+/// The reason why a [`Flow`](crate::flow::Flow) failed; an integrator adds the step, in
 /// [`Error::Flow`](crate::Error::Flow).
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FlowError {
-    /// What a flow has computed is infinite or not a number.
+    /// A result of a flow is NaN or infinite.
     #[error(
         "the {what} is not finite; take a smaller step, or keep the state where the flow is defined"
     )]
     NonFinite {
-        /// What is not finite.
+        /// The quantity that is not finite.
         what: Quantity,
     },
 
-    /// The state has another number of components than the flow is for.
+    /// The number of components of the state differs from that of the flow.
     #[error("the flow is for {expected} components of the position, and there are {found}")]
     Dimension {
-        /// Components that the flow is for.
+        /// Number of components of the flow.
         expected: usize,
-        /// Components of the state.
+        /// Number of components of the state.
         found: usize,
     },
 
-    /// A flow that has no inverse was asked to go backward: the step size is negative, or a coefficient of the method.
+    /// A flow without an inverse was asked to go backward: the step size, or a coefficient of the method, is negative.
     #[error(
         "the flow cannot go backward, by {size}; take a positive step size and a method whose coefficients are positive"
     )]
     Backward {
-        /// The duration asked for.
+        /// The requested duration.
         size: f64,
     },
 
-    /// Two bodies are in one place.
+    /// Two bodies are at the same place.
     #[error("bodies {first} and {second} are in one place; their gravity is infinite")]
     Collision {
         /// The first body, from 0.
         first: usize,
-        /// The second one.
+        /// The second body, from 0.
         second: usize,
     },
 
@@ -50,7 +50,7 @@ pub enum FlowError {
         body: usize,
     },
 
-    /// A Kepler orbit that was followed for too many periods: less than half of the digits of its phase are left.
+    /// A Kepler orbit was followed for too many periods: less than half of the digits of its phase remain.
     #[error(
         "the flow takes body {body} through {periods:e} periods of its orbit, and the phase at the end is known to less than half of \
          its digits; take a smaller step"
@@ -58,11 +58,11 @@ pub enum FlowError {
     Periods {
         /// The body, from 0.
         body: usize,
-        /// The periods.
+        /// Number of periods.
         periods: f64,
     },
 
-    /// The end of a Kepler orbit is not finite, or less than half of the digits of its distance are left.
+    /// The end of a Kepler orbit is not finite, or less than half of the digits of its distance remain.
     #[error(
         "the end of the orbit of body {body} is not finite, or known to less than half of its digits; take a smaller step"
     )]
@@ -71,10 +71,10 @@ pub enum FlowError {
         body: usize,
     },
 
-    /// A flow cannot be taken, for a reason of its own: also for flows of yours.
+    /// The flow failed for another reason; user-defined flows can return it, too.
     #[error("{reason}")]
     Other {
-        /// Why, and what to do.
+        /// The reason, and what to do.
         reason: &'static str,
     },
 }

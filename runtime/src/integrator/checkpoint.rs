@@ -1,4 +1,4 @@
-//! Runs that are interrupted and go on with the same bits.
+//! Checkpoints: interrupted runs continue with the same bits.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -15,13 +15,13 @@ use crate::number::{Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
 
-/// Everything that a run needs to go on from its present state with the bits of the run that was not interrupted: the state with what
-/// rounding has left out of it, the stages from which the next ones are extrapolated, matrices of Newton's iteration, clock, step size,
+/// Everything that a run needs to continue from its present state with the bits of an uninterrupted run: the state with the round-off of
+/// its compensated sums, the stages from which the next ones are extrapolated, the matrices of Newton's iteration, clock, step size,
 /// tolerance and statistics.
 ///
 /// With the feature `serde` it can be written in any format. All numbers are in `words`: sixteen hexadecimal digits for each word of
-/// 64 bits, the bits of an IEEE 754 double, of a single in its lower half, or of a whole number. The order is that of the version of this
-/// library, so that another version refuses it.
+/// 64 bits. A word is the bits of an IEEE 754 double, of a single in its lower half, or of an integer. The order of the words belongs to
+/// this version of the library; other versions reject the checkpoint.
 ///
 /// ```
 /// use symplectic::nalgebra::Vector1;
@@ -63,7 +63,7 @@ pub struct Checkpoint {
     solver: String,
     dimension: usize,
     words: String,
-    /// Of all that is before it.
+    /// Checksum of all fields before it.
     checksum: String,
 }
 
@@ -75,16 +75,16 @@ pub enum CheckpointError {
     #[error("numbers of this type cannot be saved: only f64 and f32 can")]
     Scalar,
 
-    /// The checkpoint is of another run.
+    /// The checkpoint belongs to another run.
     #[error(
         "the {what} of the checkpoint is `{found}`, that of this integrator `{expected}`: make the integrator as it was made before"
     )]
     OtherRun {
         /// Version, method, definition, scalar, sums, solver or dimension.
         what: &'static str,
-        /// In the checkpoint.
+        /// Its value in the checkpoint.
         found: String,
-        /// Of the integrator.
+        /// Its value in the integrator.
         expected: String,
     },
 
@@ -94,7 +94,7 @@ pub enum CheckpointError {
     )]
     OtherSystem,
 
-    /// The checkpoint is cut off, or was changed.
+    /// The checkpoint is truncated or was changed.
     #[error("the checkpoint is damaged: {reason}; take an earlier one")]
     Damaged {
         /// What is wrong.
@@ -105,7 +105,7 @@ pub enum CheckpointError {
 const DAMAGED: fn(&'static str) -> CheckpointError = |reason| CheckpointError::Damaged { reason };
 
 impl Checkpoint {
-    /// All but the words and the checksum, with their names.
+    /// All fields except the words and the checksum, with their names.
     fn header(&self) -> [(&'static str, String); 7] {
         [
             ("version", self.version.clone()),
@@ -118,11 +118,11 @@ impl Checkpoint {
         ]
     }
 
-    /// FNV-1a of all that is before it.
+    /// FNV-1a hash of all fields before the checksum.
     fn sum(&self) -> String {
         let mut hash = 0xcbf2_9ce4_8422_2325_u64;
         let mut add = |text: &str| {
-            // A byte that no text has ends each of them.
+            // A byte that does not occur in text terminates each text.
             for byte in text.bytes().chain([0xff]) {
                 hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
             }
@@ -134,7 +134,7 @@ impl Checkpoint {
         format!("{hash:016x}")
     }
 
-    /// The words, if they are as they were written.
+    /// The words, if the checksum matches.
     fn decoded(&self) -> Result<Vec<u64>, CheckpointError> {
         if self.checksum != self.sum() {
             return Err(DAMAGED("its checksum is that of other contents"));
@@ -151,16 +151,16 @@ impl Checkpoint {
 }
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// What a run needs to [go on](Self::restore) from here with the same bits.
+    /// A checkpoint from which the run can [continue](Self::restore) with the same bits.
     ///
     /// # Errors
     ///
-    /// [`CheckpointError::Scalar`]
+    /// [`CheckpointError::Scalar`].
     pub fn checkpoint(&self) -> Result<Checkpoint, CheckpointError> {
         self.checkpoint_with("", &[])
     }
 
-    /// A checkpoint of a run of this kind, with what changes in it beside the integrator.
+    /// A checkpoint of a run of kind `kind`, with the values `beside` that change in addition to the integrator.
     pub(crate) fn checkpoint_with(
         &self,
         kind: &str,
@@ -178,17 +178,18 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Ok(checkpoint)
     }
 
-    /// Goes on from a checkpoint of an integrator that was made in the same way: with the same method, system, sums and solver, for vectors
-    /// of the same dimension. Its state and step size are those of the checkpoint, whatever they were.
+    /// Continues from a checkpoint of an integrator that was created in the same way: with the same method, system, sums and solver, for
+    /// vectors of the same dimension. State and step size become those of the checkpoint.
     ///
     /// # Errors
     ///
-    /// [`CheckpointError`]; the integrator is then as it was.
+    /// [`CheckpointError`]; the integrator is then unchanged.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
         self.restore_with("", checkpoint, &mut [], |_, _| true)
     }
 
-    /// Goes on from a checkpoint of [this kind](Self::checkpoint_with), if what is beside the integrator is `mine` at the position.
+    /// Continues from a checkpoint of [kind](Self::checkpoint_with) `kind`, if `mine` accepts the position and the values beside the
+    /// integrator.
     pub(crate) fn restore_with(
         &mut self,
         kind: &str,
@@ -230,7 +231,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Ok(())
     }
 
-    /// A checkpoint without words, of a run of this kind.
+    /// A checkpoint without words, of a run of kind `kind`.
     fn blank_checkpoint(&self, kind: &str) -> Result<Checkpoint, CheckpointError> {
         let sums = if R::COMPENSATED {
             "compensated"
@@ -258,7 +259,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         })
     }
 
-    /// All that the words are of.
+    /// Everything that the words store.
     fn all_that_changes(&self) -> Run<V, super::MemoryOf<M, S, V, N>> {
         let mut run = Run {
             course: self.course.clone(),
@@ -274,7 +275,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 }
 
-/// What changes in a run.
+/// The data that change in a run.
 struct Run<V, T> {
     course: StepMemory<V, T>,
     clock: Clock,
@@ -282,7 +283,7 @@ struct Run<V, T> {
     stopping: Stopping,
     retry: Retry,
     last_event: Option<LastEvent>,
-    /// Velocity and force at the state, in brief: they tell systems with other parameters.
+    /// Hashes of velocity and force at the state, which detect a system with other parameters.
     evaluations: [u64; 2],
 }
 
@@ -335,8 +336,8 @@ impl<V: Vector, T: StageStorage<V>> Run<V, T> {
         self.retry = halvings.map_or(Retry::Never, |halvings| Retry::Split { halvings });
     }
 
-    /// Velocity and force at the state, in brief: the upper half of each product is folded onto the lower one, or the signs of two
-    /// components could change unseen.
+    /// Hashes of velocity and force at the state. The upper half of each product is folded onto the lower half; otherwise the hash could
+    /// miss changed signs of two components.
     fn evaluated<S: System<V>>(&self, system: &S) -> [u64; 2] {
         let State { time, q, p } = &self.course.state;
         let time = V::Scalar::from_f64(*time);

@@ -1,4 +1,4 @@
-//! Times that do not drift, and steps that end where they should.
+//! Times without drift, and step sizes that end at a given time.
 
 use num_traits::Float;
 
@@ -28,12 +28,12 @@ impl Clock {
         }
     }
 
-    /// The time after one step more.
+    /// The time after the next step.
     pub(crate) fn next(&self) -> f64 {
         self.later(1)
     }
 
-    /// The time after so many steps more.
+    /// The time after `steps` more steps.
     pub(crate) fn later(&self, steps: u64) -> f64 {
         self.start + (self.count + steps) as f64 * self.size
     }
@@ -47,7 +47,7 @@ impl Clock {
     }
 }
 
-/// Checks that steps from `start` to `end` can be counted.
+/// Checks that the number of steps from `start` to `end` can be counted.
 pub(crate) fn check_count(start: f64, end: f64, step_size: f64) -> Result<(), Error> {
     if ((end - start) / step_size).abs() < MOST_STEPS {
         Ok(())
@@ -60,7 +60,7 @@ pub(crate) fn check_count(start: f64, end: f64, step_size: f64) -> Result<(), Er
     }
 }
 
-/// The numbers of steps below this one are doubles.
+/// Numbers of steps below this bound are exact as doubles.
 const MOST_STEPS: f64 = (1_u64 << 53) as f64;
 
 /// The smallest number of equal steps from `start` to `end` that are no longer than `|step_size|`, and their size.
@@ -73,8 +73,8 @@ pub(crate) fn uniform(start: f64, end: f64, step_size: f64) -> Result<(u64, f64)
         return Ok((0, 0.0));
     }
     let ratio = (span / step_size).abs();
-    // 1.2 is not three times 0.4 in f64, nor 1000.4 − 1000.1 three times 0.1: the ratio of a whole number of
-    // steps can come out above it by the roundings of both times, the step size, the difference and the quotient.
+    // In f64, 1.2 is not three times 0.4, and 1000.4 − 1000.1 is not three times 0.1. The ratio for an integer number of
+    // steps can exceed it by the roundings of both times, the step size, the difference and the quotient.
     let doubt = f64::EPSILON * (2.0 * ratio + ((start.abs() + end.abs()) / step_size).abs());
     let count = Float::ceil(ratio - doubt).max(1.0);
     if count < MOST_STEPS {

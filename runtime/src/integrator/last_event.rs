@@ -1,15 +1,15 @@
-//! What a search for events leaves behind for the next one.
+//! The last event, from which the next search continues.
 
 use crate::number::words::{Visit, Words, words};
 
-/// The event that was found last: a search that starts at its time starts on it.
+/// The last event found: a search that starts at its time starts on this event.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LastEvent {
     pub(crate) time: f64,
     pub(crate) index: usize,
-    /// The sign that the function had before.
+    /// The sign of the function before the event.
     pub(crate) side: f64,
-    /// How many events have been found at this time.
+    /// Number of events found at this time.
     pub(crate) count: u32,
 }
 

@@ -1,4 +1,4 @@
-//! The last step, for what is seen of its inside.
+//! The last step, for dense output.
 
 use crate::method::interpolation::Line;
 

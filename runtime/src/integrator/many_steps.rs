@@ -1,4 +1,4 @@
-//! Many steps of one size, in place where that can be.
+//! Many steps of one size, in place if possible.
 
 use core::{hint, mem};
 
@@ -11,20 +11,20 @@ use crate::number::vector::{LIGHT, SHORT, is_in_place};
 use crate::number::{Summation, Vector, copy};
 use crate::system::System;
 
-/// Steps of vectors of this dimension that are taken in place before what comes out is looked at: what that costs does not
-/// show beside them, and where something is not finite, few of them are in vain.
+/// Number of steps of vectors of this dimension that are taken in place before the result is checked. The cost of the check is negligible
+/// beside them, and few steps are wasted if the result is NaN or infinite.
 fn block(dimension: usize) -> u64 {
     (1 << 20) / (dimension as u64).clamp(16, 1 << 13)
 }
 
-/// Components of a vector from which on forces and kicks wait for the drift after them.
+/// Smallest dimension at which forces and kicks wait for the next drift.
 const LONG: usize = 1 << 6;
 
-/// Bytes of a vector of a few components, or of one whose components are elsewhere.
+/// Largest size in bytes of a vector of few components, or of one whose components are elsewhere.
 const FEW: usize = 1 << 6;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// Steps of one size by a clock; the last one to the time `end`, if it is given.
+    /// Takes `count` steps of one size by a clock; the last one goes to the time `end`, if it is given.
     #[inline]
     pub(super) fn advance_by(
         &mut self,
@@ -50,10 +50,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Ok(())
     }
 
-    /// How many of the steps that are left are taken next: one to have an evaluation to go on from, or many in place.
+    /// Number of the remaining steps to take next: one, to provide an evaluation to continue from, or many in place.
     #[inline]
     pub(super) fn next_block(&self, left: u64) -> u64 {
-        // The last step is taken by itself: the state before it stays at hand.
+        // The last step is taken separately, so that the state before it remains available.
         let block = (left - 1).min(block(self.course.state.q.dimension()));
         match self.course.kept.evaluation {
             true => block.max(1),
@@ -61,7 +61,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         }
     }
 
-    /// Takes a [block](Self::next_block) of the steps that are left, in place or one by one.
+    /// Takes a [block](Self::next_block) of the remaining steps, in place or one by one.
     #[inline]
     pub(super) fn advance_block(
         &mut self,
@@ -84,7 +84,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Ok(())
     }
 
-    /// Takes some steps in place; `false` where that cannot be, or where something is not finite: then nothing has changed.
+    /// Takes steps in place. Returns `false`, with the state unchanged, if that is impossible or if a result is NaN or infinite.
     #[inline]
     pub(super) fn advance_in_place(&mut self, steps: u64, size: f64, clock: &mut Clock) -> bool {
         let Some(evaluations) = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE else {
@@ -94,7 +94,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         if first == self.course.state.time || clock.later(steps - 1) == last && steps > 1 {
             return false;
         }
-        // The state stays as it is, and nothing of what is left behind is used if the system panics.
+        // The state stays unchanged. If the system panics, nothing that the previous steps left behind is reused.
         let before = mem::take(&mut self.course.kept);
         let StepMemory {
             state,
@@ -133,7 +133,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         true
     }
 
-    /// Takes steps in the places of `next`.
+    /// Takes steps in the memory of `next`.
     #[inline]
     fn run_here(&mut self, clock: &Clock, steps: u64, size: f64, moves: impl KickDrift) {
         let StepMemory {
@@ -146,11 +146,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Self::run(system, clock, steps, size, (next, next_low), memory, moves);
     }
 
-    /// Takes steps in these places moved out of the memory of the integrator, so that they are in registers from step to step.
+    /// Takes steps with `next` moved out of the memory of the integrator, so that it stays in registers from step to step.
     #[inline(always)]
     fn run_apart(&mut self, clock: &Clock, steps: u64, size: f64) {
         let blank = || (V::blank(), V::blank());
-        // The order shows in how registers are given to six components: see `ratios`, springs, and `instructions`.
+        // The order affects how registers are assigned to six components: see `ratios`, springs, and `instructions`.
         let mut low = mem::replace(&mut self.course.next_low, blank());
         let mut memory = mem::replace(&mut self.course.memory, StageStorage::like(&V::blank()));
         let mut next = mem::replace(&mut self.course.next, blank());
@@ -167,14 +167,14 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         self.course.memory = memory;
     }
 
-    /// [`run_apart`](Self::run_apart), in a function of its own: steps that are plain, or of a few components, are so short that it
-    /// shows what is in registers around them, and that the compiler packs components for the sake of what is made of the last step.
+    /// [`run_apart`](Self::run_apart), in a function of its own. Plain steps and steps of few components are so short that other values in
+    /// registers slow them down. The compiler would also pack components to suit the use of the last step.
     #[inline(never)]
     fn run_alone(&mut self, clock: &Clock, steps: u64, size: f64) {
         self.run_apart(clock, steps, size);
     }
 
-    /// Takes steps in the places of a state.
+    /// Takes steps that overwrite a state.
     #[inline(always)]
     fn run(
         system: &S,
@@ -186,7 +186,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         mut moves: impl KickDrift,
     ) {
         for number in 0..steps {
-            // Nothing of this remains where the system does not look at the time.
+            // The compiler removes this if the system does not depend on time.
             let time = clock.later(number);
             let state = Outcome {
                 q: &mut *q,
@@ -205,18 +205,18 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         );
     }
 
-    /// Whether what steps change is little and all in one place: copies of it do not show beside a few steps.
+    /// Whether the memory that steps change is small and contiguous, so that copying it is cheap beside a few steps.
     fn is_light(&self) -> bool {
         let bytes = size_of::<StepMemory<V, MemoryOf<M, S, V, N>>>();
         let at_run_time = <MemoryOf<M, S, V, N> as StageStorage<V>>::AT_RUN_TIME;
         !at_run_time && is_in_place(&self.course.state.q) && bytes <= LIGHT
     }
 
-    /// Takes steps until one fails; returns how many were taken, none where the first does not change the time. The last of
+    /// Takes steps until one fails; returns the number of steps taken, zero if the first one does not change the time. The last of
     /// them goes to the time `end`, if it is given.
     ///
-    /// What they change is moved out of the memory of the integrator, so that it is in registers from step to step, or where it is read
-    /// faster. If the system panics, the state is that before.
+    /// The memory of the steps is moved out of the integrator, so that it is in registers from step to step, or where access is
+    /// faster. If the system panics, the state is that before the steps.
     #[inline]
     fn advance_apart(
         &mut self,
@@ -227,9 +227,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ) -> Result<u64, Error> {
         let before = self.course.anew();
         let mut course = mem::replace(&mut self.course, before);
-        // Increments wait for their weights, and would wait again until they are in memory.
+        // Increments already wait for their weights; in registers they would also have to be stored before they can be broadcast.
         if !R::COMPENSATED && <MemoryOf<M, S, V, N> as StageStorage<V>>::BROADCASTS {
-            // Nothing is done with it, but the compiler does not know, and leaves it in memory.
+            // `black_box` does nothing, but the compiler cannot know this and leaves the memory in place.
             hint::black_box(&mut course);
         }
         let mut failed = None;

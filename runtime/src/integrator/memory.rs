@@ -1,4 +1,4 @@
-//! What steps change.
+//! The memory of steps.
 
 use core::mem;
 
@@ -14,32 +14,32 @@ use crate::number::{Visit, scalar_words};
 use crate::state::State;
 use crate::system::System;
 
-/// What steps change: the state, and what a step leaves behind for the next one.
+/// The data that steps change: the state, and the values that a step leaves behind for the next one.
 #[derive(Clone)]
 pub(super) struct StepMemory<V, T> {
     pub(super) state: State<V>,
-    /// What the position and the momentum of the state leave out.
+    /// Round-off of the position and the momentum of the state, in compensated sums.
     pub(super) low: (V, V),
-    /// Where a step writes its result; swapped with the state when it is accepted.
+    /// The result of a step; swapped with the state when it is accepted.
     pub(super) next: (V, V),
-    /// What they leave out.
+    /// Round-off of `next`.
     pub(super) next_low: (V, V),
-    /// What that step took.
+    /// Statistics of that step.
     pub(super) work: StepStatistics,
     pub(super) memory: T,
-    /// What `memory` holds for the next step.
+    /// The parts of `memory` that the next step reuses.
     pub(super) kept: WarmStart,
-    /// Size of the step before.
+    /// Size of the previous step.
     pub(super) last_size: f64,
-    /// Time at the start of the step before.
+    /// Time at the start of the previous step.
     pub(super) last_time: f64,
     pub(super) statistics: Statistics,
-    /// What every [step](Step::linear_velocity) says of the system.
+    /// Whether the velocity is linear: see [`Step::linear_velocity`](Step::linear_velocity).
     pub(super) linear_velocity: bool,
 }
 
 impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
-    /// That which begins at a state.
+    /// The memory of a run that begins at a state.
     pub(super) fn new(linear_velocity: bool, state: State<V>) -> Self {
         let zeros = || (state.q.zeros_like(), state.q.zeros_like());
         Self {
@@ -57,7 +57,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         }
     }
 
-    /// Shows `visit` the words of all scalars: of state, result and memory.
+    /// Shows `visit` the words of all scalars of state, result and memory.
     #[cfg(feature = "alloc")]
     pub(super) fn scalar_words(&mut self, visit: &mut Visit<'_>) {
         let Self {
@@ -83,7 +83,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         memory.words(visit);
     }
 
-    /// Takes over from a run of other vectors all that is no scalar, except what it knows of the system.
+    /// Copies everything except scalars from a run with other vectors, but not the knowledge about the system.
     #[cfg(feature = "alloc")]
     pub(super) fn same_place<W, U>(&mut self, other: &StepMemory<W, U>) {
         self.state.time = other.state.time;
@@ -94,7 +94,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         self.statistics = other.statistics;
     }
 
-    /// The same from here, with nothing left behind by steps.
+    /// The memory of a run from the present state, without reused data of previous steps.
     pub(super) fn anew(&self) -> Self {
         Self {
             low: self.low.clone(),
@@ -103,7 +103,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         }
     }
 
-    /// The same with a memory of another kind.
+    /// The same run with memory of another type.
     pub(super) fn with_memory<U: StageStorage<V>>(self, linear_velocity: bool) -> StepMemory<V, U> {
         StepMemory {
             memory: U::of_method(&self.memory, &self.state.q),
@@ -120,14 +120,14 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         }
     }
 
-    /// The same from another state of the same dimension.
+    /// Replaces the state by another of the same dimension.
     pub(super) fn set_state(&mut self, state: State<V>) {
         self.state = state;
         self.low = (self.state.q.zeros_like(), self.state.q.zeros_like());
         self.kept = WarmStart::default();
     }
 
-    /// The same from another state of the same dimension, copied.
+    /// Replaces the state by a copy of another of the same dimension.
     pub(super) fn copy_state(&mut self, state: &State<V>) {
         self.state.time = state.time;
         copy(&mut self.state.q, &state.q);
@@ -152,7 +152,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         S: System<V>,
         N: Solver<V, S>,
     {
-        // Nothing is kept until the step is accepted: the system may panic.
+        // Nothing is kept until the step is accepted, because the system may panic.
         let before = mem::take(&mut self.kept);
         let kept = WarmStart {
             stages: before.stages && size == self.last_size,
@@ -163,7 +163,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         if self.is_sound() { Ok(()) } else { Err(None) }
     }
 
-    /// Whether `next` is finite, and was made of evaluations of the right dimension.
+    /// Whether `next` is finite, and all evaluations have the right dimension.
     #[inline(always)]
     pub(super) fn is_sound(&self) -> bool {
         let (q1, p1) = &self.next;
@@ -182,7 +182,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         }
     }
 
-    /// Makes the step that [`attempt`](Self::attempt) has computed, to the time `time`, the present state.
+    /// Makes the step computed by [`attempt`](Self::attempt), to the time `time`, the present state.
     #[inline(always)]
     pub(super) fn accept<R: Summation>(&mut self, size: f64, time: f64) {
         self.swap::<R>();
@@ -196,13 +196,13 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         };
     }
 
-    /// Forgets what steps have left behind.
+    /// Forgets all data of previous steps.
     pub(super) fn forget(&mut self) {
         self.memory.forget(&self.state.q);
         self.kept = WarmStart::default();
     }
 
-    /// A step of size `size` from the present state, places for its result, and the memory.
+    /// A step of size `size` from the present state, the places of its result, and the memory.
     #[inline(always)]
     pub(super) const fn lend(&mut self, size: f64) -> (Step<'_, V>, Outcome<'_, V>, &mut T) {
         let step = Step {
@@ -224,8 +224,8 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
     }
 }
 
-/// Exchanges two vectors, or their handles: what is short without [`mem::swap`], which may be a call and keep it out of
-/// registers. Copies of six components as a whole are two that overlap, which processors wait for; by component they are not.
+/// Exchanges two vectors, or their handles. Short vectors avoid [`mem::swap`], which may be a call and keep them out of registers. Copying
+/// six components as a whole takes two overlapping copies, for which processors wait; copies by component do not overlap.
 #[inline(always)]
 fn swap<V: Vector>(a: &mut V, b: &mut V) {
     let short = size_of::<V>() <= SHORT && is_in_place(a) && is_in_place(b);

@@ -1,4 +1,4 @@
-//! Steps, and what holds between them.
+//! Integrators and their steps.
 
 pub(crate) mod clock;
 pub(crate) mod last_event;
@@ -51,16 +51,16 @@ use validation::{
 /// The plan of the method `M` for the class of the system `S`.
 pub(crate) type PlanOf<M, S, V> = <<S as System<V>>::Class as Class>::Plan<M>;
 
-/// The memory of that plan with the solver `N`.
+/// The memory of the plan of `M` with the solver `N`.
 type MemoryOf<M, S, V, N> = <PlanOf<M, S, V> as Plan>::Memory<V, S, N>;
 
-/// A method that steps a system from a state.
+/// An integrator: a method that steps a system from a state.
 ///
-/// All memory is made by [`new`](Self::new); a step allocates nothing. A step that fails leaves the state and the
-/// counts as they were.
+/// [`new`](Self::new) allocates all memory; a step allocates nothing. A step that fails leaves the state and the
+/// counts unchanged.
 ///
-/// The time after `k` steps is `start + k h`, computed so and not summed up. It starts again where the step size or
-/// the state is set and where [`integrate_to`](Self::integrate_to) ends.
+/// The time after `k` steps is computed as `start + k h`, not as a sum. The count starts again when the step size or
+/// the state is set and when [`integrate_to`](Self::integrate_to) ends.
 ///
 /// ```
 /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
@@ -105,12 +105,11 @@ pub struct Integrator<
 }
 
 impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V> {
-    /// An integrator at `state`, with steps of size `step_size`, negative to go backward, and with [`Compensated`]
-    /// sums.
+    /// Creates an integrator at `state` with [`Compensated`] sums. A negative `step_size` steps backward.
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`] where `q` and `p` differ, [`Error::NonFiniteState`],
+    /// [`Error::StepSize`], [`Error::Dimension`] if the dimensions of `q` and `p` differ, [`Error::NonFiniteState`],
     /// [`Error::NotQuadraticKinetic`], [`Error::NotUnitMasses`].
     pub fn new(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error>
     where
@@ -150,17 +149,17 @@ impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V, Plain> {
 }
 
 impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> Integrator<M, S, V, Plain, N> {
-    /// Sets how far a sweep may move the coupled stages and be the last one: no position by more than `tolerance` in its unit, nor,
-    /// where the Hamiltonian is not separable or the iteration is Newton's, a momentum. Where changes
-    /// shrink by `κ` a sweep, `κ/(1 − κ)` of the last one is left of the error. Zero, as it is at first, and anything below eight
-    /// units of [`Scalar::EPSILON`] of the largest position or momentum: down to rounding.
+    /// Sets the tolerance of the iteration of coupled stages: a sweep is the last one if it moves no position by more than `tolerance`, in
+    /// its unit. If the Hamiltonian is not separable, or the iteration is Newton's, this also holds for momenta. With a contraction rate
+    /// `κ` per sweep, the remaining error is `κ/(1 − κ)` of the last change. Zero (the default), and any tolerance below eight units of
+    /// [`Scalar::EPSILON`] of the largest position or momentum, mean: down to rounding.
     ///
-    /// A tolerance saves sweeps, and the search for the largest position that rounding is compared with. It is for plain sums only:
-    /// compensated ones are for runs without drift, and the energy drifts by iterations that end above rounding.
+    /// A tolerance saves sweeps, and the search for the largest position, which rounding is compared with. It is for plain sums only:
+    /// compensated sums are for runs without drift, and iterations that end above rounding make the energy drift.
     ///
     /// # Errors
     ///
-    /// [`Error::Tolerance`], where it is negative, infinite or not a number; the one before then holds.
+    /// [`Error::Tolerance`] if it is negative, NaN or infinite; the previous tolerance then stays.
     ///
     /// ```
     /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
@@ -188,11 +187,11 @@ impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> Integrator<M, S, V, Pl
 }
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// A bound on the sweeps of one step, for [`set_max_iterations`](Self::set_max_iterations). An iteration that
-    /// needs more gains less than a factor of 1.2 a sweep.
+    /// Default bound on the sweeps of one step, for [`set_max_iterations`](Self::set_max_iterations). An iteration that
+    /// needs more sweeps gains less than a factor of 1.2 per sweep.
     pub const DEFAULT_MAX_ITERATIONS: u32 = Stopping::DEFAULT.max_iterations;
 
-    /// What the states inside a step are computed from, and their order: see [`dense`](Self::dense).
+    /// The values from which states inside a step are interpolated, and the order of the interpolation: see [`dense`](Self::dense).
     ///
     /// ```
     /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
@@ -206,7 +205,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// ```
     pub const INTERPOLATION: Interpolation = <PlanOf<M, S, V> as Plan>::INTERPOLATION;
 
-    /// [`new`](Integrator::new) with the sums that the type says.
+    /// [`new`](Integrator::new) with the sums given by the type.
     ///
     /// # Errors
     ///
@@ -223,13 +222,13 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Self::made(system, state, step_size)
     }
 
-    /// An integrator of the method that the type says.
+    /// An integrator of the method given by the type.
     fn made(system: S, state: State<V>, step_size: f64) -> Result<Self, Error> {
         Self::check(&system, &state, step_size)?;
         Ok(Self::unchecked(system, state, step_size))
     }
 
-    /// Checks what an integrator is to be made of.
+    /// Checks the arguments of an integrator.
     pub(crate) fn check(system: &S, state: &State<V>, step_size: f64) -> Result<(), Error> {
         check_step_size(step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
@@ -238,7 +237,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         <PlanOf<M, S, V> as Plan>::check(system, state.time, &state.q, &state.p)
     }
 
-    /// An integrator of what has been [checked](Self::check).
+    /// An integrator whose arguments have been [checked](Self::check).
     pub(crate) fn unchecked(system: S, state: State<V>, step_size: f64) -> Self {
         let clock = Clock::new(state.time, step_size);
         let linear_velocity = has_linear_velocity::<V, S, N>(&system, &state);
@@ -262,24 +261,23 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ///
     /// # Errors
     ///
-    /// [`Error::NoConvergence`], [`Error::NonFinite`], [`Error::EvaluationDimension`], [`Error::TimeResolution`], with
-    /// a Newton iteration [`Error::SingularMatrix`];
-    /// the state is untouched.
+    /// [`Error::NoConvergence`], [`Error::NonFinite`], [`Error::EvaluationDimension`], [`Error::TimeResolution`]; with
+    /// a Newton iteration also [`Error::SingularMatrix`]. The state is then unchanged.
     pub fn step(&mut self) -> Result<&State<V>, Error> {
         self.advance(self.step_size, self.clock.next())?;
         self.clock.tick();
         Ok(&self.course.state)
     }
 
-    /// Takes so many steps and returns the state after them: as often [`step`](Self::step), to the last bit, and faster where
-    /// the method is a splitting or vectors are short.
+    /// Takes `count` steps and returns the state after them. The result equals that of `count` calls of [`step`](Self::step) to the last
+    /// bit, but it is faster for splittings and for short vectors.
     ///
-    /// A splitting takes them in place, and whether its states are finite is seen after some hundred of them; where one
-    /// is not, they are taken once more, one by one. Coupled stages of short vectors stay in registers from step to step.
+    /// A splitting takes the steps in place and checks after some hundred steps whether the states are finite. If a state is
+    /// NaN or infinite, these steps are repeated one by one. Coupled stages of short vectors stay in registers from step to step.
     ///
     /// # Errors
     ///
-    /// Those of [`step`](Self::step); the state is then that after the last good step.
+    /// Those of [`step`](Self::step); the state is then that after the last successful step.
     ///
     /// ```
     /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
@@ -305,7 +303,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         outcome.map(|()| &self.course.state)
     }
 
-    /// A step whose stages `solve` finds from the step and the momentum after it, with its number.
+    /// Takes a step whose stages `solve` computes from the step, the momentum after it, and its number.
     #[cfg(feature = "alloc")]
     pub(crate) fn step_solved_by<T>(
         &mut self,
@@ -334,19 +332,19 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             self.accept(size, time);
             self.clock.tick();
         } else {
-            // The stages are those of a step that was not taken.
+            // The stages belong to a step that was not taken.
             self.course.kept = WarmStart::default();
         }
         outcome
     }
 
-    /// Goes to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size, up
-    /// to rounding; forward or backward, whatever the sign of the step size. At `end` already, it takes no step.
+    /// Integrates to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size, up
+    /// to rounding. The sign of the step size does not matter. At the time `end` it takes no step.
     ///
     /// # Errors
     ///
-    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the
-    /// last good step.
+    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that after the
+    /// last successful step.
     pub fn integrate_to(&mut self, end: f64) -> Result<&State<V>, Error> {
         let (count, size) = uniform(self.course.state.time, end, self.step_size)?;
         let mut clock = Clock::new(self.course.state.time, size);
@@ -355,7 +353,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         outcome.map(|()| &self.course.state)
     }
 
-    /// [`integrate_to`](Self::integrate_to) that shows `observe` the state after every step.
+    /// [`integrate_to`](Self::integrate_to) that calls `observe` with the state after every step.
     ///
     /// # Errors
     ///
@@ -388,7 +386,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Ok(&self.course.state)
     }
 
-    /// Lets `take` take the steps of [`integrate_to`](Self::integrate_to), until it breaks.
+    /// Calls `take` for each step of [`integrate_to`](Self::integrate_to), until it breaks.
     #[inline]
     pub(crate) fn steps_to<B>(
         &mut self,
@@ -416,7 +414,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         outcome
     }
 
-    /// One step, like [`step`](Self::step), the parts of which are shown to `see`.
+    /// Takes one step as [`step`](Self::step) does, and calls `see` after each of its parts.
     pub(crate) fn step_shown_to(
         &mut self,
         mut see: impl FnMut(&Self) -> Result<(), Error>,
@@ -438,17 +436,17 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         &self.course.state
     }
 
-    /// What the position and the momentum of [`state`](Self::state) leave out: less than half a unit in their last
+    /// The round-off of position and momentum in [`state`](Self::state): less than half a unit in their last
     /// places, and zero with [`Plain`] sums.
     pub const fn remainder(&self) -> (&V, &V) {
         (&self.course.low.0, &self.course.low.1)
     }
 
-    /// Puts another state of the same dimension in place of the present one.
+    /// Replaces the present state by another one of the same dimension.
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`]; the state is then untouched.
+    /// [`Error::Dimension`], [`Error::NonFiniteState`]; the state is then unchanged.
     pub fn set_state(&mut self, state: State<V>) -> Result<(), Error> {
         check_state(
             state.time,
@@ -476,7 +474,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Ok(())
     }
 
-    /// The event that was found last.
+    /// The last event found.
     pub(crate) const fn last_event(&self) -> Option<LastEvent> {
         self.last_event
     }
@@ -485,7 +483,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         self.last_event = event;
     }
 
-    /// The present state, given away.
+    /// Returns the present state and drops the integrator.
     pub fn into_state(self) -> State<V> {
         self.course.state
     }
@@ -499,7 +497,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`]; the step size is then untouched.
+    /// [`Error::StepSize`]; the step size is then unchanged.
     pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
         check_step_size(step_size)?;
         self.step_size = step_size;
@@ -516,13 +514,13 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         };
     }
 
-    /// Sets when iterations stop, and what is done about a step that fails.
+    /// Sets the stopping criterion of iterations and the reaction to failed steps.
     #[cfg(feature = "alloc")]
     pub(crate) const fn configure(&mut self, stopping: Stopping, retry: Retry) {
         (self.stopping, self.retry) = (stopping, retry);
     }
 
-    /// Sets what is done about a step that fails; at first nothing, [`Retry::Never`].
+    /// Sets the reaction to a failed step; the default is [`Retry::Never`].
     ///
     /// ```
     /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
@@ -551,7 +549,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         &self.system
     }
 
-    /// What the steps have taken so far.
+    /// The statistics of all steps so far.
     pub const fn statistics(&self) -> &Statistics {
         &self.course.statistics
     }
@@ -566,7 +564,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         self.course.statistics.iterations
     }
 
-    /// The energy of the present state, where the system knows it.
+    /// The energy of the present state, if the system knows it.
     pub fn energy(&self) -> Option<V::Scalar> {
         let State { time, q, p } = &self.course.state;
         self.system.energy(V::Scalar::from_f64(*time), q, p)
@@ -577,7 +575,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         <PlanOf<M, S, V> as Plan>::momentum_rate(&self.system, time, q, p, rate);
     }
 
-    /// The last step, if its stages are still there.
+    /// The last step, if its stages are still stored.
     pub(crate) fn last_step(&self) -> Option<LastStep<'_, V>> {
         self.course.kept.stages.then_some(LastStep {
             start: self.course.last_time,
@@ -594,17 +592,17 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         })
     }
 
-    /// What every step says of the system.
+    /// Whether the velocity is known to be linear in the momentum.
     pub(crate) const fn has_linear_velocity(&self) -> bool {
         self.course.linear_velocity
     }
 
-    /// When the iteration of one step stops.
+    /// The stopping criterion of the iteration of a step.
     pub(crate) const fn stopping(&self) -> Stopping {
         self.stopping
     }
 
-    /// Adds what the stages of the last step say about its inside: see [`Plan::extend`].
+    /// Adds the contribution of the stages to a state inside the last step: see [`Plan::extend`].
     pub(crate) fn extend(&self, at: Inside<'_, V>, q: &mut V, p: &mut V) {
         <PlanOf<M, S, V> as Plan>::extend::<V, S, N>(&self.course.memory, at, q, p);
     }
@@ -617,7 +615,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 impl<M: Method, S: System<V> + Clone, V: Vector, R: Summation, N: Solver<V, S>> Clone
     for Integrator<M, S, V, R, N>
 {
-    /// Both go on with the same bits.
+    /// The integrator and its clone continue with the same bits.
     fn clone(&self) -> Self {
         Self {
             system: self.system.clone(),
@@ -641,11 +639,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Deb
     }
 }
 
-/// A step that is to be taken.
+/// The next step to take.
 #[derive(Clone, Copy)]
 pub(crate) struct NextStep {
     pub(crate) size: f64,
-    /// Where it ends.
+    /// Its end.
     pub(crate) time: f64,
     /// Its number, from 1, among all `steps`.
     pub(crate) number: u64,

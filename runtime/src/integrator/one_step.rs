@@ -1,4 +1,4 @@
-//! One step: taken, checked, and accepted or not.
+//! One step: computed, checked, and accepted or rejected.
 
 use core::ops::ControlFlow;
 
@@ -10,7 +10,7 @@ use crate::number::{Summation, Vector};
 use crate::system::System;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// One step of size `size`, to the time `time`. The clock is the caller's.
+    /// Takes one step of size `size` to the time `time`. The caller advances the clock.
     #[inline]
     pub(crate) fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
         match self.prepare(size, time) {
@@ -22,8 +22,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         }
     }
 
-    /// [`advance`](Self::advance) that shows the step to `see` as long as it does not break: each of its parts, if it has
-    /// to be taken in parts.
+    /// [`advance`](Self::advance) that calls `see` after the step until it breaks; after each part if the step has to be split.
     #[inline]
     pub(crate) fn advance_in_sight<B>(
         &mut self,
@@ -55,13 +54,13 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         attempt.map_err(|failure| self.fail(size, failure))
     }
 
-    /// Makes the step that [`prepare`](Self::prepare) has computed the present state.
+    /// Makes the step computed by [`prepare`](Self::prepare) the present state.
     #[inline]
     pub(super) fn accept(&mut self, size: f64, time: f64) {
         self.course.accept::<R>(size, time);
     }
 
-    /// Says why a step failed, and forgets everything that it left behind.
+    /// Returns the reason of a failed step, and forgets all data that the step left behind.
     #[cold]
     pub(super) fn fail(&mut self, size: f64, failure: Option<Failure>) -> Error {
         let attempt = Attempt {

@@ -32,7 +32,7 @@ impl Pace {
         self.taken
     }
 
-    /// Steps of another size from `time` on.
+    /// Changes the step size for steps from `time` on.
     pub(crate) fn set_step_size(&mut self, time: f64, step_size: f64) -> Result<(), Error> {
         let taken = self.taken;
         *self = Self {
@@ -43,16 +43,16 @@ impl Pace {
     }
 }
 
-/// Something that takes steps.
+/// An integrator that takes steps.
 pub(crate) trait Stepper {
     fn pace(&mut self) -> &mut Pace;
 
     fn time(&self) -> f64;
 
-    /// Takes a step of size `size` to the time `end`; its number is `number`. Where it fails nothing has changed.
+    /// Takes a step of size `size` to the time `end`; its number is `number`. If it fails, nothing changes.
     fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error>;
 
-    /// One step: after `k` of them the time is `start + k h`.
+    /// Takes one step: after `k` steps the time is `start + k h`.
     fn one_step(&mut self) -> Result<(), Error> {
         let pace = *self.pace();
         self.counted(pace.step_size, pace.clock.next())?;
@@ -60,7 +60,7 @@ pub(crate) trait Stepper {
         Ok(())
     }
 
-    /// The smallest number of equal steps to `end` that are no longer than the step size.
+    /// Takes the smallest number of equal steps to `end` that are no longer than the step size.
     fn steps_to(&mut self, end: f64) -> Result<(), Error> {
         let start = self.time();
         let step_size = self.pace().step_size;
@@ -75,7 +75,7 @@ pub(crate) trait Stepper {
         outcome
     }
 
-    /// A step that counts, if time passes in it.
+    /// Takes and counts a step, after a check that it changes the time.
     fn counted(&mut self, size: f64, end: f64) -> Result<(), Error> {
         if end == self.time() {
             return Err(Error::TimeResolution {

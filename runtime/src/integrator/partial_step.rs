@@ -1,4 +1,4 @@
-//! Shorter steps from the start of the last one.
+//! Shorter steps from the start of the last step.
 
 use crate::error::Error;
 use crate::integrator::Integrator;
@@ -9,7 +9,7 @@ use crate::number::{Summation, Vector, copy};
 use crate::state::State;
 use crate::system::System;
 
-/// What steps need that an integrator takes beside its own ones.
+/// Memory for partial steps, in addition to that of the integrator.
 pub(crate) struct PartialSteps<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> {
     memory: <PlanOf<M, S, V> as Plan>::Memory<V, S, N>,
     low: (V, V),
@@ -25,7 +25,7 @@ impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, 
         }
     }
 
-    /// Takes a step from the start of the last one of an integrator to `time`, and writes its result into `state`.
+    /// Takes a step from the start of the last step of an integrator to `time`, and writes the result into `state`.
     pub(crate) fn take<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,

@@ -1,28 +1,28 @@
-//! What is done about a step that fails.
+//! The reaction to a failed step.
 
-/// What an [`Integrator`](crate::Integrator) does where the stages of a step are not found or something is not finite.
+/// The reaction of an [`Integrator`](crate::Integrator) if the stages of a step do not converge or a result is NaN or infinite.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Retry {
     /// The step fails, with the error.
     #[default]
     Never,
-    /// The step is taken again as 2, 4, … up to 2^`halvings` equal ones; if none of that helps it fails, with the error
-    /// of the whole step. More halvings than [`Retry::MOST_HALVINGS`] count as so many.
+    /// The step is repeated as 2, 4, … up to 2^`halvings` equal steps; if all attempts fail, it fails with the error
+    /// of the whole step. `halvings` is limited to [`Retry::MOST_HALVINGS`].
     ///
-    /// A method with steps of different sizes is not the symplectic map that one of equal steps is: this is for a rare
-    /// stiff while, and [`Statistics::rejected`](crate::Statistics::rejected) says how rare it was. That the
-    /// stages are found does not make a step accurate. Memory for the state before the step is made each time.
+    /// A method with variable steps is not the symplectic map that it is with equal steps. Use this for rare
+    /// stiff phases; [`Statistics::rejected`](crate::Statistics::rejected) counts them. Convergence of the
+    /// stages does not make a step accurate. Each retry allocates memory for the state before the step.
     Split {
-        /// The most halvings.
+        /// The largest number of halvings.
         halvings: u32,
     },
 }
 
 impl Retry {
-    /// A bound on the work that one step can ask for: 65 536 steps instead of one.
+    /// Bound on the work of one step: 65 536 steps instead of one.
     pub const MOST_HALVINGS: u32 = 16;
 
-    /// How many steps the whole one is split into, one attempt after another.
+    /// The number of parts of the step in each attempt.
     pub(crate) fn parts(self) -> impl Iterator<Item = u32> {
         let halvings = match self {
             Self::Never => 0,

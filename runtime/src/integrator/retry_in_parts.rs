@@ -1,4 +1,4 @@
-//! A step that failed, taken again as several shorter ones.
+//! A failed step, repeated as several shorter ones.
 
 use core::convert::Infallible;
 use core::ops::ControlFlow;
@@ -12,7 +12,7 @@ use crate::number::{Summation, Vector};
 use crate::system::System;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// [`take_again`](Self::take_again), and once more for `see` when it is known in how many parts.
+    /// [`take_again`](Self::take_again), and once more with `see` when the number of parts is known.
     #[cold]
     pub(super) fn take_again_in_sight<B>(
         &mut self,
@@ -30,7 +30,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         seen
     }
 
-    /// Takes a step that failed with `error` once more in parts, if it is to be; returns how many.
+    /// Repeats a step that failed with `error` in parts, if it is to be retried; returns the number of parts.
     #[cold]
     pub(super) fn take_again(&mut self, size: f64, time: f64, error: Error) -> Result<u32, Error> {
         let of_the_size = matches!(
@@ -58,7 +58,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Err(error)
     }
 
-    /// Takes a step as several equal ones, which `see` sees until it breaks; where one fails, the state is that before it.
+    /// Takes a step as several equal parts and calls `see` after each until it breaks. If a part fails, the state is that before it.
     fn take_in_parts<B>(
         &mut self,
         size: f64,

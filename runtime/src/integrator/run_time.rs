@@ -1,4 +1,4 @@
-//! Integrators of methods that are known only when the program runs.
+//! Integrators of methods that are known only at run time.
 
 use super::memory::StepMemory;
 use super::validation::{check_kinetic, check_orders};
@@ -10,16 +10,16 @@ use crate::state::State;
 use crate::system::System;
 
 impl<S: System<V>, V: Vector> Integrator<AtRunTime, S, V> {
-    /// [`new`](Integrator::new) with a method that is known only when the program runs, and with
+    /// [`new`](Integrator::new) with a method that is known only at run time, and with
     /// [`Compensated`](crate::Compensated) sums.
     ///
-    /// On separable systems an explicit tableau goes by drifts and kicks. Coupled stages are found by the iteration of
-    /// [`FixedPoint`](crate::solver::FixedPoint), one by one and never in lanes; with another solver code does not compile. The inside of a step is
-    /// the cubic polynomial of its ends.
+    /// On separable systems an explicit tableau takes drifts and kicks. Coupled stages use the iteration of
+    /// [`FixedPoint`](crate::solver::FixedPoint), one by one and never in lanes; code with another solver does not compile. Dense output is
+    /// the cubic polynomial through the ends of the step.
     ///
     /// # Errors
     ///
-    /// Those of [`new`](Integrator::new), and [`Error::SeparableTableau`] where the system is not separable and the tableau has a lower
+    /// Those of [`new`](Integrator::new), and [`Error::SeparableTableau`] if the system is not separable and the tableau has a lower
     /// order there or is not symplectic: see [`RunTimeTableau::accept_lower_order`].
     ///
     /// ```
@@ -103,7 +103,7 @@ impl<S: System<V>, V: Vector, R: Summation> Integrator<AtRunTime, S, V, R> {
 }
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// Gives the memory of steps its tableau.
+    /// Sets the tableau in the memory of steps.
     pub(crate) fn set_tableau(&mut self, tableau: &RunTimeTableau) {
         let StepMemory { memory, state, .. } = &mut self.course;
         memory.set_tableau(tableau, &state.q);

@@ -1,7 +1,7 @@
-//! Trajectories side by side: an integrator over lanes in place of one for each of them.
+//! Trajectories side by side: one integrator over lanes in place of one integrator per trajectory.
 //!
-//! A step of a [lanewise](Plan::LANEWISE) plan has in every lane the bits of a step of doubles. So a run can go over from integrators of
-//! doubles to one over lanes and back, at any step.
+//! Every lane of a step of a [lanewise](Plan::LANEWISE) plan has the bits of a step of doubles. A run can therefore switch between
+//! integrators of doubles and one over lanes at any step.
 
 use alloc::vec::Vec;
 use core::marker::PhantomData;
@@ -15,24 +15,24 @@ use crate::number::{Lanes, Scalar, Summation, Vector, vector_words};
 use crate::state::State;
 use crate::system::System;
 
-/// Steps of one size that are still to be taken.
+/// Remaining steps of one size.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Leg {
     left: u64,
     size: f64,
     clock: Clock,
-    /// The time of the last one, if it is given.
+    /// The time of the last step, if it is given.
     end: Option<f64>,
 }
 
 impl Leg {
-    /// Whether all are taken.
+    /// Whether all steps are taken.
     pub(crate) const fn is_done(&self) -> bool {
         self.left == 0
     }
 }
 
-/// Where a run was.
+/// A saved position of a run.
 pub(crate) struct Mark<V, T> {
     course: StepMemory<V, T>,
     clock: Clock,
@@ -67,12 +67,12 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         })
     }
 
-    /// How many steps of a leg are taken at once.
+    /// Number of steps of a leg that are taken at once.
     pub(crate) fn block_of(&self, leg: &Leg) -> u64 {
         self.next_block(leg.left)
     }
 
-    /// Takes the next [block](Self::block_of) of a leg, as those whose leg it is would.
+    /// Takes the next [block](Self::block_of) of a leg, as its integrator would.
     pub(crate) fn take_block(&mut self, block: u64, leg: &mut Leg) -> Result<(), Error> {
         let Leg {
             left,
@@ -85,8 +85,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Ok(())
     }
 
-    /// The same, if it can be for runs side by side: `false` where one of them is not finite. What it has left behind for the others is lost
-    /// then, and the run has to [go back](Self::go_back).
+    /// [`take_block`](Self::take_block) for runs side by side; returns `false` if one of them fails or is not finite. The data that steps
+    /// left behind for the others are then lost, and the run has to [go back](Self::go_back).
     pub(crate) fn take_block_together(&mut self, block: u64, leg: &mut Leg) -> bool {
         let ready = self.course.kept.evaluation && leg.left > 1;
         if ready && self.advance_in_place(block, leg.size, &mut leg.clock) {
@@ -104,7 +104,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Ok(())
     }
 
-    /// Where the run is.
+    /// Saves the position of the run.
     pub(crate) fn mark(&self) -> MarkOf<M, S, V, N> {
         Mark {
             course: self.course.clone(),
@@ -112,12 +112,12 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         }
     }
 
-    /// Goes back to where the run was.
+    /// Returns to a saved position.
     pub(crate) fn go_back(&mut self, mark: MarkOf<M, S, V, N>) {
         (self.course, self.clock) = (mark.course, mark.clock);
     }
 
-    /// An integrator for such runs, in the lanes of vectors like `zeros`; every lane is still to be [set](Self::set_lane).
+    /// An integrator for runs like this one, in the lanes of vectors like `zeros`; every lane still has to be [set](Self::set_lane).
     pub(crate) fn over_lanes<W>(
         &self,
         zeros: &W,
@@ -133,7 +133,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             clock: self.clock,
             step_size: self.step_size,
             stopping: self.stopping,
-            // A step that fails is taken again by the trajectory whose it is.
+            // A step that fails is repeated by the trajectory that it belongs to.
             retry: Retry::Never,
             last_event: self.last_event,
             method: PhantomData,
@@ -153,7 +153,7 @@ where
     R: Summation,
     N: Solver<W, S>,
 {
-    /// Puts a run into a lane. It is where the runs in the other lanes are.
+    /// Copies a run into a lane. The run has to be at the same step as the runs in the other lanes.
     pub(crate) fn set_lane<V: Vector, O: Solver<V, S>>(
         &mut self,
         lane: usize,
@@ -173,7 +173,7 @@ where
         self.clock = run.clock;
     }
 
-    /// Makes a run that of a lane.
+    /// Copies a lane into a run.
     pub(crate) fn get_lane<V: Vector, O: Solver<V, S>>(
         &self,
         lane: usize,
@@ -191,7 +191,7 @@ where
         run.clock = self.clock;
     }
 
-    /// Whether the system gives a run in a lane the bits that it gives the run of doubles.
+    /// Whether the system gives a lane the same bits as the run of doubles.
     pub(crate) fn evaluates_like<V: Vector<Scalar = T>, T: Scalar, O: Solver<V, S>>(
         &self,
         lane: usize,

@@ -1,4 +1,4 @@
-//! The same integrator with another solver for coupled stages.
+//! Changing the solver of coupled stages.
 
 use core::marker::PhantomData;
 
@@ -14,7 +14,7 @@ use crate::state::State;
 use crate::system::System;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// The same integrator with another [`Solver`] for coupled stages: from here on, with the counts so far.
+    /// The same integrator with another [`Solver`] for coupled stages from here on; the counts continue.
     pub fn with_solver<O: Solver<V, S>>(self, _solver: O) -> Integrator<M, S, V, R, O> {
         let linear_velocity = has_linear_velocity::<V, S, O>(&self.system, &self.course.state);
         let mut course: StepMemory<V, MemoryOf<M, S, V, O>> =
@@ -39,7 +39,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         }
     }
 
-    /// The same integrator with [`Newton`]'s iteration: for stiff and strongly coupled systems. An explicit method stays what it is.
+    /// The same integrator with [`Newton`]'s iteration, for stiff and strongly coupled systems. An explicit method does not change.
     ///
     /// The second derivatives are exact if the system [gives them](System::second_derivatives), as one from a
     /// [formula](crate::hamiltonian!) does, and differences otherwise. The matrices are bands of the

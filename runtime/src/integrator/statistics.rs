@@ -1,8 +1,8 @@
-//! What an integration has taken.
+//! Statistics of an integration.
 
 use crate::method::StepStatistics;
 
-/// Counts over all steps taken; a step that fails changes none of them.
+/// Counts over all steps taken; a failed step changes none of them.
 ///
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
@@ -23,26 +23,26 @@ use crate::method::StepStatistics;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statistics {
-    /// Steps taken; of one that was [split](crate::Retry::Split), its parts.
+    /// Steps taken; for a [split](crate::Retry::Split) step, its parts.
     pub steps: u64,
-    /// Attempts at a step, or at its parts, that failed and were made good by shorter steps or by another solver.
+    /// Failed attempts at a step, or at its parts, that shorter steps or another solver replaced.
     pub rejected: u64,
     /// Fixed-point sweeps; 0 for an explicit method.
     pub iterations: u64,
-    /// The most sweeps that one step took.
+    /// The largest number of sweeps of one step.
     pub most_iterations: u32,
-    /// Evaluations of a velocity or a force.
+    /// Evaluations of the velocity or the force.
     pub evaluations: u64,
-    /// Times the linear systems of a Newton iteration were made and factored: one for each pair of stages.
+    /// Factorisations of the linear systems of Newton's iteration: one for each pair of stages.
     pub factorisations: u64,
     /// The largest residual of a step by Newton's iteration: the relative change of the stages in its last sweep, of the positions or of
-    /// the momenta. In a stiff system it is the rounding error of the force, divided by the step size: it may be far above
-    /// [`Scalar::EPSILON`](crate::Scalar::EPSILON). 0 for other iterations.
+    /// the momenta. In a stiff system it is the rounding error of the force, divided by the step size; it may be far above
+    /// [`Scalar::EPSILON`](crate::Scalar::EPSILON). Zero for other iterations.
     pub largest_residual: f64,
 }
 
 impl Statistics {
-    /// Sweeps a step; 0 before the first one.
+    /// Mean number of sweeps per step; 0 before the first step.
     pub fn mean_iterations(&self) -> f64 {
         if self.steps == 0 {
             0.0
@@ -51,7 +51,7 @@ impl Statistics {
         }
     }
 
-    /// Counts so many explicit steps with so many evaluations each.
+    /// Counts `steps` explicit steps with `evaluations` evaluations each.
     #[inline]
     pub(crate) fn count_explicit(&mut self, steps: u64, evaluations: u32) {
         self.steps += steps;

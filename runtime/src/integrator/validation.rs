@@ -1,4 +1,4 @@
-//! What is looked at before an integrator is made or changed.
+//! Checks before an integrator is created or changed.
 
 use crate::error::{Error, Quantity};
 use crate::method::storage::is_finite;
@@ -18,7 +18,7 @@ pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {
     }
 }
 
-/// Checks that the velocity is the momentum where the system says so.
+/// Checks that the velocity equals the momentum if the system claims it.
 pub(super) fn check_masses<V: Vector, S: System<V>>(
     system: &S,
     state: &State<V>,
@@ -38,7 +38,7 @@ pub(super) fn check_masses<V: Vector, S: System<V>>(
     })
 }
 
-/// Checks that the velocity is linear in the momentum, for a method that has its order there only.
+/// Checks that the velocity is linear in the momentum, for a method that has its order only then.
 pub(super) fn check_quadratic_kinetic<M: Method, V: Vector, S: System<V>>(
     system: &S,
     state: &State<V>,
@@ -49,7 +49,7 @@ pub(super) fn check_quadratic_kinetic<M: Method, V: Vector, S: System<V>>(
     check_quadratic_kinetic_of::<M, V, S>(M::ORDERS, system, state)
 }
 
-/// [`check_quadratic_kinetic`] for a method of these orders that needs it.
+/// [`check_quadratic_kinetic`] for a method of these orders that needs a quadratic kinetic energy.
 pub(super) fn check_quadratic_kinetic_of<M: Method, V: Vector, S: System<V>>(
     orders: Orders,
     system: &S,
@@ -71,7 +71,7 @@ pub(super) fn check_quadratic_kinetic_of<M: Method, V: Vector, S: System<V>>(
     })
 }
 
-/// Checks that a tableau at run time is for systems of this class.
+/// Checks that a run-time tableau is valid for systems of this class.
 #[cfg(feature = "alloc")]
 pub(crate) fn check_orders<V: Vector, S: System<V>>(tableau: &RunTimeTableau) -> Result<(), Error> {
     if S::Class::SEPARABLE || tableau.keeps_its_order_in_general() {
@@ -83,7 +83,7 @@ pub(crate) fn check_orders<V: Vector, S: System<V>>(tableau: &RunTimeTableau) ->
     })
 }
 
-/// Checks that a system has the kinetic energy that a tableau needs.
+/// Checks that a system has the kinetic energy that a tableau requires.
 #[cfg(feature = "alloc")]
 pub(crate) fn check_kinetic<V: Vector, S: System<V>>(
     tableau: &RunTimeTableau,
@@ -95,7 +95,7 @@ pub(crate) fn check_kinetic<V: Vector, S: System<V>>(
     })
 }
 
-/// Whether the velocity is linear in the momentum, for a solver that asks.
+/// Whether the velocity is linear in the momentum, if the solver uses this.
 pub(super) fn has_linear_velocity<V, S, N>(system: &S, state: &State<V>) -> bool
 where
     V: Vector,
@@ -108,11 +108,11 @@ where
         && (S::UNIT_MASSES || non_linear_velocity(system, *time, q, p).is_none())
 }
 
-/// The first component in which two vectors differ, and how large it is in them; none where both are not finite, which is an error of
-/// the first step.
+/// The first component in which two vectors differ, and its size in both. Components that are NaN or infinite in both are skipped: the
+/// first step reports them as an error.
 fn first_difference<V: Vector>(left: &V, right: &V) -> Option<(usize, f64, f64)> {
     if left.dimension() != right.dimension() {
-        // An error of the first step, too.
+        // The first step reports this error, too.
         return None;
     }
     let mut pairs = left.as_slice().iter().zip(right.as_slice()).enumerate();

@@ -1,10 +1,10 @@
-//! The coefficients of a method, rounded once for every scalar.
+//! The coefficients of a method, rounded once for each type of scalar.
 
-/// A coefficient of a method: the exact number, rounded to what the scalars take.
+/// A coefficient of a method: the exact number, rounded to double and to single precision.
 ///
-/// A number rounded to a double and then to a single is not always the single nearest to it: the double may be the
-/// middle of two singles where the number is not. So the single is rounded from the exact number as well, and for
-/// scalars with more digits than a double there is a second double, with which the number is known to 106 bits.
+/// Rounding a number to a double and then to a single does not always give the nearest single: the double may be the
+/// middle of two singles where the number is not. The single is therefore rounded from the exact number as well. Scalars
+/// with more digits than a double use a second double, which extends the number to 106 bits.
 ///
 /// ```
 /// use symplectic::solver::Coefficient;
@@ -25,8 +25,8 @@ pub struct Coefficient {
 }
 
 impl Coefficient {
-    /// The coefficient x whose nearest double is `double`, with the double `low` nearest to x − `double`, and whose
-    /// nearest single is `single`: infinite where x is beyond the largest one.
+    /// The coefficient x whose nearest double is `double`, whose nearest single is `single`, and for which `low` is the double nearest to
+    /// x − `double`. The single is infinite if x exceeds the largest one.
     #[inline(always)]
     pub const fn new(double: f64, low: f64, single: f32) -> Self {
         Self {
@@ -48,21 +48,21 @@ impl Coefficient {
         self.double
     }
 
-    /// The double nearest to what [`double`](Self::double) leaves out.
+    /// The double nearest to x − [`double`](Self::double) for the coefficient x.
     #[inline(always)]
     pub const fn low(self) -> f64 {
         self.low
     }
 
-    /// The nearest single; infinite beyond the largest one.
+    /// The nearest single; infinite above the largest single.
     #[inline(always)]
     pub const fn single(self) -> f32 {
         self.single
     }
 }
 
-/// The coefficients of a [`Method`](crate::Method) with s stages: every matrix has s rows of s entries, every
-/// other list s entries.
+/// The coefficients of a [`Method`](crate::Method) with s stages: every matrix has s rows of s entries, and every
+/// other list has s entries.
 ///
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }

@@ -6,7 +6,7 @@ use num_traits::{One, Zero};
 
 use crate::number::{Coefficient, Scalar};
 
-/// `value + slope ε` with `ε² = 0`: a number and its derivative by a parameter. The value has the bits that it has without the slope.
+/// `value + slope ε` with `ε² = 0`: a number and its derivative by a parameter. The value has the same bits as without the slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Dual<T> {
     pub(crate) value: T,
@@ -54,7 +54,7 @@ impl HyperDual {
         self.value.slope
     }
 
-    /// The derivative by both.
+    /// The derivative by both parameters.
     #[inline]
     pub(crate) const fn mixed(self) -> f64 {
         self.slope.slope
@@ -315,12 +315,12 @@ mod tests {
     use super::*;
     use crate::number::{F64x2, Lanes};
 
-    /// Every function against differences of order 4, along both parameters; and the same values and slopes in lanes.
+    /// Checks every function against differences of order 4, along both parameters, and checks the same values and slopes in lanes.
     #[test]
     fn derivatives() {
         fn check(name: &str, f: impl Fn(HyperDual) -> HyperDual) {
             let at = |a: f64, b: f64| {
-                // x(a, b) has derivatives by both and a mixed one.
+                // x(a, b) has derivatives by both parameters and a mixed derivative.
                 let x = 0.4 + 0.7 * a + 0.3 * b + 0.2 * a * b;
                 f(HyperDual::from_f64(x)).real()
             };
@@ -363,7 +363,7 @@ mod tests {
         check("tanh", Scalar::tanh);
     }
 
-    /// In the lanes are the duals of doubles, also at zeros of either sign.
+    /// Each lane holds the dual number of its double, also at zeros of either sign.
     #[test]
     fn lanes() {
         fn f<T: Scalar>(x: T) -> T {

@@ -1,4 +1,4 @@
-//! Gaussian elimination of a band.
+//! Gaussian elimination of banded matrices.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -121,26 +121,26 @@ impl<T: Scalar + Neg<Output = T>> Entry for Complex<T> {
     }
 }
 
-/// The factors of a square matrix whose entries `(i, j)` are zero where `|i − j|` is above its half bandwidth, with the
-/// rows exchanged so that the pivots are as large as may be (Golub & Van Loan, *Matrix Computations*, 4.3.5).
+/// The factors of a square matrix whose entries `(i, j)` are zero if `|i − j|` exceeds the half bandwidth, with partial pivoting
+/// (Golub & Van Loan, *Matrix Computations*, 4.3.5).
 #[derive(Clone, Debug)]
 pub(crate) struct Elimination<E> {
     size: usize,
     half_bandwidth: usize,
-    /// Entries of a row that are stored; all of them where a band would need more.
+    /// Number of stored entries of a row; the whole row where a band would need more.
     width: usize,
-    /// By rows; the inverses of the pivots on the diagonal.
+    /// By rows; the diagonal holds the inverses of the pivots.
     entries: Vec<E>,
-    /// The row that each one was exchanged with.
+    /// The row that each row was exchanged with.
     pivots: Vec<usize>,
-    /// A right-hand side.
+    /// The right-hand side.
     pub(crate) right: Vec<E>,
 }
 
 impl<E: Entry> Elimination<E> {
     /// Memory for matrices of this size.
     pub(crate) fn new(size: usize, half_bandwidth: usize) -> Self {
-        // Exchanged rows reach beyond the band, as far again.
+        // Row exchanges add another half bandwidth beyond the band.
         let width = half_bandwidth.saturating_mul(3).saturating_add(1).min(size);
         Self {
             size,
@@ -160,7 +160,7 @@ impl<E: Entry> Elimination<E> {
         words!(visit: self.pivots[..]);
     }
 
-    /// The place of an entry.
+    /// The index of an entry.
     #[inline(always)]
     fn place(&self, i: usize, j: usize) -> usize {
         if self.width == self.size {
@@ -176,12 +176,12 @@ impl<E: Entry> Elimination<E> {
         i.saturating_sub(self.half_bandwidth)..end.min(self.size)
     }
 
-    /// Factors the matrix with these entries; returns whether every pivot is finite and not zero.
+    /// Factors the matrix with these entries; returns whether every pivot is finite and nonzero.
     pub(crate) fn factor(&mut self, entry: impl Fn(usize, usize) -> E) -> bool {
         self.first_without_pivot(entry).is_none()
     }
 
-    /// [`factor`](Self::factor) that returns the first column whose pivot is zero or not finite, if there is one.
+    /// Factors the matrix as [`factor`](Self::factor) does; returns the first column whose pivot is zero, NaN or infinite.
     pub(crate) fn first_without_pivot(
         &mut self,
         entry: impl Fn(usize, usize) -> E,
@@ -238,7 +238,7 @@ impl<E: Entry> Elimination<E> {
         true
     }
 
-    /// Solves for the right-hand side in `right`, in its place.
+    /// Solves in place for the right-hand side in `right`.
     pub(crate) fn solve(&mut self) {
         for k in 0..self.size {
             self.right.swap(k, self.pivots[k]);
@@ -266,7 +266,7 @@ mod tests {
     use super::*;
 
     fn entry(i: usize, j: usize) -> f64 {
-        // Small on the diagonal, so that rows have to be exchanged.
+        // Small on the diagonal, so that the elimination has to exchange rows.
         match i.abs_diff(j) {
             0 => 1e-3 * (1.0 + i as f64),
             distance => ((3 * i + 7 * j) as f64).sin() / distance as f64,

@@ -10,11 +10,11 @@ use crate::number::array::array;
 use crate::number::scalar::elementary;
 use crate::number::words::{Visit, words};
 
-/// A few doubles side by side, in one register of the processor where it has so wide ones.
+/// Several doubles side by side, in one register of the processor if its registers are wide enough.
 ///
-/// Every lane is computed as a double of its own would be, to the last bit, by all lanes at once; only `tan`, inverse and hyperbolic
-/// functions are taken lane by lane. How wide the registers are is the target's: with `-C target-cpu=native` the compiler
-/// uses all that the processor has.
+/// Every lane has the bits of the same computation with a single double, and all lanes are computed at once. Only `tan`, inverse and
+/// hyperbolic functions are computed lane by lane. The target sets the width of the registers: with `-C target-cpu=native` the compiler
+/// uses the full width of the processor.
 ///
 /// ```
 /// use symplectic::Scalar;
@@ -40,45 +40,45 @@ pub trait Lanes: Scalar {
     /// The doubles of the lanes.
     fn to_array(self) -> Self::Array;
 
-    /// The larger of two numbers in each lane; either where one of them is NaN.
+    /// The larger of two numbers in each lane; either of them if one is NaN.
     fn larger(self, other: Self) -> Self;
 
-    /// The larger of two numbers in each lane that [`abs`](Scalar::abs) has given; NaN where one of them is.
+    /// The larger of two numbers in each lane, both results of [`abs`](Scalar::abs); NaN if one of them is NaN.
     fn larger_or_nan(self, other: Self) -> Self;
 
-    /// The largest number; any where one of them is NaN.
+    /// The largest number; any lane if one of them is NaN.
     fn largest(self) -> f64;
 
-    /// Whether a number is above `bound`; NaN is not.
+    /// Whether any number is above `bound`; false for NaN.
     fn any_above(self, bound: f64) -> bool;
 
-    /// Whether all numbers are below `bound`; NaN is not.
+    /// Whether all numbers are below `bound`; false for NaN.
     fn all_below(self, bound: f64) -> bool;
 
-    /// Whether a number is NaN.
+    /// Whether any number is NaN.
     fn any_nan(self) -> bool;
 }
 
-/// The lanes of one group in a list over the stages.
+/// The lanes of one group, from a list over the stages.
 #[inline(always)]
 pub(crate) fn lanes<L: Lanes>(list: &[f64], group: usize) -> L {
     let list = &list[group * L::WIDTH..(group + 1) * L::WIDTH];
     L::from_fn(|lane| list[lane])
 }
 
-/// The double of a stage among those of its group.
+/// The double of a stage, from the lanes of its group.
 #[inline(always)]
 pub(crate) fn lane_of<L: Lanes>(group: L, stage: usize) -> f64 {
     group.to_array().as_ref()[stage % L::WIDTH]
 }
 
-/// The double of a stage in some groups.
+/// The double of a stage, from a list of groups.
 #[inline(always)]
 pub(crate) fn in_groups<L: Lanes>(groups: &[L], stage: usize) -> f64 {
     lane_of(groups[stage / L::WIDTH], stage)
 }
 
-/// The largest of some numbers, any where one of them is NaN: half by half, for registers are narrower then.
+/// The largest of several numbers, any of them if one is NaN: by halves, because narrower registers are enough for these.
 trait Largest {
     fn largest(self) -> f64;
 }
@@ -196,7 +196,7 @@ macro_rules! lanes {
             #[inline]
             fn magnitude(self) -> f64 {
                 let lanes = self.to_array().map(f64::abs);
-                // NaN, if there is one, else the largest.
+                // NaN if there is one, else the largest.
                 lanes[1..].iter().fold(lanes[0], |largest, &lane| {
                     if largest >= lane || largest.is_nan() {
                         largest
@@ -213,7 +213,7 @@ macro_rules! lanes {
                 } else if cfg!(target_feature = "fma") {
                     Self(self.0.mul_add(factor.0, term.0))
                 } else {
-                    // Without the instruction, that of `wide` rounds twice.
+                    // Without the instruction, `mul_add` of `wide` rounds twice.
                     let (x, y, z) = (self.to_array(), factor.to_array(), term.to_array());
                     Self::from_fn(|lane| x[lane].fused(y[lane], z[lane]))
                 }
@@ -252,8 +252,8 @@ macro_rules! lanes {
         }
 
         impl $name {
-            /// [`larger_or_nan`](Lanes::larger_or_nan): numbers that are not negative are in the order of their bits, and NaN is above
-            /// them. In eight lanes whatever the width, for which it is one instruction that the compiler makes narrower.
+            /// [`larger_or_nan`](Lanes::larger_or_nan) by bits: the bits of non-negative numbers have the order of the numbers, and NaN is
+            /// above them. All widths use eight lanes: the maximum is then one instruction, which the compiler narrows.
             #[inline(always)]
             fn larger_by_bits(self, other: Self) -> Self {
                 let bits = |numbers: Self| {
@@ -265,7 +265,7 @@ macro_rules! lanes {
                 Self::from_fn(|lane| f64::from_bits(larger[lane].cast_unsigned()))
             }
 
-            /// The same by sums.
+            /// [`larger_or_nan`](Lanes::larger_or_nan) by sums.
             #[inline(always)]
             fn larger_by_sums(self, other: Self) -> Self {
                 Self(self.0.fast_max(other.0) | (self.0 + other.0).is_nan())
@@ -299,7 +299,7 @@ macro_rules! lanes {
 
             #[inline(always)]
             fn larger_or_nan(self, other: Self) -> Self {
-                // Where whole numbers are compared in one instruction.
+                // These targets compare integers in one instruction.
                 if cfg!(any(target_feature = "sse4.2", target_arch = "aarch64")) {
                     self.larger_by_bits(other)
                 } else {
@@ -353,9 +353,9 @@ lanes!(
 mod tests {
     use super::*;
 
-    /// As many pairs as lanes, from one of all pairs on.
+    /// Checks all pairs of numbers, one per lane, starting from each pair.
     fn check<L: Lanes>(by_bits: fn(L, L) -> L, by_sums: fn(L, L) -> L) {
-        // As processors make them, with a sign.
+        // NaN as processors produce it, with a sign.
         let nan = core::hint::black_box(0.0) / core::hint::black_box(0.0);
         let numbers = [
             -0.0,

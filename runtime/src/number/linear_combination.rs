@@ -1,7 +1,7 @@
-//! The linear combinations that generated code is made of.
+//! The linear combinations in generated code.
 //!
-//! Nothing is allocated. Vectors of different dimension, which only a system that resized a result can bring
-//! here, are combined up to the shortest one; the integrator then reports
+//! Nothing is allocated. Vectors of different dimension are combined up to the length of the shortest one. Only a system that resizes a
+//! result can bring them here; the integrator then returns
 //! [`Error::EvaluationDimension`](crate::Error::EvaluationDimension).
 
 use core::mem;
@@ -19,14 +19,14 @@ pub fn weights<T: Scalar, const N: usize>(h: f64, coefficients: [Coefficient; N]
     array(T::zero(), |j| T::weight(h, coefficients[j]))
 }
 
-/// Coefficients as they are: the factors of increments.
+/// The coefficients themselves: the factors of increments.
 #[inline(always)]
 pub fn factors<T: Scalar, const N: usize>(coefficients: [Coefficient; N]) -> [T; N] {
     array(T::zero(), |j| T::from_coefficient(coefficients[j]))
 }
 
-/// The factors of evaluations in sweeps: coefficients of increments as they are where sums are [compensated](Summation::COMPENSATED),
-/// for evaluations become [increments](increment) there; else times the weights that would make them such.
+/// The factors of evaluations in sweeps. With [compensated](Summation::COMPENSATED) sums these are the coefficients of increments,
+/// because evaluations become [increments](increment) there. With plain sums they are multiplied by the weights of the increments.
 #[inline(always)]
 pub fn relative<R: Summation, T: Scalar, const N: usize>(
     coefficients: [Coefficient; N],
@@ -41,7 +41,7 @@ pub fn relative<R: Summation, T: Scalar, const N: usize>(
 
 /// `out = base + Σ_j factors_j terms_j`, for a base that is the sum of `base` and `low`.
 ///
-/// The terms are summed before they meet the base, which is usually larger.
+/// The terms are summed before the base is added, because the base is usually larger.
 ///
 /// ```
 /// use symplectic::nalgebra::Vector2;
@@ -71,7 +71,7 @@ pub fn combine<R: Summation, V: Vector, const N: usize>(
     }
 }
 
-/// `vector = (h coefficient) vector`: an evaluation becomes an increment.
+/// `vector = (h coefficient) vector`: turns an evaluation into an increment.
 #[inline(always)]
 pub fn scale<V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
     let factor = V::Scalar::weight(h, coefficient);
@@ -80,7 +80,7 @@ pub fn scale<V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
     }
 }
 
-/// [`scale`] of an evaluation in a sweep, where sums are [compensated](Summation::COMPENSATED): see [`relative`].
+/// [`scale`] of an evaluation in a sweep with [compensated](Summation::COMPENSATED) sums: see [`relative`].
 #[inline(always)]
 pub fn increment<R: Summation, V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
     if R::COMPENSATED {
@@ -88,8 +88,7 @@ pub fn increment<R: Summation, V: Vector>(vector: &mut V, h: f64, coefficient: C
     }
 }
 
-/// The result of a step from its increments: `base + low + Σ_j increments_j`, rounded to `out`, with what that leaves
-/// out in `out_low`.
+/// The result of a step from its increments: `base + low + Σ_j increments_j`, rounded to `out`, with the round-off in `out_low`.
 ///
 /// ```
 /// use symplectic::nalgebra::Vector1;
@@ -114,7 +113,7 @@ pub fn total<R: Summation, V: Vector, const N: usize>(
     totals::<R, V, N>((out, out_low), (base, low), n, |i, j| terms[j][i]);
 }
 
-/// [`total`] of evaluations that are no increments yet: `base + low + Σ_j factors_j terms_j`.
+/// [`total`] of evaluations instead of increments: `base + low + Σ_j factors_j terms_j`.
 #[inline(always)]
 pub fn weighted_total<R: Summation, V: Vector, const N: usize>(
     out: &mut V,
@@ -131,8 +130,7 @@ pub fn weighted_total<R: Summation, V: Vector, const N: usize>(
     });
 }
 
-/// A drift or a kick, in place: `out + low + (h coefficient) evaluation`, rounded to `out`, with what that leaves out in
-/// `out_low`.
+/// A drift or a kick, in place: `out + low + (h coefficient) evaluation`, rounded to `out`, with the round-off in `out_low`.
 #[inline(always)]
 pub fn advance<R: Summation, V: Vector>(
     out: &mut V,
@@ -151,8 +149,8 @@ pub fn advance<R: Summation, V: Vector>(
 }
 
 /// `out + low + factor terms`, component by component.
-// The compiler knows of slices that are arguments that they are apart; of what vectors point to it does not, and looks at it
-// before every loop. Without optimisation every copy of it would have its own place in the stack, and long splittings have hundreds.
+// The compiler knows that slices passed as arguments do not overlap. For the memory that vectors point to it has to check before every
+// loop. Without optimisation every inlined copy would have its own place in the stack, and long splittings have hundreds.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn add_products<R: Summation, V: Vector>(
     out: &mut [V::Scalar],
@@ -174,8 +172,8 @@ fn add_products<R: Summation, V: Vector>(
             V::Scalar::doubles(terms),
         )
     {
-        // Loops over few components, as many as are known while compiling, are written out; which of them the compiler would put
-        // side by side by itself goes with what is around them.
+        // Loops over few components whose number is known at compile time are written out. Whether the compiler vectorises them by itself
+        // would depend on the code around them.
         let (out, low, terms) = add_rows(out, low, factor, terms);
         add_one_by_one(out, low, factor, terms);
     } else {
@@ -183,7 +181,7 @@ fn add_products<R: Summation, V: Vector>(
     }
 }
 
-/// `out + low + factor terms` with compensated sums, four components side by side; returns those that are left.
+/// `out + low + factor terms` with compensated sums, four components side by side; returns the remaining components.
 #[inline(always)]
 fn add_rows<'a>(
     out: &'a mut [f64],
@@ -215,7 +213,7 @@ fn add_one_by_one<T: Scalar>(out: &mut [T], low: &mut [T], factor: T, terms: &[T
     }
 }
 
-/// Kicks one after the other, and a drift of unit masses, component by component: the same bits as by one [`advance`] each.
+/// Several kicks in sequence and a drift with unit masses, component by component, with the same bits as one [`advance`] each.
 #[inline(always)]
 pub(crate) fn kick_and_drift<V: Vector>(
     q: &mut V,
@@ -238,7 +236,7 @@ pub(crate) fn kick_and_drift<V: Vector>(
     }
 }
 
-/// [`kick_and_drift`] of slices, which are known to be apart.
+/// [`kick_and_drift`] of slices, which are known not to overlap.
 #[inline(always)]
 fn add_kicked<T: Scalar, const N: usize>(
     q: &mut [T],
@@ -259,8 +257,7 @@ fn add_kicked<T: Scalar, const N: usize>(
     }
 }
 
-/// `vectors_i = Σ_j matrix_ij vectors_j`, for those vectors the `indices` of which are given: starting values from the
-/// step before.
+/// `vectors_i = Σ_j matrix_ij vectors_j` for the vectors with these `indices`: starting values from the previous step.
 #[inline(always)]
 pub fn transform<V: Vector, const N: usize>(
     vectors: &mut [V],
@@ -271,7 +268,7 @@ pub fn transform<V: Vector, const N: usize>(
         return;
     };
     let mut slices = vectors.map(V::as_mut_slice);
-    // Where a time of this step is one of the step before, all entries but one are zero.
+    // If a node of this step coincides with a node of the previous step, all entries of the row except one are zero.
     let sparse = matrix.map(|row| row.contains(&0.0));
     let n = slices.iter().map(|slice| slice.len()).min().unwrap_or(0);
     for i in 0..n {
@@ -291,7 +288,7 @@ pub fn transform<V: Vector, const N: usize>(
     }
 }
 
-/// Copies one vector to another, component by component: `clone_from` of a dynamic vector may allocate.
+/// Copies one vector to another, component by component, because `clone_from` of a dynamic vector may allocate.
 #[inline(always)]
 pub fn copy<V: Vector>(out: &mut V, from: &V) {
     let (out, from) = (out.as_mut_slice(), from.as_slice());
@@ -319,7 +316,7 @@ pub(crate) fn shortest<V: Vector, const N: usize>(vectors: [&V; N]) -> usize {
     shortest
 }
 
-/// The first `n` components of each.
+/// The first `n` components of each vector.
 #[inline(always)]
 pub(crate) fn starts<V: Vector, const N: usize>(vectors: [&V; N], n: usize) -> [&[V::Scalar]; N] {
     array(&[][..], |j| &vectors[j].as_slice()[..n])
@@ -339,8 +336,8 @@ pub(crate) fn value<R: Summation, T: Scalar, const N: usize>(
     base + sum_of_products(R::COMPENSATED.then_some(low), N, |j| (factors[j], term(j)))
 }
 
-/// The sum of so many products, at least one, and of what it may start with: those with even and those with odd numbers apart, for
-/// additions that need not wait for one another.
+/// The sum of `count` products, at least one, and of an optional start. Products with even and with odd indices are summed separately, so
+/// that additions need not wait for one another.
 #[inline(always)]
 pub(crate) fn sum_of_products<T: Scalar>(
     start: Option<T>,
@@ -351,7 +348,7 @@ pub(crate) fn sum_of_products<T: Scalar>(
         let (x, y) = factors(j);
         match sum {
             Some(sum) => x.fused(y, sum),
-            // Not from zero: 0 + x is an addition that the compiler has to keep.
+            // Does not start from zero: the compiler has to keep the addition 0 + x.
             None => x * y,
         }
     };

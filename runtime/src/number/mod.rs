@@ -1,4 +1,4 @@
-//! What is computed with: scalars, vectors, SIMD lanes, sums and linear combinations.
+//! Numbers: scalars, vectors, SIMD lanes, sums and linear combinations.
 
 pub(crate) mod array;
 pub(crate) mod coefficient;

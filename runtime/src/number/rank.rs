@@ -6,38 +6,38 @@ use core::ops::Range;
 
 use num_traits::Float;
 
-/// A sum, with the size of its terms.
+/// A sum and the size of its terms.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sum {
     value: f64,
     size: f64,
 }
 
-/// A system of linear equations, of any shape and rank, that is eliminated with complete pivoting.
+/// A system of linear equations, of any shape and rank, eliminated with complete pivoting.
 ///
-/// Each coefficient carries the size of the terms that it is the sum of. Where it is no larger than their rounding errors it counts as zero,
+/// Each coefficient carries the size of the terms of its sum. A coefficient that is no larger than their rounding errors counts as zero,
 /// so the rank depends neither on the units of the unknowns nor on those of the equations.
 #[derive(Clone, Debug)]
 pub(crate) struct RankElimination {
     columns: usize,
-    /// By rows; the right-hand side in the last column.
+    /// By rows; the last column is the right-hand side.
     entries: Vec<Sum>,
     /// The pivots in the order of their elimination.
     pivots: Vec<(usize, usize)>,
     row_has_pivot: Vec<bool>,
     column_has_pivot: Vec<bool>,
-    /// The largest coefficients of rows and columns, for the choice of pivots.
+    /// The largest coefficients of rows and columns, used to choose pivots.
     row_scales: Vec<f64>,
     column_scales: Vec<f64>,
     solution: Vec<f64>,
 }
 
-/// What is left of an equation that depends on others.
+/// The residual of an equation that depends on others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rest {
     pub(crate) row: usize,
     pub(crate) value: f64,
-    /// The size of its terms.
+    /// The size of the terms of the residual.
     pub(crate) size: f64,
 }
 
@@ -56,7 +56,7 @@ impl RankElimination {
         }
     }
 
-    /// Begins anew with zeros.
+    /// Sets all coefficients to zero and forgets the pivots.
     pub(crate) fn clear(&mut self) {
         self.entries.fill(Sum::default());
         self.pivots.clear();
@@ -73,7 +73,7 @@ impl RankElimination {
         entry.size += Float::abs(term);
     }
 
-    /// Adds a term to the right-hand side, itself a sum with terms of this size.
+    /// Adds a term to the right-hand side, where the term is itself a sum with terms of this size.
     #[inline]
     pub(crate) fn add_right(&mut self, row: usize, term: f64, size: f64) {
         let place = self.place(row, self.columns);
@@ -92,7 +92,7 @@ impl RankElimination {
         self.entries.iter().all(|entry| entry.value.is_finite())
     }
 
-    /// Eliminates unknowns of `columns` by equations of `rows`, until what is left of these coefficients is zero up to rounding.
+    /// Eliminates unknowns of `columns` by equations of `rows`, until the remaining coefficients are zero up to rounding.
     pub(crate) fn eliminate(&mut self, rows: Range<usize>, columns: Range<usize>) {
         self.scale(rows.clone(), columns.clone());
         while let Some((row, column)) = self.pivot(rows.clone(), columns.clone()) {
@@ -112,7 +112,7 @@ impl RankElimination {
         self.column_has_pivot[column]
     }
 
-    /// What is left of the equations that have eliminated no unknown.
+    /// The residuals of the equations without a pivot.
     pub(crate) fn rests(&self) -> impl Iterator<Item = Rest> {
         let rows = self.row_has_pivot.iter().enumerate();
         rows.filter(|&(_, &has_pivot)| !has_pivot).map(|(row, _)| {
@@ -127,7 +127,7 @@ impl RankElimination {
         self.substitute(1.0)
     }
 
-    /// The solution of the homogeneous equations in which the unknown `free` is 1 and others without a pivot are zero.
+    /// The solution of the homogeneous equations in which the unknown `free` is 1 and all other unknowns without a pivot are zero.
     pub(crate) fn null_vector(&mut self, free: usize) -> &[f64] {
         self.solution.fill(0.0);
         self.solution[free] = 1.0;
@@ -147,7 +147,7 @@ impl RankElimination {
         &self.solution
     }
 
-    /// Scales such that the largest coefficient of each row is 1, and then that of each column.
+    /// Computes scales such that the largest coefficient of each row is 1, and then that of each column.
     fn scale(&mut self, rows: Range<usize>, columns: Range<usize>) {
         self.column_scales.fill(0.0);
         for row in rows.clone() {
@@ -166,7 +166,7 @@ impl RankElimination {
         }
     }
 
-    /// The largest scaled coefficient that is more than rounding errors.
+    /// The largest scaled coefficient that exceeds the rounding errors.
     fn pivot(&self, rows: Range<usize>, columns: Range<usize>) -> Option<(usize, usize)> {
         let noise = 16.0 * f64::EPSILON * self.row_has_pivot.len() as f64;
         let (mut best, mut largest) = (None, 0.0);
@@ -186,7 +186,7 @@ impl RankElimination {
         best
     }
 
-    /// Subtracts a multiple of a row from another one, such that it has no coefficient in a column.
+    /// Subtracts a multiple of a row from another row, so that the other row has no coefficient in the column.
     fn subtract(&mut self, row: usize, column: usize, other: usize) {
         let width = self.columns + 1;
         let factor = self.entries[self.place(other, column)].value
@@ -233,7 +233,7 @@ mod tests {
         assert_eq!(system.rests().count(), 0);
     }
 
-    /// Units of 10¹² and 10⁻¹² change neither the rank nor what is left.
+    /// Units of 10¹² and 10⁻¹² change neither the rank nor the residuals.
     #[test]
     fn the_rank_does_not_depend_on_units() {
         let base = [[0.1, 0.7, 0.3], [0.2, 0.5, 0.9], [0.3, 1.2, 1.2]];
@@ -265,7 +265,7 @@ mod tests {
         }
     }
 
-    /// An unknown that the second block of equations determines, once the first has eliminated the others.
+    /// An unknown that the second block of equations determines after the first has eliminated the others.
     #[test]
     fn blocks_are_eliminated_in_turn() {
         let rows: [&[f64]; 2] = [&[2.0, 1.0, 1.0], &[1.0, 1.0, 1.0]];
@@ -274,7 +274,7 @@ mod tests {
         system.eliminate(0..2, 0..1);
         assert!(system.has_pivot(0) && system.has_pivot(1) != system.has_pivot(2));
         assert_eq!(system.solve()[0], 1.0);
-        // The other way round the first unknown is found, and not that it is unique.
+        // In the other order the first unknown is found, but not that it is unique.
         let mut system = equations(&[&[1.0, 1.0]], &[3.0]);
         system.eliminate(0..1, 1..2);
         system.eliminate(0..1, 0..1);

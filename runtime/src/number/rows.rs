@@ -1,44 +1,44 @@
-//! Long vectors, row by row: the lanes run along the components.
+//! Long vectors by rows: the lanes run along the components.
 
 use num_traits::Zero;
 
 use crate::number::array::array;
 use crate::number::{F64x4, F64x8, Lanes, Scalar};
 
-/// Components side by side.
+/// Several components side by side.
 pub(crate) trait Row<T: Scalar> {
-    /// Them as they are in memory.
+    /// A row in memory.
     type Array;
-    /// Them as one number.
+    /// A row as one number.
     type Numbers: Scalar;
 
-    /// How many.
+    /// Number of components of a row.
     const WIDTH: usize;
 
-    /// How many components of a vector there are before those from which on rows lie well in memory.
+    /// Number of components before the first one at which a row is aligned in memory.
     fn misaligned(vector: &[T]) -> usize;
 
-    /// The rows of a vector, and what does not fill one.
+    /// The rows of a vector, and the components that do not fill a row.
     fn rows(vector: &[T]) -> (&[Self::Array], &[T]);
-    /// [`rows`](Self::rows), to be written.
+    /// Mutable [`rows`](Self::rows).
     fn rows_mut(vector: &mut [T]) -> (&mut [Self::Array], &mut [T]);
 
-    /// A row out of memory.
+    /// Loads a row from memory.
     fn load(row: &Self::Array) -> Self::Numbers;
-    /// A row for memory.
+    /// Converts a row for storage in memory.
     fn store(numbers: Self::Numbers) -> Self::Array;
-    /// The same number everywhere.
+    /// The same number in every component.
     fn splat(number: T) -> Self::Numbers;
 
-    /// The last one.
+    /// The last component.
     fn last(numbers: Self::Numbers) -> T;
-    /// The right neighbour of each in two rows that follow each other.
+    /// The right neighbour of each component, from two successive rows.
     fn right(numbers: Self::Numbers, next: Self::Numbers) -> Self::Numbers;
-    /// The left neighbour of each in two rows that follow each other.
+    /// The left neighbour of each component, from two successive rows.
     fn left(previous: Self::Numbers, numbers: Self::Numbers) -> Self::Numbers;
 }
 
-/// One by one.
+/// Rows of one component.
 pub(crate) struct Single;
 
 impl<T: Scalar> Row<T> for Single {
@@ -169,7 +169,7 @@ row! {
     Eight, F64x8, 8
 }
 
-/// Factors as rows.
+/// Each factor as a row of equal components.
 #[inline(always)]
 pub(crate) fn splats<T: Scalar, R: Row<T>, const N: usize>(factors: [T; N]) -> [R::Numbers; N] {
     array(R::Numbers::zero(), |i| R::splat(factors[i]))

@@ -1,4 +1,4 @@
-//! The numbers that a system computes with.
+//! The numbers of a system.
 
 use core::ops::Neg;
 
@@ -9,15 +9,15 @@ use crate::number::Coefficient;
 use crate::number::array::array;
 use crate::number::words::{Visit, words};
 
-/// A real number, or something that behaves like one: f32, f64, a dual number, a few numbers side by side.
+/// A real number, or a type that behaves like one: f32, f64, a dual number, SIMD lanes.
 ///
 /// A system written for every `T: Scalar` runs on all of them without a change. The operators come from the
-/// supertraits, which are also what nalgebra asks for `q + p`, `q * s`, `-q` and `q.dot(&p)`. There is no order
-/// among scalars, for side by side numbers have none: code that is generic over them cannot branch on a value.
+/// supertraits, which nalgebra also requires for `q + p`, `q * s`, `-q` and `q.dot(&p)`. Scalars have no order, since
+/// SIMD lanes have none: code that is generic over scalars cannot branch on a value.
 ///
-/// Sine, cosine, exponential function and logarithm of doubles are made of the same operations on every platform and in
-/// [lanes](crate::simd::Lanes), with an error below one unit in the last place; they are not to the last bit those of `f64`, which are
-/// the platform's. `Scalar::sin(x)` names them where `x` is known to be an f64.
+/// Sine, cosine, exponential function and logarithm of doubles use the same operations on every platform and in
+/// [lanes](crate::simd::Lanes); their error is below one unit in the last place. They may differ in the last bit from those of `f64`, which
+/// depend on the platform. `Scalar::sin(x)` calls them where `x` is known to be an f64.
 ///
 /// ```
 /// use symplectic::Scalar;
@@ -46,16 +46,16 @@ pub trait Scalar:
     /// Distance from 1 to the next larger number: 2⁻⁵² for f64, 2⁻²³ for f32.
     const EPSILON: f64;
 
-    /// Whether it is f64: coupled stages can then be side by side in lanes.
+    /// Whether the scalar is f64, so that coupled stages can be computed side by side in lanes.
     #[doc(hidden)]
     const IS_DOUBLE: bool = false;
 
-    /// The scalar nearest to `value`; a constant, that is with all derivatives zero and all lanes equal.
+    /// The scalar nearest to `value`, as a constant: all derivatives are zero and all lanes equal.
     fn from_f64(value: f64) -> Self;
 
-    /// The scalar nearest to a coefficient of a method, a constant as above: its double, and the single of an f32.
+    /// The scalar nearest to a coefficient of a method, as a constant: its nearest double, or its nearest single for f32.
     ///
-    /// A scalar with more digits than a double takes [`Coefficient::low`] too, here and in [`weight`](Self::weight).
+    /// A scalar with more digits than a double also uses [`Coefficient::low`], here and in [`weight`](Self::weight).
     ///
     /// ```
     /// use symplectic::Scalar;
@@ -71,29 +71,29 @@ pub trait Scalar:
         Self::from_f64(coefficient.double())
     }
 
-    /// `step_size` times a coefficient of a method, a constant as above: the factor of an evaluation in a stage.
+    /// `step_size` times a coefficient of a method, as a constant: the factor of an evaluation in a stage.
     ///
-    /// The product is made in double precision, as the step size is, and rounded to the scalar last. For an f32 it is
-    /// then within 2⁻²⁴ of the exact one, as close as can be; from the coefficient as an f32 it would be within twice
-    /// that, always the same way: a Kepler orbit of 20 000 steps of Gauss with five stages has twice the energy error.
+    /// The product is computed in double precision, as the step size is, and rounded to the scalar last. For f32 it is
+    /// then within 2⁻²⁴ of the exact product, the smallest possible error. Computed from the coefficient as an f32 it would be within twice
+    /// that, always with the same sign: a Kepler orbit of 20 000 steps of Gauss with five stages then has twice the energy error.
     #[inline]
     fn weight(step_size: f64, coefficient: Coefficient) -> Self {
         Self::from_f64(step_size * coefficient.double())
     }
 
     /// The largest absolute value among the parts: |x| for a float, the largest over value and derivatives for a
-    /// dual number, the largest over the lanes for side by side numbers.
+    /// dual number, the largest over the lanes for SIMD lanes.
     ///
-    /// NaN if any part is NaN, even where another is larger: the solver and the checks for finiteness rest on it.
+    /// NaN if any part is NaN, even if another part is larger: the solver and the checks for finiteness rely on it.
     fn magnitude(self) -> f64;
 
-    /// Whether all parts are finite. The result of a step is looked at by its [magnitude](Self::magnitude) alone.
+    /// Whether all parts are finite. The result of a step is checked by its [magnitude](Self::magnitude) alone.
     #[inline]
     fn is_finite(self) -> bool {
         self.magnitude().is_finite()
     }
 
-    /// `self·factor + term`, what sums of products are made of: rounded twice, or once with the feature `fma`.
+    /// `self·factor + term`, the building block of sums of products: rounded twice, or once with the feature `fma`.
     ///
     /// ```
     /// use symplectic::Scalar;
@@ -108,22 +108,22 @@ pub trait Scalar:
         self * factor + term
     }
 
-    /// Its name in checkpoints; `None` where it cannot be saved.
+    /// Name of the type in checkpoints; `None` if it cannot be saved.
     #[doc(hidden)]
     const SAVED_AS: Option<&'static str> = None;
 
-    /// Its [words](crate::number::Words), where it can be [saved](Self::SAVED_AS).
+    /// The [words](crate::number::Words) of the scalar, if it can be [saved](Self::SAVED_AS).
     #[doc(hidden)]
     fn as_words(&mut self, _visit: &mut Visit<'_>) {}
 
-    /// The numbers, where they are doubles: those have rows, see [`Chain`](crate::emitted::Chain).
+    /// The numbers as doubles if they are doubles; doubles have rows, see [`Chain`](crate::emitted::Chain).
     #[doc(hidden)]
     #[inline(always)]
     fn doubles(_numbers: &[Self]) -> Option<&[f64]> {
         None
     }
 
-    /// [`doubles`](Self::doubles), to be written.
+    /// Mutable [`doubles`](Self::doubles).
     #[doc(hidden)]
     #[inline(always)]
     fn doubles_mut(_numbers: &mut [Self]) -> Option<&mut [f64]> {
@@ -134,7 +134,7 @@ pub trait Scalar:
     fn sqrt(self) -> Self;
     /// 1/x.
     fn recip(self) -> Self;
-    /// xⁿ, by squaring: the same products in the same order whatever the scalar.
+    /// xⁿ by repeated squaring: the same products in the same order for every scalar.
     #[inline]
     fn powi(self, exponent: i32) -> Self {
         let (mut rest, mut square) = (exponent.unsigned_abs(), self);
@@ -150,7 +150,7 @@ pub trait Scalar:
         }
         if exponent < 0 { power.recip() } else { power }
     }
-    /// |x|, whose derivative is the sign of x.
+    /// |x|; its derivative is the sign of x.
     fn abs(self) -> Self;
     /// 1 with the sign of x, the derivative of |x|.
     #[doc(hidden)]
@@ -176,7 +176,7 @@ pub trait Scalar:
     fn atan(self) -> Self;
     /// The angle of the point `(x, self)` in radians, from −π to π.
     ///
-    /// Unless a scalar has its own, it is `2 atan(y/(√(x² + y²) + x))`, which loses digits near the negative half of the x axis.
+    /// The default is `2 atan(y/(√(x² + y²) + x))`, which loses digits near the negative half of the x axis.
     #[inline]
     fn atan2(self, x: Self) -> Self {
         let angle = (self / ((self * self + x * x).sqrt() + x)).atan();
@@ -195,8 +195,8 @@ pub trait Scalar:
         (self.sin(), self.cos())
     }
 
-    /// Sines and cosines of several angles, each with the bits of [`sin_cos`](Self::sin_cos): for doubles and lanes faster than one after
-    /// the other, if they do not need one another. What is not used is not computed.
+    /// Sines and cosines of several angles, each with the bits of [`sin_cos`](Self::sin_cos). For independent angles of doubles and lanes
+    /// this is faster than one call after the other. Unused results are not computed.
     ///
     /// ```
     /// use symplectic::Scalar;

@@ -13,26 +13,25 @@ mod sealed {
 
 /// How a step adds its increments to the state: [`Compensated`] or [`Plain`]. Sealed.
 pub trait Summation: sealed::Sealed + Copy + Default + 'static {
-    /// Whether the state carries what the sums leave out.
+    /// Whether the state carries the round-off of its sums.
     const COMPENSATED: bool;
 
-    /// Whether stages that are solved for are moved twice as far as these sums would.
+    /// Whether stages of an iteration are moved twice as far as by these sums.
     #[doc(hidden)]
     const BEYOND: bool = false;
 }
 
-/// The state is carried as an unevaluated sum of two numbers, and increments are added in this precision.
+/// Compensated sums: the state is an unevaluated sum of two numbers, and increments are added in this precision.
 ///
-/// A rounding error of each step, relative to the state, would make the energy a random walk of that size; here it is
-/// relative to the increment of the error itself. With coefficients that are symplectic as rounded (`μ̃_ij + μ_ji = 1`)
-/// and an iteration that goes on until it stagnates, what remains is Brouwer's law, an energy error that grows like the
-/// square root of the number of steps, without a drift (Hairer, McLachlan & Razakarivony, 2008; Antoñana, Makazaga &
-/// Murua, 2017). So it is measured for Kepler, Hénon–Heiles and `(q² + 1)(p² + 1)/2`, which is not separable (`--example drift` of the
-/// tests).
+/// With plain sums each step has a rounding error relative to the state, and the energy makes a random walk of that size. Here the
+/// rounding error is relative to the increment. Two more conditions are needed: coefficients that are symplectic as rounded
+/// (`μ̃_ij + μ_ji = 1`) and an iteration that goes on until it stagnates. What remains is Brouwer's law, an energy error that grows like
+/// the square root of the number of steps, without a drift (Hairer, McLachlan & Razakarivony, 2008; Antoñana, Makazaga & Murua, 2017). This
+/// is measured for Kepler, Hénon–Heiles and `(q² + 1)(p² + 1)/2`, which is not separable (`--example drift` of the tests).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Compensated;
 
-/// Plain sums: faster, and the rounding errors of the state add up from step to step. Iterations of coupled stages end as
+/// Plain sums: faster, but the rounding errors of the state add up from step to step. The iteration of coupled stages ends as
 /// soon as the change is down to rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Plain;
@@ -45,7 +44,7 @@ impl Summation for Plain {
     const COMPENSATED: bool = false;
 }
 
-/// `R`, of a sweep that moves stages twice as far: where it converges fast, to about the mirror image of where they were.
+/// The sums of `R` in an over-relaxed sweep, which moves stages twice as far. Where the sweep converges fast, it about mirrors the stages.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Overrelaxed<R>(PhantomData<R>);
 
@@ -55,7 +54,7 @@ impl<R: Summation> Summation for Overrelaxed<R> {
     const BEYOND: bool = true;
 }
 
-/// Where a stage goes that was `old` and would be `new`.
+/// The updated value of a stage, over-relaxed if `beyond`.
 #[inline(always)]
 pub(crate) fn moved<T: Scalar>(beyond: bool, old: T, new: T) -> T {
     match beyond {
@@ -64,7 +63,7 @@ pub(crate) fn moved<T: Scalar>(beyond: bool, old: T, new: T) -> T {
     }
 }
 
-/// The rounded sum, and what rounding left out of it (Knuth).
+/// The rounded sum and its round-off (Knuth).
 #[inline(always)]
 pub(crate) fn two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     let sum = a + b;
@@ -72,14 +71,14 @@ pub(crate) fn two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// [`two_sum`] where `a` is not smaller than `b`, or is zero (Dekker).
+/// [`two_sum`] if `a` is at least as large as `b`, or is zero (Dekker).
 #[inline(always)]
 pub(crate) fn fast_two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     let sum = a + b;
     (sum, b - (sum - a))
 }
 
-/// `base + low + Σ_j term(j)`, of so many terms, as the nearest number and the rest.
+/// `base + low + Σ_j term(j)` over `count` terms, as the nearest number and the rest.
 #[inline(always)]
 pub(crate) fn add<R: Summation, T: Scalar>(
     base: T,
@@ -109,10 +108,10 @@ pub(crate) fn add_sum<T: Scalar>(base: T, low: T, sum: Sum<T>) -> (T, T) {
     fast_two_sum(high, rest + error)
 }
 
-/// A sum, and what it leaves out, if anything.
+/// A sum, and its round-off if it is known.
 pub(crate) type Sum<T> = (T, Option<T>);
 
-/// The sum of the first eight terms, at least one: pairs, and pairs of them, for additions that need not wait for one another.
+/// The sum of the first eight terms, at least one: by pairs, and pairs of pairs, so that additions need not wait for one another.
 #[inline(always)]
 fn eight<R: Summation, T: Scalar>(count: usize, term: &impl Fn(usize) -> T) -> Sum<T> {
     let second = if 1 < count {
@@ -177,7 +176,7 @@ mod tests {
         for (a, b) in [(1.0, 1e-20), (1e-20, 1.0), (0.1, 0.2), (-3.0, 3.0 + 1e-15)] {
             let (sum, rest) = two_sum(a, b);
             assert_eq!(sum, a + b);
-            // What is left out is below half a unit in the last place, and adds nothing.
+            // The round-off is below half a unit in the last place, so adding it changes nothing.
             assert_eq!(sum + rest, sum);
         }
         assert_eq!(two_sum(1.0, 1e-20), (1.0, 1e-20));

@@ -1,4 +1,4 @@
-//! The vectors that positions and momenta are.
+//! The vectors of positions and momenta.
 
 use core::any::Any;
 use core::fmt::Debug;
@@ -9,14 +9,13 @@ use nalgebra::SMatrix;
 use crate::error::Error;
 use crate::number::Scalar;
 
-/// Bytes of a vector that is moved out of the memory of the integrator: it may be in registers then.
+/// Largest size in bytes of a vector that is moved out of the memory of the integrator, where it may be in registers.
 pub(crate) const SHORT: usize = 1 << 8;
 
-/// Bytes of a memory that may be moved for some steps, or for one that is taken with more care.
+/// Largest size in bytes of a memory that may be moved for several steps, or for one step that is repeated with more care.
 pub(crate) const LIGHT: usize = 1 << 14;
 
-/// Whether all components of a vector, and nothing else, are in the vector itself: what is left where it is moved out is then as
-/// long as it was.
+/// Whether a vector holds its components, and nothing else, in place. Moving the vector out then leaves one of the same length.
 #[inline(always)]
 pub(crate) fn is_in_place<V: Vector>(vector: &V) -> bool {
     !mem::needs_drop::<V>() && vector.dimension() * size_of::<V::Scalar>() == size_of::<V>()
@@ -25,7 +24,7 @@ pub(crate) fn is_in_place<V: Vector>(vector: &V) -> bool {
 /// A position, a momentum or one of their derivatives: components of one [`Scalar`] type, contiguous in memory.
 ///
 /// Implemented by [`nalgebra::SVector`] and [`nalgebra::SMatrix`] (static dimension, nothing on the heap; the columns of a matrix are
-/// bodies in space) and, with the feature `alloc`, by [`nalgebra::DVector`] (dimension known at run time).
+/// bodies in space). With the feature `alloc` also implemented by [`nalgebra::DVector`] (dimension known at run time).
 ///
 /// ```
 /// use symplectic::Vector;
@@ -44,16 +43,16 @@ pub trait Vector: Clone + Debug + PartialEq + 'static {
     fn dimension(&self) -> usize;
     /// The components.
     fn as_slice(&self) -> &[Self::Scalar];
-    /// The components, to be written.
+    /// The components, mutable.
     fn as_mut_slice(&mut self) -> &mut [Self::Scalar];
     /// The vector with these components.
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] where a vector of this type has another dimension.
+    /// [`Error::Length`] if a vector of this type has another dimension.
     fn from_slice(components: &[Self::Scalar]) -> Result<Self, Error>;
-    /// A vector without components, or the zero vector where their number is fixed: what is left where a vector is moved
-    /// out. No memory is allocated.
+    /// A vector without components, or the zero vector if their number is fixed: the value that is left where a vector is moved
+    /// out. Allocates no memory.
     fn blank() -> Self;
     /// The zero vector of the same dimension.
     fn zeros_like(&self) -> Self;
@@ -61,13 +60,13 @@ pub trait Vector: Clone + Debug + PartialEq + 'static {
     fn zeros_with<T: Scalar>(&self) -> Self::With<T>;
 }
 
-/// A vector as one of another type, if that is the same type.
+/// The vector as a vector of type `W`, if `V` is the same type.
 #[inline(always)]
 pub(crate) fn same<V: Vector, W: Vector>(vector: &V) -> Option<&W> {
     (vector as &dyn Any).downcast_ref()
 }
 
-/// [`same`], to be written.
+/// Mutable [`same`].
 #[inline(always)]
 pub(crate) fn same_mut<V: Vector, W: Vector>(vector: &mut V) -> Option<&mut W> {
     (vector as &mut dyn Any).downcast_mut()

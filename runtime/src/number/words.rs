@@ -2,16 +2,16 @@
 
 use crate::number::{Scalar, Vector};
 
-/// What is shown words one after another: it writes them down, or puts others in their place.
+/// A visitor of words: it writes each word down, or replaces it by another.
 pub type Visit<'a> = dyn FnMut(&mut u64) + 'a;
 
-/// What consists of words of 64 bits: numbers, flags, and lists of them.
+/// A value that consists of words of 64 bits: numbers, flags, and lists of them.
 pub trait Words {
-    /// Shows `visit` every word, in an order that depends on nothing but the type and the lengths of lists.
+    /// Shows `visit` every word, in an order that depends only on the type and the lengths of lists.
     fn words(&mut self, visit: &mut Visit<'_>);
 }
 
-/// The words of some values, one after another.
+/// Visits the words of several values, one after another.
 macro_rules! words {
     ($visit:ident: $($value:expr),+ $(,)?) => {
         $( $crate::number::Words::words(&mut $value, $visit); )+
@@ -75,14 +75,14 @@ impl<T: Words + Default> Words for Option<T> {
     }
 }
 
-/// The words of scalars.
+/// Visits the words of scalars.
 pub fn scalar_words<T: Scalar>(scalars: &mut [T], visit: &mut Visit<'_>) {
     for scalar in scalars {
         scalar.as_words(visit);
     }
 }
 
-/// The words of vectors.
+/// Visits the words of vectors.
 pub fn vector_words<V: Vector>(vectors: &mut [V], visit: &mut Visit<'_>) {
     for vector in vectors {
         scalar_words(vector.as_mut_slice(), visit);

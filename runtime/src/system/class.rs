@@ -1,4 +1,4 @@
-//! The kinds of Hamiltonian that a method has a plan for.
+//! The classes of Hamiltonians for which a method has a plan.
 
 #[cfg(feature = "alloc")]
 use core::marker::PhantomData;
@@ -21,20 +21,20 @@ mod sealed {
 /// What the derivatives of a [`Hamiltonian`](crate::Hamiltonian) depend on: [`General`] or [`Separable`]; with linear
 /// friction [`Damped`], with holonomic constraints [`Constrained`], with non-holonomic ones [`Nonholonomic`].
 ///
-/// It picks the [`Plan`] of a [`Method`], while compiling. Sealed.
+/// It selects the [`Plan`] of a [`Method`] at compile time. Sealed.
 pub trait Class: sealed::Sealed + Sized + 'static {
     /// The plan of the method `M` for systems of this class.
     type Plan<M: Method>: Plan<Class = Self>;
     /// Whether the velocity depends on the momentum only, and the force on the position only.
     const SEPARABLE: bool;
-    /// Whether there is a friction that is no part of the force.
+    /// Whether there is friction that is not part of the force.
     #[doc(hidden)]
     const FRICTION: bool = false;
 }
 
-/// A class without constraints: [`General`], [`Separable`] or [`Damped`]. Every method that is proved for general Hamiltonians is proved for it.
+/// A class without constraints: [`General`], [`Separable`] or [`Damped`]. A method with a proof for general Hamiltonians has one for it.
 ///
-/// Code that is generic over the system and takes one such method says `S::Class: Unconstrained`.
+/// Code that is generic over the system and uses such a method requires `S::Class: Unconstrained`.
 #[diagnostic::on_unimplemented(
     message = "this method has no steps for systems of class `{Self}`",
     label = "no steps for these constraints",
@@ -53,7 +53,7 @@ impl Unconstrained for Damped {}
 
 impl Unconstrained for () {}
 
-/// A class without non-holonomic constraints: an [`Unconstrained`] one, or [`Constrained`].
+/// A class without non-holonomic constraints: an [`Unconstrained`] class, or [`Constrained`].
 #[diagnostic::on_unimplemented(
     message = "this method has no steps for systems of class `{Self}`",
     label = "no steps for non-holonomic constraints",
@@ -62,7 +62,7 @@ impl Unconstrained for () {}
 )]
 pub trait Holonomic {}
 
-/// A class without holonomic constraints: an [`Unconstrained`] one, or [`Nonholonomic`].
+/// A class without holonomic constraints: an [`Unconstrained`] class, or [`Nonholonomic`].
 #[diagnostic::on_unimplemented(
     message = "this method has no steps for systems of class `{Self}`",
     label = "no steps for holonomic constraints",
@@ -94,7 +94,7 @@ impl Conservative for General {}
 
 impl Conservative for Separable {}
 
-/// Velocity and force may depend on position and momentum both.
+/// Both velocity and force may depend on position and momentum.
 #[derive(Clone, Copy, Debug)]
 pub struct General;
 
@@ -102,14 +102,14 @@ pub struct General;
 #[derive(Clone, Copy, Debug)]
 pub struct Separable;
 
-/// A separable Hamiltonian with linear friction: `p' = −∂H/∂q − γp`, with a rate γ for each component, in
-/// [`Hamiltonian::friction`](crate::Hamiltonian::friction); or with any force of positions and momenta whose flow at a fixed position is
-/// known, [`Hamiltonian::kick`](crate::Hamiltonian::kick).
+/// A separable Hamiltonian with linear friction: `p' = −∂H/∂q − γp`, with a rate γ for each component, given by
+/// [`Hamiltonian::friction`](crate::Hamiltonian::friction). More generally, the friction may be any force of positions and momenta whose
+/// flow at a fixed position is known, given by [`Hamiltonian::kick`](crate::Hamiltonian::kick).
 ///
-/// Splittings of which the order is proved for separable Hamiltonians step such systems, with the exact flow of the friction in
-/// every kick: the order stays, and where all γ are equal a step of size h shrinks dq∧dp and the momentum maps of symmetries of H by
-/// `e^{−γh}` exactly. Negative kicks grow by `e^{γ|τ|}`: for stiff friction take a method whose kicks are positive. For any other
-/// method [`Integrator::new`](crate::Integrator::new) does not compile; a force of any kind can be part of
+/// Splittings whose order is proved for separable Hamiltonians step such systems, with the exact flow of the friction in
+/// every kick. The order is preserved. If all γ are equal, a step of size h shrinks dq∧dp and the momentum maps of symmetries of H by
+/// `e^{−γh}` exactly. Negative kicks grow by `e^{γ|τ|}`: for stiff friction choose a method whose kicks are positive. For any other
+/// method [`Integrator::new`](crate::Integrator::new) does not compile; there any friction can be part of
 /// [`Hamiltonian::force`](crate::Hamiltonian::force) of a system of class [`General`].
 #[derive(Clone, Copy, Debug)]
 pub struct Damped;
@@ -137,8 +137,8 @@ impl Class for Separable {
 /// ```
 ///
 /// The constraints are in [`Hamiltonian::constraint_values`](crate::Hamiltonian::constraint_values). Methods that are `constrained`
-/// step such systems: Lobatto IIIA–IIIB, which with two stages is RATTLE, other pairs whose stages are at both ends of the step, and
-/// compositions of them. For any other method [`Integrator::new`](crate::Integrator::new) does not compile.
+/// step such systems: Lobatto IIIA–IIIB, which with two stages is RATTLE, other pairs with stages at both ends of the step, and
+/// compositions of these methods. For any other method [`Integrator::new`](crate::Integrator::new) does not compile.
 ///
 /// `Constrained<Damped>` does not compile: friction is part of the force of a system of class `Constrained<General>`.
 ///
@@ -173,7 +173,7 @@ impl<C: Class + Unconstrained> Class for Constrained<C> {
 /// The rows of the m×n matrix `w` are in [`Hamiltonian::nonholonomic_rows`](crate::Hamiltonian::nonholonomic_rows). Methods that are
 /// `nonholonomic` step such systems by the discrete Lagrange–d'Alembert–Pontryagin principle (Leok & Ohsawa, arXiv:0810.0740): the implicit midpoint
 /// rule, Lobatto IIIA–IIIB with two stages, other symmetric methods of order 2, compositions of one of these, and methods of order 1.
-/// A method of any other order would lose it, and [`Integrator::new`](crate::Integrator::new) does not compile:
+/// A method of any other order would lose its order, and [`Integrator::new`](crate::Integrator::new) does not compile:
 ///
 /// ```compile_fail,E0277
 /// use symplectic::nalgebra::Vector2;

@@ -1,4 +1,4 @@
-//! Systems made of closures.
+//! Systems given by closures.
 
 use core::fmt;
 use core::marker::PhantomData;
@@ -7,10 +7,10 @@ use crate::number::{Vector, copy};
 use crate::solver::FixedPoint;
 use crate::system::{General, Separable, System};
 
-/// A separable system of two closures, `|time, p, velocity| …` and `|time, q, force| …`, that write their result
+/// A separable system given by two closures, `|time, p, velocity| …` and `|time, q, force| …`, which write their result
 /// into the last argument.
 ///
-/// Name the vector, in the call or at an argument, and the rest is inferred:
+/// Name the type of the vector, in the call or at an argument; the rest is inferred:
 ///
 /// ```
 /// use symplectic::nalgebra::{Vector1, Vector2};
@@ -43,9 +43,9 @@ where
     }
 }
 
-/// A second-order system `q'' = acceleration(t, q)` of one closure, `|time, q, acceleration| …`, with `p = q'`.
+/// A second-order system `q'' = acceleration(t, q)` given by one closure, `|time, q, acceleration| …`, with `p = q'`.
 ///
-/// It is the separable system `H = |p|²/2 + U(q)` with `acceleration = −∂U/∂q`; where the acceleration is no gradient there
+/// It is the separable system `H = |p|²/2 + U(q)` with `acceleration = −∂U/∂q`. If the acceleration is not a gradient there
 /// is no Hamiltonian, and nothing is conserved.
 ///
 /// ```
@@ -72,11 +72,11 @@ where
     }
 }
 
-/// In place of the velocity of a system in which it is the momentum.
+/// Replaces the velocity of a system in which the velocity is the momentum.
 #[derive(Clone, Copy, Debug)]
 pub struct Momentum;
 
-/// A system with any Hamiltonian of two closures, `|time, q, p, velocity| …` and `|time, q, p, force| …`, that write
+/// A system with a general Hamiltonian, given by two closures, `|time, q, p, velocity| …` and `|time, q, p, force| …`, which write
 /// their result into the last argument.
 ///
 /// ```
@@ -105,7 +105,7 @@ where
     }
 }
 
-/// What [`separable`] returns.
+/// The result of [`separable`].
 #[derive(Clone, Copy)]
 pub struct SeparableClosures<V, F, G, E = NoEnergy> {
     velocity: F,
@@ -114,7 +114,7 @@ pub struct SeparableClosures<V, F, G, E = NoEnergy> {
     vector: PhantomData<fn(V)>,
 }
 
-/// What [`hamiltonian`] returns.
+/// The result of [`hamiltonian`].
 #[derive(Clone, Copy)]
 pub struct HamiltonianClosures<V, F, G, E = NoEnergy> {
     velocity: F,
@@ -123,7 +123,7 @@ pub struct HamiltonianClosures<V, F, G, E = NoEnergy> {
     vector: PhantomData<fn(V)>,
 }
 
-/// In place of the energy of a system that was given none.
+/// Replaces the energy of a system without a given energy.
 #[derive(Clone, Copy, Debug)]
 pub struct NoEnergy;
 

@@ -4,11 +4,11 @@ use alloc::vec::Vec;
 
 use crate::number::{Scalar, Visit, scalar_words};
 
-/// The gradients `G = ∂φ/∂q` of the constraints `φ(q) = 0` of a system, or the rows w of non-holonomic ones, `w(q)·q' = 0`: a sparse
-/// m×n matrix.
+/// The gradients `G = ∂φ/∂q` of the constraints `φ(q) = 0` of a system, or the rows w of non-holonomic constraints `w(q)·q' = 0`: a
+/// sparse m×n matrix.
 ///
-/// A system [`set`](Self::set)s every entry that is not zero everywhere, in the same order at every evaluation; entries that are set
-/// twice add up. Constraints and components are counted from 0.
+/// A system [`set`](Self::set)s every entry that is not identically zero, in the same order at every evaluation. Values of an entry that is
+/// set twice are added. Constraints and components are counted from 0.
 #[derive(Clone, Debug)]
 pub struct Gradients<T> {
     constraints: usize,
@@ -16,31 +16,31 @@ pub struct Gradients<T> {
     /// Constraint and component of each entry.
     places: Vec<(u32, u32)>,
     values: Vec<T>,
-    /// The number of the entry that is set next.
+    /// The index of the entry to be set next.
     next: usize,
-    /// Whether places are noted: at the first evaluation.
+    /// Whether the places of entries are being recorded, at the first evaluation.
     learning: bool,
-    /// An entry outside the matrix, or in another place than at the first evaluation, in the last one.
+    /// An entry of the last evaluation that is outside the matrix, or at another place than at the first evaluation.
     misplaced: Option<(usize, usize)>,
 }
 
-/// How large the terms of a constraint are.
+/// The size of the terms of a constraint.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Terms {
     /// The sum of the sizes of the entries of its gradient.
     gradient: f64,
-    /// The largest component of a vector where these are.
+    /// The largest component of a vector at the places of these entries.
     largest: f64,
 }
 
 impl Terms {
-    /// Gradient times vector, at most.
+    /// Upper bound of the product of gradient and vector.
     #[inline]
     pub(crate) fn size(self) -> f64 {
         self.gradient * self.largest
     }
 
-    /// A residual relative to the terms and to another number of its kind; zero where it is zero.
+    /// A residual relative to the terms and to `other`, a number in the same unit; zero if the residual is zero.
     #[inline]
     pub(crate) fn relative(self, residual: f64, other: f64) -> f64 {
         if residual == 0.0 {
@@ -51,7 +51,7 @@ impl Terms {
 }
 
 impl<T: Scalar> Gradients<T> {
-    /// An m×n matrix of gradients, with the places that `evaluate` sets.
+    /// An m×n matrix of gradients, with the places of the entries that `evaluate` sets.
     pub(crate) fn learned(
         constraints: usize,
         dimension: usize,
@@ -83,7 +83,7 @@ impl<T: Scalar> Gradients<T> {
         }
     }
 
-    /// A place that is new.
+    /// Records a new place, or notes that it is misplaced.
     #[cold]
     fn note(&mut self, constraint: usize, component: usize, value: T) {
         if !self.learning || constraint >= self.constraints || component >= self.dimension {
@@ -95,7 +95,7 @@ impl<T: Scalar> Gradients<T> {
         self.next += 1;
     }
 
-    /// Lets `evaluate` set all entries; returns whether each had its place.
+    /// Calls `evaluate` to set all entries; returns whether each entry had its place.
     #[inline]
     pub(crate) fn evaluate(&mut self, evaluate: impl FnOnce(&mut Self)) -> bool {
         self.next = 0;
@@ -104,7 +104,7 @@ impl<T: Scalar> Gradients<T> {
         self.next == self.values.len() && self.misplaced.is_none()
     }
 
-    /// The first entry that was set where there is no place for it: constraint and component.
+    /// The first misplaced entry: constraint and component.
     pub(crate) const fn misplaced(&self) -> Option<(usize, usize)> {
         self.misplaced
     }
@@ -145,7 +145,7 @@ impl<T: Scalar> Gradients<T> {
         }
     }
 
-    /// How large the terms of every constraint are: `Σ_k |g_ik|`, and the largest `size(k)` of its components.
+    /// The size of the terms of every constraint: `Σ_k |g_ik|`, and the largest `size(k)` of its components.
     pub(crate) fn sizes(&self, size: impl Fn(usize) -> f64, out: &mut [Terms]) {
         out.fill(Terms::default());
         for (constraint, component, value) in self.entries() {
@@ -155,7 +155,7 @@ impl<T: Scalar> Gradients<T> {
         }
     }
 
-    /// How large `Gᵀ factors` is, constraint by constraint, relative to the largest `size(k)` of the components of each.
+    /// The largest size of `Gᵀ factors`, constraint by constraint, relative to the largest `size(k)` of the components of each constraint.
     pub(crate) fn relative_change(
         &self,
         factors: &[T],

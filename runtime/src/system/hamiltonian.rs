@@ -1,4 +1,4 @@
-//! The systems that are integrated: a Hamiltonian, written once for every scalar.
+//! Hamiltonian systems, written once for every scalar.
 
 use crate::error::ConstraintName;
 use crate::number::{F64x2, F64x4, F64x8, Scalar, Vector};
@@ -13,22 +13,22 @@ use crate::system::{Gradients, Jacobian};
 /// ```
 ///
 /// It is written once, for every [`Scalar`]: an integrator evaluates it with doubles, with doubles side by side in SIMD lanes, and
-/// with dual numbers. A system that only doubles can evaluate implements [`System`](crate::System), and steps more slowly.
+/// with dual numbers. A system that only doubles can evaluate implements [`System`](crate::System) instead; its steps are slower.
 ///
-/// Results are written into the last argument, which has the dimension of `q` and `p` and holds some older value:
-/// every component has to be set. A result of another dimension or with a component that is not finite is an
-/// error of the step. As everywhere in code for every scalar, no value decides which way to go.
+/// Results are written into the last argument, which has the dimension of `q` and `p` and holds old values:
+/// every component has to be set. A result with another dimension, or with a component that is NaN or infinite, is an
+/// error of the step. As in all code for every scalar, no branch may depend on a value.
 ///
-/// A system whose velocity depends only on `p`, and whose force only on `q`, implements [`SeparableHamiltonian`] instead and gets
-/// this trait from it; any other says `type Class = General`. [`hamiltonian`](crate::hamiltonian()) makes a system of two closures.
+/// A system whose velocity depends only on `p`, and whose force only on `q`, implements [`SeparableHamiltonian`] instead and gets this
+/// trait from it. Any other system sets `type Class = General`. [`hamiltonian`](crate::hamiltonian()) makes a system from two closures.
 ///
 /// # Time
 ///
-/// Where H depends on time, a partitioned method reads two clocks: stage `i` asks for the *force* at
-/// `t0 + c_i h`, the time of its position `Q_i`, and for the *velocity* at `t0 + c̃_i h`, the time of its momentum
-/// `P_i`. For a separable H this is the autonomous system in which each half has got a time of its own, so the order of
-/// the method is kept. Where `c = c̃`, as MW 4.9.3 (Marsden & West, 2001) asks, there is one time only.
-/// With two clocks a step of a non-separable H is not symplectic if ∂²H/∂q∂p depends on time: take a method with `c = c̃`.
+/// If H depends on time, a partitioned method uses two times per stage: stage `i` evaluates the *force* at
+/// `t0 + c_i h`, the time of its position `Q_i`, and the *velocity* at `t0 + c̃_i h`, the time of its momentum
+/// `P_i`. For a separable H this is the autonomous system in which each half has a time variable of its own, so the method keeps its
+/// order. If `c = c̃`, as MW 4.9.3 (Marsden & West, 2001) requires, both times are the same.
+/// With two times a step of a non-separable H is not symplectic if ∂²H/∂q∂p depends on time: choose a method with `c = c̃`.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -57,11 +57,11 @@ use crate::system::{Gradients, Jacobian};
     note = "a Lagrangian that is not quadratic in the velocities is for `variational::LagrangianIntegrator`"
 )]
 pub trait Hamiltonian {
-    /// What the derivatives depend on: [`General`](crate::General) or [`Separable`].
+    /// The variables that the derivatives depend on: [`General`](crate::General) or [`Separable`].
     type Class: Class;
 
-    /// Positions and momenta over a scalar: [`SVector<T, N>`](nalgebra::SVector), or `DVector<T>` where the dimension is known at
-    /// run time only.
+    /// Positions and momenta over a scalar: [`SVector<T, N>`](nalgebra::SVector), or `DVector<T>` if the dimension is known only at
+    /// run time.
     type Vector<T: Scalar>: Vector<
             Scalar = T,
             With<F64x2> = Self::Vector<F64x2>,
@@ -84,7 +84,7 @@ pub trait Hamiltonian {
         velocity: &mut Self::Vector<T>,
     );
 
-    /// Writes −∂H/∂q at `(time, q, p)`, and what is [applied](Self::applied_force), into `force`.
+    /// Writes −∂H/∂q at `(time, q, p)`, plus the [applied force](Self::applied_force), into `force`.
     fn force<T: Scalar>(
         &self,
         time: T,
@@ -93,8 +93,8 @@ pub trait Hamiltonian {
         force: &mut Self::Vector<T>,
     );
 
-    /// [`velocity`](Self::velocity) and [`force`](Self::force) at one time and place, with the same bits: to be written out where they
-    /// have costly parts in common.
+    /// [`velocity`](Self::velocity) and [`force`](Self::force) at one time and place, with the same bits. Implement it if both share
+    /// costly terms.
     ///
     /// ```
     /// use symplectic::nalgebra::SVector;
@@ -142,21 +142,21 @@ pub trait Hamiltonian {
         self.force(time, q, p, force);
     }
 
-    /// H at `(time, q, p)`, where the system knows it. No method needs it.
+    /// H at `(time, q, p)`, if the system knows it. No method needs it.
     fn energy<T: Scalar>(&self, _time: T, _q: &Self::Vector<T>, _p: &Self::Vector<T>) -> Option<T> {
         None
     }
 
-    /// Writes f, the part of the force that has no potential, into `applied`, with [`FORCED`](Self::FORCED) `= true`:
+    /// Writes f, the part of the force without a potential, into `applied`, with [`FORCED`](Self::FORCED) `= true`:
     ///
     /// ```text
     /// p' = force(t, q, p) = −∂H/∂q + f(t, q, p)
     /// ```
     ///
-    /// [`force`](Self::force) contains f already, so steps need nothing else; [balances](crate::Integrator::step_with_stages) of energy and
-    /// momentum, and Newton's iteration, take it from here. A force that depends on momenta makes the class
-    /// [`General`](crate::General), where a method has its order for general Hamiltonians (Marsden & West, 2001, Example 3.2.5); one that
-    /// depends on time and positions only leaves a separable system separable.
+    /// [`force`](Self::force) already contains f, so steps need nothing else. [Balances](crate::Integrator::step_with_stages) of energy and
+    /// momentum, and Newton's iteration, use this function. A force that depends on momenta makes the class [`General`](crate::General),
+    /// where a method has its order for general Hamiltonians (Marsden & West, 2001, Example 3.2.5). A separable system with a force that
+    /// depends on time and positions only stays separable.
     ///
     /// ```
     /// use symplectic::nalgebra::SVector;
@@ -208,9 +208,9 @@ pub trait Hamiltonian {
         applied.as_mut_slice().fill(T::zero());
     }
 
-    /// Writes the second derivatives of H at `(time, q, p)` into `jacobian`, which is zero before, and returns `true`; `false` where the
-    /// system does not know them. [Newton](crate::solver::Newton)'s iteration takes differences then. Derivatives of an
-    /// [applied force](Self::applied_force) by positions are added to `force_by_position`, those by momenta have a matrix of their own.
+    /// Writes the second derivatives of H at `(time, q, p)` into `jacobian`, which is initially zero, and returns `true`. Returns `false`
+    /// if the system does not know them; the iteration of [Newton](crate::solver::Newton) then uses differences. Derivatives of an [applied
+    /// force](Self::applied_force) by positions are added to `force_by_position`; those by momenta have a matrix of their own.
     #[cfg(feature = "alloc")]
     fn second_derivatives<T: Scalar>(
         &self,
@@ -223,7 +223,7 @@ pub trait Hamiltonian {
     }
 
     /// The largest `|i − j|` of components that interact: `∂²H/∂x_i∂y_j = 0` beyond it, for positions or momenta x and y.
-    /// Each particle of a chain with one component interacts with the next: 1. `usize::MAX` where it is not known.
+    /// A chain with one component per particle has 1. `usize::MAX` if it is not known.
     fn half_bandwidth(&self) -> usize {
         usize::MAX
     }
@@ -272,10 +272,10 @@ pub trait Hamiltonian {
     }
 
     /// The flow of `p' = force + f(q, p)` at a fixed position, for any force f of positions and momenta whose flow is known, in a system of
-    /// class [`Damped`](crate::Damped): writes `p(duration) − p` into `change` and returns `true`. `false` leaves kicks to the rates of the
+    /// class [`Damped`](crate::Damped). Writes `p(duration) − p` into `change` and returns `true`. With `false` the kicks use the rates of
     /// [`friction`](Self::friction).
     ///
-    /// `duration` may be negative. [`force`](Self::force) leaves f out here. For output between the steps, write f into
+    /// `duration` may be negative. [`force`](Self::force) does not include f here. For output between the steps, write f into
     /// [`applied_force`](Self::applied_force), with [`FORCED`](Self::FORCED) `= true`.
     ///
     /// ```
@@ -391,12 +391,12 @@ pub trait Hamiltonian {
         0
     }
 
-    /// Writes `φ(q)`, a number for each [constraint](Self::constraints).
+    /// Writes `φ(q)`, one value for each [constraint](Self::constraints).
     fn constraint_values<T: Scalar>(&self, _q: &Self::Vector<T>, _values: &mut [T]) {}
 
-    /// Sets the entries of the [`Gradients`] `G = ∂φ/∂q`, always the same ones in the same order.
+    /// Sets the entries of the [`Gradients`] `G = ∂φ/∂q`, always the same entries in the same order.
     ///
-    /// They are compared with differences of `φ` when an integrator is made.
+    /// An integrator compares them with differences of `φ` when it is created.
     #[cfg(feature = "alloc")]
     fn constraint_gradients<T: Scalar>(&self, _q: &Self::Vector<T>, _gradients: &mut Gradients<T>) {
     }
@@ -462,7 +462,7 @@ pub trait Hamiltonian {
     }
 
     /// Sets the entries of the m×n matrix `w(q)`, the rows of the [non-holonomic constraints](Self::nonholonomic_constraints), always
-    /// the same ones in the same order.
+    /// the same entries in the same order.
     #[cfg(feature = "alloc")]
     fn nonholonomic_rows<T: Scalar>(&self, _q: &Self::Vector<T>, _rows: &mut Gradients<T>) {}
 }
@@ -470,7 +470,7 @@ pub trait Hamiltonian {
 /// A system with a separable Hamiltonian `H = T(t, p) + U(t, q)`: the velocity depends only on `p`, the force only on `q`.
 ///
 /// Many symplectic methods are explicit for such a system. For results, scalars and time see [`Hamiltonian`], which every
-/// separable system is; [`separable`](crate::separable) makes one of two closures.
+/// separable system implements; [`separable`](crate::separable) makes a system from two closures.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -502,8 +502,8 @@ pub trait Hamiltonian {
     note = "a Lagrangian that is not quadratic in the velocities is for `variational::LagrangianIntegrator`"
 )]
 pub trait SeparableHamiltonian {
-    /// Positions and momenta over a scalar: [`SVector<T, N>`](nalgebra::SVector), or `DVector<T>` where the dimension is known at
-    /// run time only.
+    /// Positions and momenta over a scalar: [`SVector<T, N>`](nalgebra::SVector), or `DVector<T>` if the dimension is known only at
+    /// run time.
     type Vector<T: Scalar>: Vector<
             Scalar = T,
             With<F64x2> = Self::Vector<F64x2>,
@@ -511,8 +511,8 @@ pub trait SeparableHamiltonian {
             With<F64x8> = Self::Vector<F64x8>,
         >;
 
-    /// Whether the velocity is the momentum to the last bit, `H = |p|²/2 + U(t, q)`. Steps then take the momentum for it, and long
-    /// vectors are not copied. Where it is said and not so, making an integrator fails with
+    /// Whether the velocity equals the momentum to the last bit, `H = |p|²/2 + U(t, q)`. Steps then use the momentum as the velocity,
+    /// without copies of long vectors. If it is `true` and the velocity differs from the momentum, creating an integrator returns
     /// [`Error::NotUnitMasses`](crate::Error::NotUnitMasses).
     ///
     /// ```
@@ -544,13 +544,13 @@ pub trait SeparableHamiltonian {
     /// Writes −∂H/∂q at `(time, q)` into `force`.
     fn force<T: Scalar>(&self, time: T, q: &Self::Vector<T>, force: &mut Self::Vector<T>);
 
-    /// H at `(time, q, p)`, where the system knows it. No method needs it.
+    /// H at `(time, q, p)`, if the system knows it. No method needs it.
     fn energy<T: Scalar>(&self, _time: T, _q: &Self::Vector<T>, _p: &Self::Vector<T>) -> Option<T> {
         None
     }
 
-    /// Writes the second derivatives of H at `(time, q, p)` into `jacobian`, which is zero before, and returns `true`; `false` where the
-    /// system does not know them. [Newton](crate::solver::Newton)'s iteration takes differences then.
+    /// Writes the second derivatives of H at `(time, q, p)` into `jacobian`, which is initially zero, and returns `true`. Returns `false`
+    /// if the system does not know them; the iteration of [Newton](crate::solver::Newton) then uses differences.
     ///
     /// ```
     /// use symplectic::nalgebra::SVector;
@@ -602,7 +602,7 @@ pub trait SeparableHamiltonian {
     }
 
     /// The largest `|i − j|` of components that interact: `∂²H/∂x_i∂y_j = 0` beyond it, for positions or momenta x and y.
-    /// Each particle of a chain with one component interacts with the next: 1. `usize::MAX` where it is not known.
+    /// A chain with one component per particle has 1. `usize::MAX` if it is not known.
     fn half_bandwidth(&self) -> usize {
         usize::MAX
     }

@@ -1,15 +1,15 @@
-//! Systems whose scalars are doubles side by side.
+//! Systems over SIMD lanes.
 
 use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector};
 use crate::system::{Components, System, SystemInLanes};
 
-/// What is done over vectors of lanes in place of vectors `V`.
+/// Work with vectors of lanes in place of vectors `V`.
 #[doc(hidden)]
 pub trait LaneWork<V: Vector, S: System<V>, L: Lanes> {
-    /// What comes of it.
+    /// The result of the work.
     type Output;
 
-    /// Does it with the system over the vectors `W`.
+    /// Runs the work with the system over the vectors `W`.
     fn run<W: Vector<Scalar = L>>(self) -> Self::Output
     where
         S: System<W, Class = <S as System<V>>::Class>;

@@ -5,12 +5,12 @@ use alloc::vec::Vec;
 
 use crate::number::Scalar;
 
-/// A square matrix, the entries `(i, j)` of which are zero where `|i − j|` is above a half bandwidth.
+/// A square matrix whose entries `(i, j)` are zero if `|i − j|` exceeds the half bandwidth.
 #[derive(Clone, Debug)]
 pub struct BandMatrix<T> {
     size: usize,
     half_bandwidth: usize,
-    /// By rows; every one has room for the whole band.
+    /// By rows; every row has room for the whole band.
     entries: Vec<T>,
 }
 
@@ -37,7 +37,7 @@ impl<T: Scalar> BandMatrix<T> {
         }
     }
 
-    /// The entries, with those of the band beyond the matrix.
+    /// The entries, including those of the band outside the matrix.
     pub(crate) fn entries_mut(&mut self) -> &mut [T] {
         &mut self.entries
     }
@@ -47,12 +47,12 @@ impl<T: Scalar> BandMatrix<T> {
         self.size
     }
 
-    /// The largest `|i − j|` of an entry that is stored.
+    /// The largest `|i − j|` of a stored entry.
     pub const fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
 
-    /// The place of an entry; none outside the band.
+    /// The index of an entry; `None` outside the band.
     #[inline(always)]
     fn place(&self, i: usize, j: usize) -> Option<usize> {
         let inside = i < self.size && j < self.size && i.abs_diff(j) <= self.half_bandwidth;
@@ -66,7 +66,7 @@ impl<T: Scalar> BandMatrix<T> {
             .map_or_else(T::zero, |place| self.entries[place])
     }
 
-    /// Sets an entry; outside the band it stays zero.
+    /// Sets an entry; entries outside the band stay zero.
     #[inline]
     pub fn set(&mut self, i: usize, j: usize, value: T) {
         if let Some(place) = self.place(i, j) {
@@ -74,7 +74,7 @@ impl<T: Scalar> BandMatrix<T> {
         }
     }
 
-    /// Adds to an entry; outside the band it stays zero.
+    /// Adds to an entry; entries outside the band stay zero.
     #[inline]
     pub fn add(&mut self, i: usize, j: usize, value: T) {
         if let Some(place) = self.place(i, j) {
@@ -112,7 +112,7 @@ impl<T: Scalar> BandMatrix<T> {
 
 /// The derivatives of the velocity and the force of a system, at one time, position and momentum.
 ///
-/// For a Hamiltonian ∂force/∂p is −(∂velocity/∂q)ᵀ, for both are second derivatives of H. Only what an applied force adds to that is
+/// For a Hamiltonian ∂force/∂p is −(∂velocity/∂q)ᵀ, because both are second derivatives of H. Only the contribution of an applied force is
 /// stored.
 #[derive(Clone, Debug)]
 pub struct Jacobian<T> {

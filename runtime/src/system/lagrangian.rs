@@ -1,4 +1,4 @@
-//! Systems that are given by their Lagrangian.
+//! Systems given by their Lagrangian.
 
 use crate::number::{Scalar, Vector};
 
@@ -23,17 +23,17 @@ use crate::number::{Scalar, Vector};
 /// }
 /// ```
 pub trait Lagrangian {
-    /// The vectors that positions, velocities and momenta are.
+    /// The vectors of positions, velocities and momenta.
     type Vector<T: Scalar>: Vector<Scalar = T>;
 
     /// Whether there is an applied [`force`](Self::force).
     const FORCED: bool = false;
 
-    /// `L(t, q, v)`; an energy.
+    /// `L(t, q, v)`, in units of energy.
     fn lagrangian<T: Scalar>(&self, time: T, q: &Self::Vector<T>, v: &Self::Vector<T>) -> T;
 
-    /// Writes `∂L/∂v` and `∂L/∂q`, and returns true; or returns false, and they are found by hyper-dual numbers.
-    /// [`lagrangian!`](macro@crate::lagrangian) writes it: one evaluation, where those take one for each component.
+    /// Writes `∂L/∂v` and `∂L/∂q` and returns `true`; with `false` hyper-dual numbers compute them.
+    /// [`lagrangian!`](macro@crate::lagrangian) implements it: one evaluation, where hyper-dual numbers need one for each component.
     fn gradient<T: Scalar>(
         &self,
         _time: T,
@@ -45,7 +45,7 @@ pub trait Lagrangian {
         false
     }
 
-    /// Writes the applied force `f(t, q, v)`, which is not in L, into `force`; it is zero before. It counts with `FORCED = true`.
+    /// Writes the applied force `f(t, q, v)`, which is not in L, into `force`, which is initially zero. Used only if `FORCED` is `true`.
     fn force<T: Scalar>(
         &self,
         _time: T,

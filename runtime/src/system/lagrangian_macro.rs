@@ -64,8 +64,8 @@
 ///
 /// # Other Lagrangians
 ///
-/// If L is not quadratic in the velocities, H has no formula. The documentation of the type says so, and steps are those of the same methods
-/// in Lagrangian form, whose unknowns are velocities. Applied forces may be there; constraints, friction, invariants and `require` need H.
+/// If L is not quadratic in the velocities, H has no formula. The documentation of the type says so, and the same methods take their steps
+/// in Lagrangian form, with velocities as unknowns. Applied forces are allowed; constraints, friction, invariants and `require` need H.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;

@@ -1,4 +1,4 @@
-//! Whether the kinetic energy is quadratic, as far as evaluations of the velocity can tell.
+//! Tests by evaluations of the velocity whether the kinetic energy is quadratic.
 
 use crate::number::{Scalar, Vector};
 use crate::system::System;
@@ -7,14 +7,14 @@ use crate::system::System;
 pub(crate) struct NonLinear {
     /// The component, from 0.
     pub component: usize,
-    /// Its size.
+    /// Size of the velocity component.
     pub velocity: f64,
-    /// The size that it would have if the velocity were linear.
+    /// Its size if the velocity were linear.
     pub linear: f64,
 }
 
-/// The first component in which the velocity is not linear in the momentum, or depends on time: tried at `p`, at another momentum of
-/// size 1 and more, at combinations of both, and at another time.
+/// The first component in which the velocity is not linear in the momentum, or depends on time. The test evaluates it at `p`, at another
+/// momentum of size at least 1, at combinations of both, and at another time.
 pub(crate) fn non_linear_velocity<V, S>(system: &S, time: f64, q: &V, p: &V) -> Option<NonLinear>
 where
     V: Vector,
@@ -33,7 +33,7 @@ where
     let second = |k: usize| number(0.75 * (k + 1) as f64);
     let (v, w) = (velocity(time, &first), velocity(time, &second));
     if [&v, &w].iter().any(|v| v.dimension() != p.dimension()) {
-        // An error of the first step.
+        // The first step reports this error.
         return None;
     }
     let cases = [
@@ -62,7 +62,7 @@ where
             .enumerate()
             .find_map(|(component, ((&velocity, &v), &w))| {
                 let linear = *of_first * v + *of_second * w;
-                // NaN is not within the bound.
+                // NaN fails the comparison.
                 let near = (velocity - linear).magnitude() <= bound;
                 (!near).then(|| NonLinear {
                     component,
@@ -73,5 +73,5 @@ where
     })
 }
 
-/// How far a velocity may be from a linear one, in units of rounding of the largest component: far more than its rounding errors.
+/// Allowed deviation from a linear velocity, in units of round-off of the largest component: far above the rounding errors.
 const UNITS: f64 = 4096.0;

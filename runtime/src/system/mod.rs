@@ -1,4 +1,4 @@
-//! What is integrated: Hamiltonians, separable or not, and chains of particles.
+//! Systems: Hamiltonians, separable or not, and chains of particles.
 
 pub(crate) mod chain;
 pub(crate) mod class;

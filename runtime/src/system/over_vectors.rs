@@ -1,4 +1,4 @@
-//! A system over one type of vectors: what a step evaluates.
+//! A system over one type of vectors, as a step evaluates it.
 
 use num_traits::Zero;
 
@@ -10,11 +10,11 @@ use crate::system::{Class, Components, Hamiltonian, LaneWork, Layout, StageRows}
 #[cfg(feature = "alloc")]
 use crate::system::{Gradients, Jacobian};
 
-/// A Hamiltonian system over one type of vectors: what an [`Integrator`](crate::Integrator) steps.
+/// A Hamiltonian system over one type of vectors, as an [`Integrator`](crate::Integrator) steps it.
 ///
-/// Every [`Hamiltonian`] and [`SeparableHamiltonian`](crate::SeparableHamiltonian) is one, over its vectors of any scalar; so are
-/// closures. Implement it by hand only for a system that one type of numbers can evaluate, one that calls a library for doubles
-/// say: its coupled stages are found one by one.
+/// Every [`Hamiltonian`] and [`SeparableHamiltonian`](crate::SeparableHamiltonian) implements it over its vectors of any scalar, and so do
+/// closures. Implement it by hand only for a system that a single scalar type can evaluate, for example one that calls a library for
+/// doubles. Its coupled stages are then computed one by one.
 ///
 /// ```
 /// use symplectic::nalgebra::DVector;
@@ -40,16 +40,16 @@ use crate::system::{Gradients, Jacobian};
 ///
 /// # Separable systems
 ///
-/// With `type Class = Separable` the velocity must not look at `q`, nor the force at `p`: what is there is any vector at hand.
+/// With `type Class = Separable` the velocity must not read `q`, and the force must not read `p`: these arguments are arbitrary vectors.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a Hamiltonian system over the vectors `{V}`",
     label = "implement `SeparableHamiltonian`, or `Hamiltonian` with `type Class = General`"
 )]
 pub trait System<V: Vector>: Sized {
-    /// What the derivatives depend on: [`General`](crate::General) or [`Separable`](crate::Separable).
+    /// The variables that the derivatives depend on: [`General`](crate::General) or [`Separable`](crate::Separable).
     type Class: Class;
 
-    /// What finds coupled stages unless another solver is [named](crate::Integrator::with_solver):
+    /// The solver of coupled stages unless another solver is [named](crate::Integrator::with_solver):
     /// [`FixedPoint`](crate::solver::FixedPoint), or [`Automatic`] for a system that is known over every scalar.
     type Solver: Solver<V, Self>;
 
@@ -62,27 +62,27 @@ pub trait System<V: Vector>: Sized {
     /// Whether the force has a part without a potential: see [`Hamiltonian::applied_force`].
     const FORCED: bool = false;
 
-    /// Writes −∂H/∂q at `(time, q, p)`, and what is [applied](Self::applied_force), into `force`.
+    /// Writes −∂H/∂q at `(time, q, p)`, plus the [applied force](Self::applied_force), into `force`.
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V);
 
-    /// Both at once, with the same bits: see [`Hamiltonian::slopes`].
+    /// Velocity and force at once, with the same bits: see [`Hamiltonian::slopes`].
     #[inline(always)]
     fn slopes(&self, time: V::Scalar, q: &V, p: &V, (velocity, force): (&mut V, &mut V)) {
         self.velocity(time, q, p, velocity);
         self.force(time, q, p, force);
     }
 
-    /// H at `(time, q, p)`, where the system knows it. No method needs it.
+    /// H at `(time, q, p)`, if the system knows it. No method needs it.
     fn energy(&self, _time: V::Scalar, _q: &V, _p: &V) -> Option<V::Scalar> {
         None
     }
 
-    /// Writes the part of the force that has no potential: see [`Hamiltonian::applied_force`].
+    /// Writes the part of the force without a potential: see [`Hamiltonian::applied_force`].
     fn applied_force(&self, _time: V::Scalar, _q: &V, _p: &V, applied: &mut V) {
         applied.as_mut_slice().fill(V::Scalar::zero());
     }
 
-    /// Writes the second derivatives of H into `jacobian`, where the system knows them: see
+    /// Writes the second derivatives of H into `jacobian`, if the system knows them: see
     /// [`Hamiltonian::second_derivatives`].
     #[cfg(feature = "alloc")]
     fn second_derivatives(
@@ -118,7 +118,7 @@ pub trait System<V: Vector>: Sized {
     /// Writes the constraints: see [`Hamiltonian::constraint_values`].
     fn constraint_values(&self, _q: &V, _values: &mut [V::Scalar]) {}
 
-    /// Sets their gradients: see [`Hamiltonian::constraint_gradients`].
+    /// Sets the gradients of the constraints: see [`Hamiltonian::constraint_gradients`].
     #[cfg(feature = "alloc")]
     fn constraint_gradients(&self, _q: &V, _gradients: &mut Gradients<V::Scalar>) {}
 
@@ -136,20 +136,20 @@ pub trait System<V: Vector>: Sized {
     #[cfg(feature = "alloc")]
     fn nonholonomic_rows(&self, _q: &V, _rows: &mut Gradients<V::Scalar>) {}
 
-    /// The error of a step from the position `q`, with what the system knows of it.
+    /// The error of a step from the position `q`, supplemented with what the system knows about it.
     #[doc(hidden)]
     fn explain(&self, error: Error, _q: &V) -> Error {
         error
     }
 
-    /// Does `work` over vectors of these lanes, where the system is known over them.
+    /// Runs `work` over vectors of these lanes, if the system is known over them.
     #[doc(hidden)]
     #[inline(always)]
     fn over_lanes<L: Lanes, W: LaneWork<V, Self, L>>(_work: W) -> Option<W::Output> {
         None
     }
 
-    // What follows is how a `Chain` is made fast, for no other system.
+    // The following items make a `Chain` fast; no other system implements them.
 
     /// Whether there is a [`local_force`](Self::local_force).
     #[doc(hidden)]
@@ -169,13 +169,13 @@ pub trait System<V: Vector>: Sized {
     #[inline(always)]
     fn row_forces(&self, _rows: &mut impl StageRows) {}
 
-    /// Kicks of the momenta by one force, one after the other, and a drift of the positions, in one pass over the components:
+    /// Several kicks of the momenta by one force and a drift of the positions, in one pass over the components:
     ///
     /// ```text
     /// p = kick_k.fused(force(time, q), p)   for each kick      q = drift.fused(p, q)
     /// ```
     ///
-    /// `false`, with nothing changed, where it cannot.
+    /// Returns `false`, and changes nothing, if the system cannot do so.
     #[doc(hidden)]
     #[inline(always)]
     fn kick_and_drift(
@@ -189,7 +189,7 @@ pub trait System<V: Vector>: Sized {
         false
     }
 
-    /// The layout in which [`kick_and_drift`](Self::kick_and_drift) goes fastest for positions and momenta at these places in memory.
+    /// The layout in which [`kick_and_drift`](Self::kick_and_drift) is fastest for positions and momenta at these places in memory.
     #[doc(hidden)]
     #[inline(always)]
     fn layout(&self, _q: &[V::Scalar], _p: &[V::Scalar]) -> Layout {
@@ -288,7 +288,7 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     }
 }
 
-/// A system over vectors of doubles, and over vectors of doubles side by side.
+/// A system over vectors of doubles and over vectors of SIMD lanes.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a Hamiltonian system over the vectors `{V}` with lanes in place of doubles",
     label = "this needs a system that is written for every `Scalar`: `SeparableHamiltonian` or `Hamiltonian`"
@@ -305,7 +305,7 @@ impl<V: Vector, S> SystemInLanes<V> for S where
 
 /// A system over `V` that is known over every scalar.
 pub trait OverEveryScalar<V: Vector>: System<V> + SystemInLanes<Self::Doubles> {
-    /// The same vectors over doubles: `V` itself, where its scalar is one.
+    /// The same vectors over doubles: `V` itself if its scalar is f64.
     type Doubles: Vector<Scalar = f64>;
 }
 

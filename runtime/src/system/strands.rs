@@ -1,18 +1,18 @@
-//! How the components of positions and momenta lie in memory.
+//! The order in memory of the components of positions and momenta.
 
 use core::ops::Range;
 
 use crate::number::Vector;
 
-/// How the components of positions and momenta lie in memory: in their order, or with a part of them in strands side by side,
+/// The order in memory of the components of positions and momenta: the natural order, or a part of them in strands side by side,
 ///
 /// ```text
 /// 0 1 2 3 4 5 6 7 8 9     in two strands of four from the second one on:     0 1 5 2 6 3 7 4 8 9
 /// ```
 ///
-/// A system whose components feel their neighbours, as a [`Chain`](crate::emitted::Chain) is one, has the neighbours of a whole row of
-/// strands in the rows before and after it: nothing is moved from one lane of the processor to another. Rows may begin at another
-/// place in the momenta than in the positions, for each to lie well; the components that are in no strand keep their order.
+/// In a system with forces between neighbours, such as a [`Chain`](crate::emitted::Chain), the neighbours of a whole row of
+/// strands are the rows before and after it: nothing moves from one lane of the processor to another. Rows may begin at different
+/// places in the momenta and in the positions, so that both are aligned. Components outside the strands keep their order.
 ///
 /// ```
 /// use symplectic::system::Layout;
@@ -34,16 +34,16 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// All in their order.
+    /// The natural order.
     pub const NATURAL: Self = Self {
         strands: 0,
         length: 0,
         begin: [0, 0],
     };
 
-    /// So many strands of so many components each, side by side, where `begin` is where their rows begin in the positions and in the
-    /// momenta. They are the components from where they begin in the positions on. Of less than two strands, or of strands of less
-    /// than two components, it is [`NATURAL`](Self::NATURAL).
+    /// `strands` strands of `length` components each, side by side; `begin` is where their rows begin in the positions and in the
+    /// momenta. The strands hold the components from the first entry of `begin` on. With less than two strands, or less than
+    /// two components per strand, it is [`NATURAL`](Self::NATURAL).
     pub const fn strands(strands: usize, length: usize, begin: [usize; 2]) -> Self {
         if strands < 2 || length < 2 {
             return Self::NATURAL;
@@ -55,19 +55,19 @@ impl Layout {
         }
     }
 
-    /// Whether all are in their order.
+    /// Whether all components are in natural order.
     pub const fn is_natural(&self) -> bool {
         self.strands == 0
     }
 
-    /// Puts positions and momenta, which are in their order, into this layout, with a `place` for as many components. `false` where
-    /// one of the three is too short for it; then all stay as they are.
+    /// Reorders positions and momenta from the natural order to this layout. `place` is scratch memory of the same length. Returns `false`
+    /// if one of the three is too short; then nothing changes.
     #[must_use = "where there is no place for the layout the state is as before"]
     pub fn put<T: Copy>(&self, state: (&mut [T], &mut [T]), place: &mut [T]) -> bool {
         self.change(state, place, Lying::put)
     }
 
-    /// Puts positions and momenta, which are in this layout, back into their order; as [`put`](Self::put) with a `place`.
+    /// Reorders positions and momenta from this layout to the natural order, with a `place` as for [`put`](Self::put).
     #[must_use = "where there is no place for the layout the state is as before"]
     pub fn put_back<T: Copy>(&self, state: (&mut [T], &mut [T]), place: &mut [T]) -> bool {
         self.change(state, place, Lying::put_back)
@@ -87,20 +87,20 @@ impl Layout {
         self.put_back((q.as_mut_slice(), p.as_mut_slice()), place.as_mut_slice())
     }
 
-    /// Whether it has a place in so many components.
+    /// Whether the layout fits `dimension` components.
     fn fits(&self, dimension: usize) -> bool {
         let end = (self.strands.checked_mul(self.length))
             .and_then(|count| self.begin[0].max(self.begin[1]).checked_add(count));
         end.is_some_and(|end| end <= dimension)
     }
 
-    /// From where to where the rows of strands are in the positions.
+    /// Begin and end of the rows of strands in the positions.
     pub(crate) const fn rows(&self) -> (usize, usize) {
         let [begin, _] = self.begin;
         (begin, begin + self.strands * self.length)
     }
 
-    /// The parts of a state of so many components, the strands the [third](ROWS).
+    /// The parts of a state of `dimension` components; the strands are the [third part](ROWS).
     pub(crate) fn parts(&self, dimension: usize) -> [Part; 5] {
         parts(self.rows(), self.begin[1], dimension)
     }
@@ -137,34 +137,34 @@ impl Layout {
     }
 }
 
-/// Components that lie together in the positions and in the momenta.
+/// Components that are contiguous in the positions and in the momenta.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Part {
-    /// Where they begin in the positions.
+    /// Their begin in the positions.
     pub(crate) q: usize,
-    /// Where they begin in the momenta.
+    /// Their begin in the momenta.
     pub(crate) p: usize,
     pub(crate) length: usize,
 }
 
 impl Part {
-    /// Its place in the positions.
+    /// Their range in the positions.
     #[inline(always)]
     pub(crate) const fn in_q(&self) -> Range<usize> {
         self.q..self.q + self.length
     }
 
-    /// Its place in the momenta.
+    /// Their range in the momenta.
     #[inline(always)]
     pub(crate) const fn in_p(&self) -> Range<usize> {
         self.p..self.p + self.length
     }
 }
 
-/// Which of the [`parts`] has the rows.
+/// Index of the part with the rows among the [`parts`].
 const ROWS: usize = 2;
 
-/// The parts of vectors of so many components with rows from `begin` to `end` in the positions, and from `in_p` on in the momenta.
+/// The parts of vectors of `dimension` components, with rows from `begin` to `end` in the positions, and from `in_p` on in the momenta.
 #[inline(always)]
 pub(crate) fn parts((begin, end): (usize, usize), in_p: usize, dimension: usize) -> [Part; 5] {
     let part = |q: usize, p: usize, end: usize| Part {
@@ -173,7 +173,7 @@ pub(crate) fn parts((begin, end): (usize, usize), in_p: usize, dimension: usize)
         length: end.saturating_sub(q),
     };
     let (same, count) = (begin.min(in_p), end - begin);
-    // Where rows begin later in the momenta, as many of the components after them lie before them.
+    // If rows begin later in the momenta, the same number of later components precede them.
     let moved = end + in_p.saturating_sub(begin);
     [
         part(0, 0, same),
@@ -184,16 +184,16 @@ pub(crate) fn parts((begin, end): (usize, usize), in_p: usize, dimension: usize)
     ]
 }
 
-/// How one vector lies.
+/// The order of one vector in memory.
 struct Lying {
-    /// Where its components are in their order, and where in memory.
+    /// The ranges of the components in natural order and in memory.
     parts: [Part; 5],
     strands: usize,
     length: usize,
 }
 
 impl Lying {
-    /// From `place`, in their order.
+    /// Reorders from `place`, in natural order.
     fn put<T: Copy>(&self, vector: &mut [T], place: &[T]) {
         for (number, part) in self.parts.iter().enumerate() {
             let (vector, place) = (&mut vector[part.in_p()], &place[part.in_q()]);
@@ -209,7 +209,7 @@ impl Lying {
         }
     }
 
-    /// From `place`, where they are as in memory.
+    /// Reorders from `place`, in the order of this layout.
     fn put_back<T: Copy>(&self, vector: &mut [T], place: &[T]) {
         for (number, part) in self.parts.iter().enumerate() {
             let (vector, place) = (&mut vector[part.in_q()], &place[part.in_p()]);

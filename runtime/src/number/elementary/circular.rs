@@ -1,14 +1,14 @@
 //! Sine and cosine.
 //!
-//! `x = n π/2 + y` with an integer n and `|y| ≤ π/4`, where π/2 is the sum of three doubles of 33 bits, whose products with n are exact,
-//! and a fourth; then polynomials for sine and cosine of `y`, which is a sum of two doubles.
+//! `x = n π/2 + y` with an integer n and `|y| ≤ π/4`. Here π/2 is the sum of three doubles of 33 bits, whose products with n are exact,
+//! and a fourth double. Polynomials then give sine and cosine of `y`, which is a sum of two doubles.
 //!
 //! *Source:* the method and the polynomials are those of fdlibm (`e_rem_pio2.c`, `k_sin.c`, `k_cos.c` as in FreeBSD):
 //!
 //! > Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved. Developed at SunPro, a Sun Microsystems, Inc. business.
 //! > Permission to use, copy, modify, and distribute this software is freely granted, provided that this notice is preserved.
 //!
-//! What is different: all three parts of π/2 are always taken, so that there is no branch on `y`.
+//! The difference: all three parts of π/2 are always subtracted, so that there is no branch on `y`.
 
 use super::{Doubles, TO_INTEGER, polynomial};
 use crate::number::Scalar;
@@ -17,7 +17,7 @@ use crate::number::array::array;
 /// 2/π.
 const QUARTERS: f64 = core::f64::consts::FRAC_2_PI;
 
-/// π/2, 33 bits of it, the next 33, the next 33, and the double nearest to the rest.
+/// π/2: its first 33 bits, the next 33, the next 33, and the double nearest to the rest.
 const QUARTER: [f64; 4] = [
     f64::from_bits(0x3FF9_21FB_5440_0000),
     f64::from_bits(0x3DD0_B461_1A60_0000),
@@ -45,7 +45,7 @@ const COSINE: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// Up to here products of n with parts of π/2 are exact.
+/// Products of n with the parts of π/2 are exact below this bound.
 const NEAR: f64 = 8e5;
 
 /// Sine and cosine.
@@ -58,8 +58,8 @@ pub(crate) fn sin_cos<D: Doubles>(x: D) -> (D, D) {
     (angle.sine(), angle.cosine())
 }
 
-/// [`sin_cos`] of each, all at once where they are near: else each is looked at by itself, and what is made of one waits in memory for the
-/// next.
+/// [`sin_cos`] of each angle, all at once if all are below [`NEAR`]. Otherwise each angle has its own branch, and the results of one angle
+/// wait in memory for the next.
 #[inline(always)]
 pub(crate) fn sin_cos_all<D: Doubles, const N: usize>(angles: [D; N]) -> [(D, D); N] {
     let mut sum = D::zero();
@@ -113,9 +113,9 @@ fn any_cosine(x: f64) -> f64 {
 /// An angle `n π/2 + y`.
 #[derive(Clone, Copy)]
 struct Angle<D> {
-    /// n, with [`TO_INTEGER`] more: in its last bits.
+    /// n + [`TO_INTEGER`], which holds n in its last bits.
     quarters: D,
-    /// y: a number, and what is to be taken from it, smaller by as much as a rounding error.
+    /// y = a − b as the pair (a, b), where b is as small as a rounding error of a.
     rest: (D, D),
 }
 
@@ -131,7 +131,7 @@ impl<D: Doubles> Angle<D> {
         let a = less(x, first);
         let b = less(a, second);
         let c = less(b, third);
-        // In an order in which few sums wait for one another.
+        // The order of the sums keeps the chain of dependent additions short.
         let of_second = more(more(b - a, second), last);
         Self {
             quarters,

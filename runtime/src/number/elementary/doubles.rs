@@ -1,4 +1,4 @@
-//! Doubles as elementary functions see them: numbers that are bits too.
+//! Doubles for elementary functions: numbers and their bits.
 
 use core::hint;
 use core::ops::{BitAnd, BitOr, BitXor, Shl, Shr};
@@ -10,9 +10,9 @@ use crate::number::{F64x2, F64x4, F64x8, Lanes, Scalar};
 /// The sign of a double.
 const SIGN: u64 = 1 << 63;
 
-/// One double, or some side by side.
+/// One double, or several side by side.
 pub(crate) trait Doubles: Scalar {
-    /// The bits of each.
+    /// The bits of each double.
     type Bits: Copy
         + BitAnd<Output = Self::Bits>
         + BitOr<Output = Self::Bits>
@@ -26,29 +26,29 @@ pub(crate) trait Doubles: Scalar {
     /// The doubles with these bits.
     fn from_bits(bits: Self::Bits) -> Self;
 
-    /// The same bits for each.
+    /// The same bits for each double.
     fn bits(bits: u64) -> Self::Bits;
 
     /// The sum of integers modulo 2⁶⁴.
     fn sum(a: Self::Bits, b: Self::Bits) -> Self::Bits;
 
-    /// Whether all are below `bound`; NaN is not.
+    /// Whether all doubles are below `bound`; false for NaN.
     fn all_below(self, bound: f64) -> bool;
 
-    /// `odd` where the last bit is one, `even` elsewhere. What is not chosen may not be made at all.
+    /// `odd` where the last bit is one, `even` elsewhere. A branch that is not chosen may not be computed.
     fn choose(bits: Self::Bits, odd: impl FnOnce() -> Self, even: impl FnOnce() -> Self) -> Self;
 
-    /// `function` of one after the other, in a function of its own.
+    /// Applies `function` to one double after the other, in a function that is not inlined.
     #[inline(always)]
     fn one_by_one(self, function: impl Fn(f64) -> f64) -> Self {
-        // Of a copy: of what the compiler knows the place it would be given the place, and all that is there kept in memory.
+        // `black_box` makes a copy. Without it the compiler may pass a pointer to the original and keep everything next to it in memory.
         hint::black_box(self).apart(function)
     }
 
     /// [`one_by_one`](Self::one_by_one).
     fn apart(self, function: impl Fn(f64) -> f64) -> Self;
 
-    /// The same with the other sign where that bit of `other` is one.
+    /// The double, with its sign changed where that bit of `other` is one.
     #[inline(always)]
     fn with_sign_of_bit(self, bit: u32, other: Self) -> Self {
         let sign = (other.to_bits() << (63 - bit)) & Self::bits(SIGN);

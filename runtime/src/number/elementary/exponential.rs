@@ -1,8 +1,8 @@
 //! The exponential function.
 //!
-//! `x = k ln 2 + r` with an integer k and `|r| ≤ ln 2/2`, then a rational function for `eʳ`, and k is added to its exponent.
+//! `x = k ln 2 + r` with an integer k and `|r| ≤ ln 2/2`; a rational function gives `eʳ`, and k is added to its exponent.
 //!
-//! *Source:* fdlibm (`e_exp.c` as in FreeBSD), but for branches:
+//! *Source:* fdlibm (`e_exp.c` as in FreeBSD), except for the branches:
 //!
 //! > Copyright (C) 2004 by Sun Microsystems, Inc. All rights reserved. Permission to use, copy, modify, and distribute this software is
 //! > freely granted, provided that this notice is preserved.
@@ -10,13 +10,13 @@
 use super::{Doubles, TO_INTEGER, polynomial};
 use crate::number::Scalar;
 
-/// ln 2, 32 bits of it and the double nearest to the rest.
+/// ln 2: its first 32 bits and the double nearest to the rest.
 pub(super) const LN_2: [f64; 2] = [
     f64::from_bits(0x3FE6_2E42_FEE0_0000),
     f64::from_bits(0x3DEA_39EF_3579_3C76),
 ];
 
-/// `(r (eʳ + 1)/(eʳ − 1) − 2)/r²` in powers of r², with an error of 2⁻⁵⁹ of all of it.
+/// `(r (eʳ + 1)/(eʳ − 1) − 2)/r²` in powers of r², with an error of 2⁻⁵⁹ of the exponential.
 const RATIO: [f64; 5] = [
     1.666_666_666_666_660_2e-1,
     -2.777_777_777_701_559_3e-3,
@@ -25,7 +25,7 @@ const RATIO: [f64; 5] = [
     4.138_136_797_057_238_5e-8,
 ];
 
-/// Where eˣ and e⁻ˣ are normal numbers.
+/// eˣ and e⁻ˣ are normal numbers for |x| below this bound.
 const NEAR: f64 = 708.0;
 
 /// eˣ.

@@ -2,7 +2,7 @@
 //!
 //! `x = 2ᵏ (1 + f)` with `√2/2 < 1 + f < √2`, `s = f/(2 + f)`, and a polynomial for `ln(1 + f) = ln(1 + s) − ln(1 − s)`.
 //!
-//! *Source:* fdlibm (`e_log.c` as in FreeBSD), but for branches:
+//! *Source:* fdlibm (`e_log.c` as in FreeBSD), except for the branches:
 //!
 //! > Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved. Developed at SunSoft, a Sun Microsystems, Inc. business. Permission
 //! > to use, copy, modify, and distribute this software is freely granted, provided that this notice is preserved.
@@ -10,7 +10,7 @@
 use super::exponential::LN_2;
 use super::{Doubles, polynomial};
 
-/// `(ln(1 + s) − ln(1 − s) − 2s)/s³` in powers of s², with an error of 2⁻⁵⁸ of all of it.
+/// `(ln(1 + s) − ln(1 − s) − 2s)/s³` in powers of s², with an error of 2⁻⁵⁸ of the logarithm.
 const RATIO: [f64; 7] = [
     6.666_666_666_666_735e-1,
     3.999_999_999_940_942e-1,
@@ -21,13 +21,13 @@ const RATIO: [f64; 7] = [
     1.479_819_860_511_658_6e-1,
 ];
 
-/// The bits of √2/2, 32 of them.
+/// The first 32 bits of √2/2.
 const LEAST: u64 = 0x3FE6_A09E_0000_0000;
 
 /// The bits of 1.
 const ONE: u64 = 0x3FF0_0000_0000_0000;
 
-/// The bits of 2⁵²: with an integer in its last bits it is 2⁵² more than the integer.
+/// The bits of 2⁵²: a double with these bits and an integer in its last bits has the value 2⁵² plus the integer.
 const TWO_TO_52: u64 = 0x4330_0000_0000_0000;
 
 /// ln x.
@@ -39,7 +39,7 @@ pub(crate) fn ln<D: Doubles>(x: D) -> D {
     near(x)
 }
 
-/// Whether all are above the smallest and below the largest normal number.
+/// Whether all numbers are positive, normal and below the largest double.
 #[inline(always)]
 fn is_near<D: Doubles>(x: D) -> bool {
     x.all_below(f64::MAX) && (-x).all_below(-f64::MIN_POSITIVE)

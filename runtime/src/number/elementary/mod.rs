@@ -1,9 +1,9 @@
 //! Elementary functions of doubles, one by one or side by side in lanes, with the same bits.
 //!
-//! Those of the standard library are functions of one double, and not the same on every platform. What systems need most is made
-//! of sums, products and operations on bits here, which lanes have too: sine, cosine, exponential function, logarithm. The error
-//! of each is below one unit in the last place; `tests/tests/elementary.rs` looks at it. What is left to [`libm`], one by one, are
-//! arguments for which this would not hold: huge and tiny ones, infinities, NaN.
+//! Those of the standard library take one double and differ between platforms. Here the functions that systems need most consist of sums,
+//! products and operations on bits, which lanes have too: sine, cosine, exponential function, logarithm. The error of each is below one
+//! unit in the last place; `tests/tests/elementary.rs` checks it. Arguments outside this guarantee go to [`libm`], one by one: huge and
+//! tiny numbers, infinities, NaN.
 
 mod circular;
 mod doubles;
@@ -17,10 +17,10 @@ pub(crate) use logarithm::ln;
 
 use crate::number::array::array;
 
-/// `2⁵² + 2⁵¹`: added to a double below 2⁵¹ it rounds it to an integer, which is in the last bits of the sum.
+/// `2⁵² + 2⁵¹`: adding it to a double below 2⁵¹ rounds the double to an integer, which is in the last bits of the sum.
 const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 
-/// `coefficients_0 + coefficients_1 x + …`, by pairs: few sums wait for one another.
+/// `coefficients_0 + coefficients_1 x + …`, summed by pairs, so that few sums wait for one another.
 #[inline(always)]
 fn polynomial<D: Doubles, const N: usize>(x: D, coefficients: [f64; N]) -> D {
     let mut terms: [D; N] = array(D::zero(), |k| D::from_f64(coefficients[k]));

@@ -5,7 +5,7 @@ use crate::number::Scalar;
 use crate::system::Jacobian;
 
 impl<B: Bonds> Chain<B> {
-    /// The second derivatives of H, where the bonds know theirs.
+    /// Adds the second derivatives of H; returns `None` if the bonds do not know theirs.
     pub(super) fn add_second_derivatives<T: Scalar>(
         &self,
         time: T,

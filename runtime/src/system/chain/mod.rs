@@ -1,4 +1,4 @@
-//! Chains of particles that feel their neighbours.
+//! Chains of particles with forces between neighbours.
 
 #[cfg(feature = "alloc")]
 mod derivatives;
@@ -19,37 +19,37 @@ use crate::system::{
     Components, Layout, MOST_ROW_STAGES, OverEveryScalar, Separable, StageRows, System,
 };
 
-/// What the particles of a [`Chain`] feel.
+/// The forces on the particles of a [`Chain`].
 ///
-/// Doubles are evaluated eight at a time, as one [`Scalar`]: as everywhere in code that is generic over scalars, nothing may be decided
-/// by a value, and whether there is an outer force neither.
+/// Doubles are evaluated eight at a time, as one [`Scalar`]. As in all code that is generic over scalars, no branch may depend on a value;
+/// whether there is an outer force may not depend on a value either.
 pub trait Bonds {
     /// The derivative `V′` of the energy of a bond, at `stretch = q_{i+1} − q_i`: it pulls the left particle to the right and
     /// the right one to the left.
     fn tension<T: Scalar>(&self, time: T, stretch: T) -> T;
 
-    /// The force `−W′` on a particle at `position` that is not from a bond; `None` where there is none.
+    /// The force `−W′` on a particle at `position` apart from the bonds; `None` if there is none.
     fn outer_force<T: Scalar>(&self, _time: T, _position: T) -> Option<T> {
         None
     }
 
-    /// The second derivative `V″` of the energy of a bond, where it is known: exact derivatives for
-    /// [Newton](crate::solver::Newton)'s iteration.
+    /// The second derivative `V″` of the energy of a bond, if it is known: exact derivatives for the iteration of
+    /// [Newton](crate::solver::Newton).
     fn stiffness<T: Scalar>(&self, _time: T, _stretch: T) -> Option<T> {
         None
     }
 
-    /// The second derivative `W″` of the energy of a particle, where it is known.
+    /// The second derivative `W″` of the energy of a particle, if it is known.
     fn outer_stiffness<T: Scalar>(&self, _time: T, _position: T) -> Option<T> {
         None
     }
 
-    /// The energy `V` of a bond, where it is known.
+    /// The energy `V` of a bond, if it is known.
     fn bond_energy<T: Scalar>(&self, _time: T, _stretch: T) -> Option<T> {
         None
     }
 
-    /// The energy `W` of a particle, where it is known.
+    /// The energy `W` of a particle, if it is known.
     fn outer_energy<T: Scalar>(&self, _time: T, _position: T) -> Option<T> {
         None
     }
@@ -81,30 +81,31 @@ impl<B: Bonds> Bonds for &B {
     }
 }
 
-/// What is beyond the first and the last particle of a [`Chain`].
+/// The neighbours of the first and the last particle of a [`Chain`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Ends {
-    /// A bond to a wall at the place zero.
+    /// Bonds to walls at position zero.
     Walls,
-    /// Nothing.
+    /// No neighbours.
     Free,
-    /// The other end.
+    /// The first and the last particle are neighbours.
     Ring,
 }
 
 /// Particles of mass one in a row, each bound to its two neighbours: Fermi–Pasta–Ulam–Tsingou, Toda, Klein–Gordon and
-/// sine-Gordon chains, wave equations on a grid. With as many particles as vectors have components,
+/// sine-Gordon chains, wave equations on a grid. The number n of particles is the dimension of the vectors:
 ///
 /// ```text
 /// H = Σ p_i²/2 + Σ W(t, q_i) + Σ V(t, q_{i+1} − q_i)
 /// ```
 ///
-/// where `q_i` is how far particle `i` is from its place at rest. The last sum goes over all bonds: with [walls](Self::between_walls) one more than particles, for `q_0 = q_{n+1} = 0`, with
-/// [free ends](Self::with_free_ends) one less, and in a [ring](Self::ring) as many, for `q_{n+1} = q_1`.
+/// where `q_i` is the displacement of particle `i` from its rest position. The last sum runs over all bonds: n + 1
+/// [between walls](Self::between_walls), for `q_0 = q_{n+1} = 0`; n − 1 with [free ends](Self::with_free_ends); and n in a
+/// [ring](Self::ring), for `q_{n+1} = q_1`.
 ///
-/// Of a system that is a chain an integrator knows who feels whom. In blocks of explicit steps with plain sums and 64
-/// components or more, force, kicks and drift are made in one pass through the chain, with eight particles of doubles side by side.
-/// For many passes the chain is laid in eight strands (a [`Layout`]), one in each lane, and put back after them. Steps one by one
+/// An integrator knows the neighbours of every particle of a chain. Blocks of explicit steps with plain sums and at least 64
+/// components compute force, kicks and drift in one pass through the chain, with eight particles of doubles side by side.
+/// For many passes the chain is stored as eight strands (a [`Layout`]), one in each lane, and put back after the passes. Single steps
 /// have the same bits.
 ///
 /// ```
@@ -140,7 +141,7 @@ pub struct Chain<B> {
 }
 
 impl<B: Bonds> Chain<B> {
-    /// The chain with its first and last particle bound to walls at the place zero.
+    /// The chain with its first and last particle bound to walls at position zero.
     pub const fn between_walls(bonds: B) -> Self {
         Self {
             bonds,
@@ -148,7 +149,7 @@ impl<B: Bonds> Chain<B> {
         }
     }
 
-    /// The chain with a first particle that only feels the second, and a last one that only feels the one before.
+    /// The chain without bonds beyond its first and its last particle.
     pub const fn with_free_ends(bonds: B) -> Self {
         Self {
             bonds,
@@ -169,7 +170,7 @@ impl<B: Bonds> Chain<B> {
         &self.bonds
     }
 
-    /// What is right of the last particle; `None` for no bond.
+    /// The position to the right of the last particle; `None` if there is no bond.
     #[inline(always)]
     fn beyond<T: Scalar>(&self, first: T) -> Option<T> {
         match self.ends {
@@ -179,7 +180,7 @@ impl<B: Bonds> Chain<B> {
         }
     }
 
-    /// The tension left of the first particle.
+    /// The tension to the left of the first particle.
     #[inline(always)]
     fn first_tension<T: Scalar>(&self, time: T, first: T, last: T) -> T {
         match self.ends {
@@ -198,7 +199,7 @@ impl<B: Bonds> Chain<B> {
         }
     }
 
-    /// How many particles have a bond to the right of them.
+    /// Number of particles with a bond to their right.
     fn bound(&self, particles: usize) -> usize {
         match self.ends {
             Ends::Free => particles.saturating_sub(1),
@@ -206,18 +207,18 @@ impl<B: Bonds> Chain<B> {
         }
     }
 
-    /// Makes a pass from the first particle to the last, in rows as far as they are filled.
+    /// Makes a pass from the first particle to the last, in full rows as far as possible.
     #[inline(always)]
     fn walk<T: Scalar, R: Row<T>>(&self, time: T, layout: Layout, pass: &mut impl Pass<T>) {
         let q = pass.positions();
         let n = q.len();
-        // At the ends all are in their order.
+        // The first and the last component are in place in every layout.
         let (Some(&first), Some(&last)) = (q.first(), q.last()) else {
             return;
         };
         let beyond = self.beyond(first);
         let mut tension = self.first_tension(time, first, last);
-        // With no bond to the right of it the last particle is apart.
+        // A last particle without a bond to its right is computed separately.
         let bound = self.bound(n);
         let [before, between, rows, after, last_ones] = if layout.is_natural() {
             let begin = R::misaligned(q).min(bound);
@@ -244,8 +245,8 @@ impl<B: Bonds> Chain<B> {
         });
     }
 
-    /// Kicks and a drift in one pass; `false` where there are more kicks than one has before a drift.
-    // Vectors are long: one copy of it for all passes of a step.
+    /// Kicks and a drift in one pass; returns `false` if there are more kicks than a pass supports.
+    // Not inlined, because vectors are long: one copy of the code serves all passes of a step.
     #[inline(never)]
     fn kicks_and_drift<T: Scalar, R: Row<T>>(
         &self,
@@ -275,7 +276,7 @@ impl<B: Bonds> Chain<B> {
         true
     }
 
-    /// The particles of a part, with the tension left of them; in the end it is that right of them.
+    /// A pass over the particles of a part. `tension` is the tension to the left of the part, and afterwards that to its right.
     #[inline(always)]
     fn part<T: Scalar, R: Row<T>>(
         &self,
@@ -297,7 +298,7 @@ impl<B: Bonds> Chain<B> {
         *tension = R::last(before);
     }
 
-    /// [`part`](Self::part) in strands, one in each lane: the right neighbours of a row are the next row, and those of the last row
+    /// [`part`](Self::part) for strands, one in each lane. The right neighbours of a row are the next row; those of the last row
     /// are the first particles of the next strands.
     #[inline(always)]
     fn strands<T: Scalar, R: Row<T>>(
@@ -329,13 +330,13 @@ impl<B: Bonds> Chain<B> {
     }
 }
 
-/// What a way through a chain is for.
+/// The operation of a pass through a chain.
 trait Pass<T: Scalar> {
-    /// The positions; of those behind, which the way has not come to, the old ones.
+    /// The positions; those of particles that the pass has not reached are still the old positions.
     fn positions(&self) -> &[T];
 
-    /// Does it to the particles of a part, which are whole rows, from left to right, with the force that a row has by its
-    /// positions and those of the next; the next of the last row is `after`.
+    /// Processes the particles of a part, which consists of full rows, from left to right. `force` gives the force on a row from its
+    /// positions and those of the next row; the row after the last one is `after`.
     fn rows<R: Row<T>>(
         &mut self,
         part: Part,
@@ -380,7 +381,7 @@ impl<T: Scalar> Pass<T> for Forces<'_, T> {
     }
 }
 
-/// Kicks, one after the other, and a drift.
+/// Several kicks in sequence and a drift.
 struct KicksAndDrift<'a, T, const K: usize> {
     q: &'a mut [T],
     p: &'a mut [T],
@@ -427,7 +428,7 @@ impl<T: Scalar, const K: usize> Pass<T> for KicksAndDrift<'_, T, K> {
     }
 }
 
-/// A row with nothing in its last lane.
+/// A row with zero in its last lane.
 #[inline(always)]
 fn without_last(row: F64x8) -> F64x8 {
     let lanes = row.to_array();
@@ -474,7 +475,7 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
             return;
         };
         let first = components.position(0);
-        // Only a ring looks at its other end.
+        // Only a ring needs the position at its other end.
         let at_last = match self.ends {
             Ends::Ring => components.position(last),
             Ends::Walls | Ends::Free => first,
@@ -502,7 +503,7 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
             return;
         };
         let first = rows.positions(0);
-        // Only a ring looks at its other end.
+        // Only a ring needs the positions at its other end.
         let at_last = match self.ends {
             Ends::Ring => rows.positions(last),
             Ends::Walls | Ends::Free => first,
@@ -510,7 +511,7 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
         let zeros = [F64x8::zero(); MOST_ROW_STAGES];
         let (mut here, mut before) = (first, zeros);
         for stage in 0..stages {
-            // That left of the first particle, in all lanes.
+            // The tension to the left of the first particle, in all lanes.
             let [first, last] = [
                 lane_of(first[stage], 0),
                 lane_of(at_last[stage], F64x8::WIDTH - 1),
@@ -535,7 +536,7 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
         let mut forces = zeros;
         for stage in 0..stages {
             let (time, here) = (rows.time(stage), here[stage]);
-            // With no bond to the right of it the last particle is where the next one would be.
+            // A last particle without a bond to its right is its own neighbour; its tension is set to zero below.
             let beyond = self.beyond(first[stage]);
             let next = Eight::right(here, beyond.unwrap_or(here));
             let mut tension = self.bonds.tension(time, next - here);
@@ -572,7 +573,7 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
         self.kicks_and_drift::<V::Scalar, Single>(time, (q, p), layout, kicks, drift)
     }
 
-    /// A strand in each lane.
+    /// One strand in each lane.
     #[inline]
     fn layout(&self, q: &[V::Scalar], p: &[V::Scalar]) -> Layout {
         let (Some(q), Some(p)) = (V::Scalar::doubles(q), V::Scalar::doubles(p)) else {
@@ -589,7 +590,7 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
         let (q, p) = (q.as_slice(), p.as_slice());
         let bond = |stretch| self.bonds.bond_energy(time, stretch);
         let (&first, &last) = (q.first()?, q.last()?);
-        // Those at the ends.
+        // The bonds at the ends.
         let mut energy = match self.ends {
             Ends::Walls => bond(first)? + bond(-last)?,
             Ends::Free => zero,
@@ -620,7 +621,7 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
             .is_some()
     }
 
-    /// The ends of a ring are neighbours too.
+    /// The ends of a ring are neighbours, too.
     fn half_bandwidth(&self) -> usize {
         match self.ends {
             Ends::Walls | Ends::Free => 1,

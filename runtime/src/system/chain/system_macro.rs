@@ -1,7 +1,7 @@
-//! A type of its own for a chain.
+//! Chains as types of their own.
 
-/// A system that is a chain, for a type that says what its bonds are. They are copied if that is cheap: what is known of a copy stays in
-/// registers.
+/// Implements a system that is a chain for a type that has bonds. Bonds that are cheap to copy are copied, because the compiler can keep
+/// the copy in registers.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! chain_system {
