@@ -238,7 +238,7 @@ impl System {
         !(seen && self.graph.is_zero(power))
     }
 
-    /// At a state: `{function, energy}` plus the time derivative, plus the applied forces' term if `energy` is H; and the size of the terms.
+    /// At a state: `{function, energy}` plus the time derivative, plus the applied forces' term if `energy` is H; and the terms' size.
     fn bracket(&mut self, function: Id, energy: Id, seed: u64) -> Option<(f64, f64)> {
         let mut derivatives = Vec::new();
         for (of, half) in [

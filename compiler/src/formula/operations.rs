@@ -1,7 +1,8 @@
 //! A formula as binary operations, in the order in which they are computed.
 //!
 //! Terms and factors are taken in the order of the graph. Factors that depend only on parameters come first and are computed in double
-//! precision; divisors come last, in one quotient. Integer powers are products, by repeated squaring; half-integer powers contain square roots.
+//! precision; divisors come last, in one quotient. Integer powers are products, by repeated squaring; half-integer powers contain
+//! square roots.
 
 use std::collections::{HashMap, HashSet};
 

@@ -14,7 +14,7 @@ impl Elaborator<'_> {
         self.families(&definition.constraints, &[], Self::zeros)
     }
 
-    /// Families of constraints, each with its indices; `parts` reads the vanishing functions. Their names must differ from those of `others`.
+    /// Families of constraints, each with its indices; `parts` reads the vanishing functions. Names must differ from those of `others`.
     pub(super) fn families(
         &mut self,
         all: &[syntax::Constraint],

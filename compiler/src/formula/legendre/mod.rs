@@ -1,7 +1,7 @@
 //! From a Lagrangian to the Hamiltonian: `L = v·M v/2 + A·v − U` gives `H = (p − A)·M⁻¹(p − A)/2 + U`, all functions of positions and time.
 //!
-//! M and A are derivatives of the graph of L, and H is again a graph, as if it had been written. M falls into blocks: the bodies of a sum over
-//! all bodies, and velocities that are not coupled. A block of up to three velocities is inverted by its adjugate, a larger block by
+//! M and A are derivatives of the graph of L, and H is again a graph, as if it had been written. M falls into blocks: the bodies of a sum
+//! over all bodies, and velocities that are not coupled. A block of up to three velocities is inverted by its adjugate, a larger block by
 //! elimination. M must be regular; otherwise positions and momenta obey a primary constraint. If L is not quadratic in the velocities,
 //! it is used directly ([`Legendre::None`]).
 
