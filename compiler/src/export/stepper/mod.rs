@@ -62,7 +62,8 @@ impl Stepper {
     ///
     /// # Errors
     /// [`ErrorKind::NoStepper`](crate::ErrorKind::NoStepper) for a method with coupled stages that is not symplectic or has a
-    /// weight of zero, for a method that does not consist of drifts and kicks though the class requires it, and for a method that is too long.
+    /// weight of zero, for a method that does not consist of drifts and kicks though the class requires it, and for a method that is too
+    /// long.
     pub fn write(self, tableau: &Tableau, class: Option<SteppedClass>) -> Result<String, Error> {
         let table = Table::new(tableau, DIGITS);
         let plan = Plan::new(&table, class, DIGITS)?;

@@ -60,7 +60,7 @@ impl Coupled {
                 "its stages are solved for, and one has the weight zero: a_ij / b_j does not exist",
             )
         })?;
-        // Both evaluations use the same stages and the same time, as if time were another position. So a step is symplectic also if H depends
+        // Both evaluations use the same stages and the same time, as if time were a position. So a step is symplectic also if H depends
         // on time.
         let nodes = |kind: fn(usize) -> Node| (0..graph.forces.len()).map(kind);
         let weights = |kind| -> Vec<Entry> {
